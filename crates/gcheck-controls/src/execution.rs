@@ -295,6 +295,8 @@ pub enum Effect {
     SaveModesUntilReturn,
     /// A program outside the control's own (`M100` to `M199`).
     UserCommand,
+    /// Puts the operator's answer into the variable of `P` (`M109`).
+    AskOperator,
 
     // Spindle, tool, coolant, inputs and outputs.
     SpindleClockwise,
@@ -326,8 +328,6 @@ pub enum Effect {
     OutputOn,
     OutputOff,
     WaitForInput,
-    /// The operator's answer comes into variable `P` (`M109`).
-    AskOperator,
     AnalogOutputWithMove,
     AnalogOutput,
     ChuckClamp,
@@ -368,6 +368,20 @@ pub struct Semantics {
     /// The letters of a macro call's arguments, by local variable: `{ A = 1, B = 2, … }`.
     #[serde(default)]
     pub argument_letters: BTreeMap<String, u8>,
+    /// Letters whose argument of a macro call counts as it is written where it has no decimal point: `"DEF"`. The others
+    /// then count least increments of length. Without this every letter counts as it does elsewhere.
+    #[serde(default)]
+    pub whole_arguments: Option<String>,
+    /// An `M` after a macro call in its block is an argument, and the control does not execute it as a code.
+    #[serde(default)]
+    pub m_is_argument: bool,
+    /// Variables that have a second number each.
+    #[serde(default)]
+    pub mirrored_variables: Vec<MirroredVariables>,
+    /// Words act before a condition or a jump that is after them in the block; an unconditional jump acts last of all. Else
+    /// the control does not read words beside a jump.
+    #[serde(default)]
+    pub words_before_conditions: bool,
     /// Local variables: first and last number; empty range when none.
     pub locals: [u32; 2],
     /// A call of a numbered subprogram (`M98`) gets its own local variables.
@@ -394,9 +408,6 @@ pub struct Semantics {
     /// Settings that variables show: variable number of setting 0.
     #[serde(default)]
     pub setting_variables: Option<u32>,
-    /// Variables that are one with another, so many numbers higher: first and last number, and the distance.
-    #[serde(default)]
-    pub twin_variables: Option<[u32; 3]>,
     /// The setting by which coolant codes are refused (`off`) or passed over (`ignore`).
     #[serde(default)]
     pub coolant_setting: Option<String>,
@@ -427,6 +438,18 @@ pub struct Semantics {
     /// Codes that `M2` and `M30` bring into effect.
     #[serde(default)]
     pub at_end: Vec<String>,
+    /// The alarm of a called program that runs to the end of the text without a return.
+    #[serde(default)]
+    pub missing_return_alarm: Option<String>,
+    /// The setting that keeps what is in effect at the end of the program while it is off, where one does.
+    #[serde(default)]
+    pub at_end_setting: Option<String>,
+    /// The setting against which the codes of units are checked: a code of the other unit is an alarm.
+    #[serde(default)]
+    pub units_setting: Option<String>,
+    /// `ATAN` takes one number: a slash after it divides the angle.
+    #[serde(default)]
+    pub atan_takes_one: bool,
     /// Codes active at power-on beside the groups' defaults.
     #[serde(default)]
     pub at_start: Vec<String>,
@@ -436,6 +459,9 @@ pub struct Semantics {
     pub cycles: CycleRules,
     /// Cutter compensation.
     pub compensation: CompensationRules,
+    /// The settings of scaling, rotation and mirrors.
+    #[serde(default)]
+    pub transform_settings: TransformSettings,
     /// How tools are called and measured.
     pub tools: ToolRules,
     /// Cylindrical mapping that wraps a linear axis, by the words of its code; where a word for the rotary axis holds the
@@ -451,9 +477,15 @@ pub struct Semantics {
     pub local_shift: LocalShift,
     /// A reference return (`G28`) without axis words returns all axes.
     pub reference_without_axes: bool,
+    /// The first reference position is the machine's zero, from which `G53` counts.
+    #[serde(default)]
+    pub reference_at_zero: bool,
     /// A reference return cancels tool length compensation.
     #[serde(default)]
     pub reference_cancels_length: bool,
+    /// `H0` ends length compensation also in a block without a code for it.
+    #[serde(default)]
+    pub zero_length_number_cancels: bool,
     /// `G53` moves in rapid whatever motion is in effect; else as `G0` or `G1` in effect says, and not under another one.
     pub machine_coordinates_rapid: bool,
     /// Dwell words: letter to kind.
@@ -489,6 +521,17 @@ pub struct LengthAgreement {
     pub alarm: String,
 }
 
+impl Semantics {
+    /// The number under which a variable is kept: the first of those that name it.
+    pub fn kept_as(&self, number: u32) -> u32 {
+        let of = |row: &MirroredVariables| {
+            let place = number.checked_sub(row.at).filter(|place| *place < row.count);
+            place.map(|place| row.first + place)
+        };
+        self.mirrored_variables.iter().find_map(of).unwrap_or(number)
+    }
+}
+
 /// The fastest feed of a probing move, in the units of the program a minute.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
@@ -497,6 +540,18 @@ pub struct ProbeFeed {
     pub inch: f64,
     /// Millimetres a minute, in a metric program.
     pub mm: f64,
+}
+
+/// Variables that have a second number each: both name one value.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct MirroredVariables {
+    /// First number.
+    pub first: u32,
+    /// How many.
+    pub count: u32,
+    /// The second number of the first of them.
+    pub at: u32,
 }
 
 /// What a strict control refuses beside what its codes, addresses and block rules say, and when.
@@ -628,6 +683,9 @@ pub enum HelixFeed {
 pub struct CycleRules {
     /// The letter that repeats a cycle: `L`, `K`.
     pub repeat: char,
+    /// With no repeats (`L0`) the tool goes to the place of the hole at rapid, without the hole; else it stays where it is.
+    #[serde(default)]
+    pub zero_repeats_move: bool,
     /// Peck drilling goes back to this far above the last depth.
     pub peck_clearance: f64,
     /// Chip breaking backs off by this much.
@@ -687,6 +745,49 @@ pub struct CompensationRules {
     pub freezes_plane: bool,
     /// The setting that decides between radius and diameter, where one does.
     pub setting: Option<String>,
+    /// What the control refuses while it is on, where a manual says so.
+    #[serde(default)]
+    pub refuses: Option<CompensationRefusals>,
+}
+
+/// What a control refuses while cutter compensation is on.
+#[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct CompensationRefusals {
+    /// The end of the program and a stop (`M30`, `M2`, `M0`, `M1`).
+    #[serde(default)]
+    pub ends: bool,
+    /// Planes other than XY: compensation does not begin in them, and arcs are not in them.
+    #[serde(default)]
+    pub other_planes: bool,
+    /// Another offset number in the block of an arc.
+    #[serde(default)]
+    pub offset_on_arc: bool,
+    /// Codes that limit how far the control reads ahead: neither while it is on, nor on while they limit.
+    #[serde(default)]
+    pub read_ahead_limits: Vec<String>,
+    /// Its source.
+    pub source: String,
+    /// How sure it is.
+    pub confidence: Confidence,
+}
+
+/// Settings that scaling, rotation and mirrors rest on, by number.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct TransformSettings {
+    /// The factor of scaling without one in its block; 0 hands over to `by_axis`.
+    #[serde(default)]
+    pub factor: Option<String>,
+    /// The factors of X, Y and Z.
+    #[serde(default)]
+    pub by_axis: Vec<String>,
+    /// The angle of rotation without one in its block.
+    #[serde(default)]
+    pub angle: Option<String>,
+    /// The settings that mirror X, Y and Z while they are on.
+    #[serde(default)]
+    pub mirrors: Vec<String>,
 }
 
 /// Cylindrical mapping that wraps a linear axis around a rotary one.
@@ -751,6 +852,9 @@ pub struct ToolRules {
     /// A tool change switches all coolant off; mist that was on comes on again after it.
     #[serde(default)]
     pub change_stops_coolant: bool,
+    /// The axis that a tool change takes to the machine's zero.
+    #[serde(default)]
+    pub change_at_zero: Option<char>,
     /// The axes stay where they are at a tool change: the next tool swings in at the place where the last one was. Else
     /// the change takes them to a place of its own, or the builder decides.
     #[serde(default)]
@@ -845,6 +949,8 @@ pub enum SystemValue {
     WorkRotation,
     /// `G52`/`G92` shift.
     Shift,
+    /// The shift of `G52`, where it is apart from that of `G92`.
+    LocalShift,
     ShiftActive,
     WorkOffsetNumber,
     Reference1,
@@ -859,6 +965,10 @@ pub enum SystemValue {
     ToolDiameter,
     /// As the diameter.
     ToolRadius,
+    /// The wear of the length, which counts with it; by tool, the first that of `of`.
+    ToolLengthWear,
+    /// The wear of the diameter, which counts with it; by tool, the first that of `of`.
+    ToolDiameterWear,
     /// The number of the active code of the modal group `of`; ten times it in a named parameter (`170` for `G17`).
     ModalCode,
     /// The last value of the address `of`.

@@ -99,6 +99,9 @@ pub struct SyntaxRules {
     pub logic_binds_last: bool,
     /// `**` is an operator.
     pub power_operator: bool,
+    /// Words may be after a condition without `THEN`: `IF [#1 EQ 2] G65 P3`.
+    #[serde(default)]
+    pub words_after_if: bool,
     /// A pair of `%` lines ends the program where no code does.
     #[serde(default)]
     pub tape_marks_end: bool,
@@ -544,7 +547,10 @@ pub struct CodeEntry {
 /// A word as one code reads it.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
-#[expect(clippy::struct_excessive_bools, reason = "independent yes/no facts, named one by one in data")]
+#[expect(
+    clippy::struct_excessive_bools,
+    reason = "independent yes/no facts of a word, named one by one in data"
+)]
 pub struct WordEntry {
     /// The address, upper case; `,R` and `,C` for corner words.
     pub letter: String,
@@ -559,6 +565,9 @@ pub struct WordEntry {
     /// For `need = "conditional"`: when, in words.
     #[serde(default)]
     pub when: Option<String>,
+    /// For `need = "conditional"`: it must be in the block unless a comment is, which may name a file.
+    #[serde(default)]
+    pub unless_comment: bool,
     /// For `need = "conditional"`: words beside which it must be in the block, with their values: `["L2", "L20"]`.
     #[serde(default)]
     pub required_with: Vec<String>,

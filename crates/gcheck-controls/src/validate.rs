@@ -539,9 +539,13 @@ impl Problems<'_> {
         let right = match variable.holds {
             V::ModalCode => of.is_some_and(|group| self.control.group_by_id(group).is_some()),
             V::LastWord => of.is_some_and(|letter| self.is_letter(letter)),
-            V::WorkOffset | V::WorkRotation | V::ToolLength | V::ToolDiameter | V::ToolRadius => {
-                of.is_none_or(is_first)
-            }
+            V::WorkOffset
+            | V::WorkRotation
+            | V::ToolLength
+            | V::ToolDiameter
+            | V::ToolRadius
+            | V::ToolLengthWear
+            | V::ToolDiameterWear => of.is_none_or(is_first),
             V::WorkPosition
             | V::EndPosition
             | V::MachinePosition

@@ -29,7 +29,7 @@ pub(crate) fn start_state<D: Domain>(
     if machine.start.is_none() {
         assumptions.insert(Assumption::StartPosition);
     }
-    let tables = Tables::of(machine);
+    let tables = Tables::of(machine, model.semantics().reference_at_zero);
     let mut state = State {
         points: Points::at(machine.start.unwrap_or(Position::UNKNOWN)),
         variables: variables(model, machine),
@@ -42,7 +42,7 @@ pub(crate) fn start_state<D: Domain>(
         coolant: CoolantState::all(Truth::False),
         cycle: CycleWords::NONE,
         turning: KeptTurningWords::default(),
-        transform: Transform::NONE,
+        transform: mirrored_by_settings(model, machine),
         mapping: Mapping::default(),
         compensation: CompensationState::default(),
         blending: Blending::NONE,
@@ -89,7 +89,8 @@ fn unset<D: Domain>(model: &Model<'_>) -> D::Value {
 
 fn variables<D: Domain>(model: &Model<'_>, machine: &Machine) -> Variables<D> {
     let unwritten = if machine.fresh { unset::<D>(model) } else { D::unknown() };
-    Variables::new(unwritten, machine.variables.iter().map(|(number, value)| (*number, *value)))
+    let kept = |(number, value): (&u32, &f64)| (model.semantics().kept_as(*number), *value);
+    Variables::new(unwritten, machine.variables.iter().map(kept))
 }
 
 fn locals<D: Domain>(model: &Model<'_>, machine: &Machine) -> Locals<D> {
@@ -99,6 +100,19 @@ fn locals<D: Domain>(model: &Model<'_>, machine: &Machine) -> Locals<D> {
         locals.set(*number, D::number(*value));
     }
     locals
+}
+
+/// The mirrors that settings switch on, at the zero of the work.
+fn mirrored_by_settings(model: &Model<'_>, machine: &Machine) -> Transform {
+    let mut transform = Transform::NONE;
+    let settings = &model.semantics().transform_settings.mirrors;
+    for (mirror, number) in transform.mirrors_mut().iter_mut().zip(settings) {
+        let is_on = machine.settings.get(number).is_some_and(|value| value == "on" || value == "true");
+        if is_on {
+            *mirror = Perhaps::Yes(0.0);
+        }
+    }
+    transform
 }
 
 /// A run begins with its first bar: the counters of the feeder start with it, unless they were told.

@@ -152,6 +152,8 @@ pub(crate) struct Executor<'a, 'p, D: Domain, O: Observer<D>> {
     stroke_buffer: Vec<Stroke>,
     /// Assignments that wait for the end of the block.
     pending: Vec<(Assignee, D::Value)>,
+    /// Words of the block that begin before this byte of its chunk have acted.
+    acted_to: u32,
     /// Variables that were written, and whether the control lets programs do that.
     writable: FxHashMap<u32, bool>,
     /// Bar feeds so far.
@@ -234,6 +236,7 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
             nested: FxHashMap::default(),
             stroke_buffer: Vec::new(),
             pending: Vec::new(),
+            acted_to: 0,
             writable: FxHashMap::default(),
             bar_feeds: 0,
         }
@@ -283,6 +286,7 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
         self.flow = None;
         self.machine_coordinates = false;
         self.pending.clear();
+        self.acted_to = 0;
         if self.lenient {
             self.before = Some(self.before_block(state));
             (self.bridge, self.at_fault) = (None, None);
@@ -365,7 +369,7 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
         block: &Block,
         state: &mut State<D>,
     ) -> Step<Outcome<D>> {
-        let words = table.words(block);
+        let words = self.words_to_come(table, block);
         if !words.is_empty() {
             self.read_words(place, table, words, state)?;
             let executed = self.execute(place, words, state);
@@ -388,6 +392,43 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
             None => Ok(Outcome::Next),
             Some(flow) => self.follow(flow, state),
         }
+    }
+
+    /// The words of a block that have not acted yet.
+    fn words_to_come<'t>(&self, table: &'t BlockTable, block: &Block) -> &'t [Word] {
+        let words = table.words(block);
+        let first = words.partition_point(|word| word.range().start < self.acted_to);
+        words.get(first..).unwrap_or_default()
+    }
+
+    /// The words in front of a condition or a jump act before it, where the control reads them at all.
+    fn act_before(
+        &mut self,
+        place: &Place,
+        table: &BlockTable,
+        block: &Block,
+        before: u32,
+        state: &mut State<D>,
+    ) -> Step {
+        if !self.model.semantics().words_before_conditions {
+            return Ok(());
+        }
+        let words = self.words_to_come(table, block);
+        let count = words.partition_point(|word| word.range().start < before);
+        let words = words.get(..count).unwrap_or_default();
+        self.acted_to = before;
+        if words.iter().all(|word| matches!(word.letter.ascii(), b'N' | b'O')) {
+            return Ok(());
+        }
+        self.read_words(place, table, words, state)?;
+        let executed = self.execute(place, words, state);
+        self.settle_tool_shift(state);
+        if let Err(fault) = executed {
+            // The jump is what the block means all the same.
+            self.refuse(fault)?;
+        }
+        // A call or an end in front of a jump: which of the two the control then follows is in no page.
+        if self.flow.take().is_some() { Err(Fault::Undecidable) } else { Ok(()) }
     }
 
     /// The file, chunk and table of a block.
@@ -448,12 +489,19 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
         self.words.clear();
         // Looked for once, however long the block is.
         let mut units = None;
+        let m_is_argument = self.model.semantics().m_is_argument;
+        let mut takes_m = false;
         for word in words {
             if word.code.is_some() {
                 self.words.put_code(word.code);
+                takes_m |= m_is_argument && self.is_macro_call(word.code);
                 continue;
             }
-            let code_letter = matches!(word.letter.ascii(), b'G' | b'M') && !word.letter.is_corner();
+            let code_letter = match word.letter.ascii() {
+                b'G' => !word.letter.is_corner(),
+                b'M' => !takes_m,
+                _ => false,
+            };
             match word.value {
                 Value::Number(_) if code_letter => {
                     // The machine's builder adds M codes of his own, where the control lets him.
@@ -500,6 +548,10 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
             }
         }
         Ok(())
+    }
+
+    fn is_macro_call(&self, code: CodeIx) -> bool {
+        matches!(self.model.effect(code), Effect::MacroCall | Effect::MacroModal)
     }
 
     /// A computed value as the control reads it: a count is rounded on controls that do so.
@@ -591,6 +643,29 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
         let setting = self.model.scale_setting(letter)?;
         let value = self.machine.settings.get(setting.rsplit(' ').next()?)?;
         if value == "integer" { Some(1.0) } else { value.parse().ok() }
+    }
+
+    /// An argument of a macro call that is written without a decimal point, as the macro gets it.
+    fn unpointed_argument(&mut self, letter: Letter, number: f64, whole: &str, units: Option<Units>) -> f64 {
+        if number == 0.0 || whole.contains(char::from(letter.ascii())) {
+            return number;
+        }
+        match self.unpointed {
+            Unpointed::AsWritten => number,
+            Unpointed::LeastIncrement => {
+                let numbers = self.model.control().numbers();
+                let least = match units {
+                    Some(Units::Inch) => numbers.least_inch,
+                    Some(Units::Mm) => numbers.least_mm,
+                    None => f64::NAN,
+                };
+                number / (1.0 / least).round()
+            }
+            Unpointed::ByParameter => {
+                self.assumptions.insert(Assumption::UnpointedNumbers);
+                number
+            }
+        }
     }
 
     /// The units in which a block's numbers count: those that it names itself, wherever they stand in it.
@@ -857,6 +932,13 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
                     D::binary(*op, &left, &right, semantics).map_err(Fault::Value)
                 }
                 Op::Call(Function::Exists, _) => Ok(self.stack.pop().unwrap_or_else(D::unknown)),
+                Op::Call(Function::Atan, 2) if semantics.atan_takes_one => {
+                    let divisor = self.stack.pop().unwrap_or_else(D::unknown);
+                    let number = self.stack.pop().unwrap_or_else(D::unknown);
+                    D::call(Function::Atan, std::slice::from_ref(&number), semantics)
+                        .and_then(|angle| D::binary(BinaryOp::Divide, &angle, &divisor, semantics))
+                        .map_err(Fault::Value)
+                }
                 Op::Call(function, count) => {
                     let from = self.stack.len().saturating_sub(usize::from(*count)).max(bottom);
                     let result = D::call(*function, self.stack.get(from..).unwrap_or_default(), semantics);
@@ -879,6 +961,7 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
 
     fn read_variable(&mut self, number: u32, state: &State<D>) -> Step<D::Value> {
         let semantics = self.model.semantics();
+        let number = semantics.kept_as(number);
         self.check_number(number)?;
         let [first, last] = semantics.locals;
         if (first..=last).contains(&number) && number > 0 {
@@ -895,9 +978,12 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
             return Ok(D::vacant());
         }
         let system = self.model.system_variable(number);
-        // A probing move writes its result over what the program wrote.
+        // A probing move writes its result over what the program wrote, and a clock goes on from it.
         let is_probed = system.is_some_and(|(variable, _, _)| {
-            matches!(variable.holds, SystemValue::ProbePosition | SystemValue::ProbeResult)
+            matches!(
+                variable.holds,
+                SystemValue::ProbePosition | SystemValue::ProbeResult | SystemValue::Unknown
+            )
         });
         let written = if is_probed { Truth::False } else { state.variables.written(number) };
         if written == Truth::True {
@@ -1037,6 +1123,7 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
                 }
                 StatementKind::If { condition } | StatementKind::Guard { condition } => {
                     let Some(condition) = condition else { return Err(Fault::Malformed) };
+                    self.act_before(place, table, block, statement.range.start, state)?;
                     match self.condition(place, table, *condition, state)? {
                         Truth::True => self.assume(table, *condition, true, state),
                         Truth::False => {
@@ -1050,6 +1137,9 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
                 }
                 StatementKind::Goto { target } => {
                     let Some(target) = target else { return Err(Fault::Malformed) };
+                    // What is between a condition and its jump belongs to the jump; without one all words act before it.
+                    let end = if self.acted_to == 0 { u32::MAX } else { statement.range.start };
+                    self.act_before(place, table, block, end, state)?;
                     let value = self.value_of(place, table, table.expr(*target), state)?;
                     return self.jump_to_label(&value, state).map(Statements::Done);
                 }
@@ -1281,6 +1371,7 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
             }
             Assignee::Number(0) => Err(Fault::ReadOnlyVariable(0)),
             Assignee::Number(number) => {
+                let number = self.model.semantics().kept_as(number);
                 if let Some((variable, row, column)) = self.model.system_variable(number) {
                     return self.write_system(number, variable, row, column, value, state);
                 }
@@ -1294,6 +1385,7 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
     }
 
     fn write_plain(&mut self, number: u32, value: D::Value, state: &mut State<D>) {
+        let number = self.model.semantics().kept_as(number);
         let [first, last] = self.model.semantics().locals;
         if (first..=last).contains(&number) {
             match state.calls.locals_mut() {

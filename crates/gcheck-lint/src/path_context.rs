@@ -352,7 +352,10 @@ impl<'a> PathCx<'a> {
 
     /// Does the end of the program bring a mode back to the control's start?
     pub fn end_resets(&self, role: Role) -> bool {
-        self.at_end().any(|code| Role::of(code.effect()) == Some(role))
+        let setting = self.model.semantics().at_end_setting.as_ref();
+        let told = setting.and_then(|number| self.environment.machine.settings.get(number));
+        let keeps = told.is_some_and(|value| value == "off" || value == "false");
+        !keeps && self.at_end().any(|code| Role::of(code.effect()) == Some(role))
     }
 
     /// Codes that the end of the program brings into effect.

@@ -7,8 +7,8 @@
 use std::ops::Range;
 
 use gcheck_controls::{
-    CodeEntry, CodeIx, CodeNumber, Control, Letter, LetterSet, LineCounts, Need, Semicolon, WordEntry,
-    WordKind,
+    CodeEntry, CodeIx, CodeNumber, Control, Effect, Letter, LetterSet, LineCounts, Need, Semicolon,
+    WordEntry, WordKind,
 };
 use gcheck_syntax::{Parse, Sink, SyntaxError, SyntaxKind, SyntaxProfile, parse_into, replay};
 
@@ -40,6 +40,8 @@ pub struct Dialect<'c> {
     block_delete: bool,
     /// By code index: does the code name a label or program?
     refers: Vec<bool>,
+    /// By code index: is an `M` after the code in its block an argument of it?
+    takes_m: Vec<bool>,
     /// By code index: words that must have been given by the time the code runs, each with those that do instead.
     lasting: Vec<Vec<Lasting>>,
     /// Addresses of increments, each with the address of its axis.
@@ -134,6 +136,12 @@ impl<'c> Dialect<'c> {
             block_delete: control.syntax().block_delete,
             increments,
             lasting: control.codes().map(|code| lasting_words(code.entry())).collect(),
+            takes_m: if control.semantics().m_is_argument {
+                let is_call = |effect| matches!(effect, Effect::MacroCall | Effect::MacroModal);
+                control.codes().map(|code| is_call(code.effect())).collect()
+            } else {
+                Vec::new()
+            },
             refers: control
                 .codes()
                 .map(|code| {
@@ -171,6 +179,20 @@ impl<'c> Dialect<'c> {
         self.refers.get(code.index()).copied().unwrap_or(false)
     }
 
+    /// Is an `M` after these words of its block an argument of one of their codes?
+    pub fn takes_m(&self, words: &[Word]) -> bool {
+        !self.takes_m.is_empty()
+            && words.iter().any(|word| self.takes_m.get(word.code.index()).copied().unwrap_or(false))
+    }
+
+    /// The code that a word after others of its block names; none for a word that is not a `G` or `M`, or is an argument.
+    fn code_after(&self, before: &[Word], letter: Letter, number: f64, shape: NumberShape) -> CodeIx {
+        if letter == Letter::of('M') && self.takes_m(before) {
+            return CodeIx::NONE;
+        }
+        self.code_of(letter, number, shape)
+    }
+
     /// The code that a word names; none for a word that is not a `G` or `M`.
     fn code_of(&self, letter: Letter, number: f64, shape: NumberShape) -> CodeIx {
         if letter != Letter::of('G') && letter != Letter::of('M') {
@@ -200,7 +222,7 @@ impl<'c> Dialect<'c> {
         let mut read = LetterSet::EMPTY;
         let mut reads_anything = false;
         let mut bound = LetterSet::EMPTY;
-        for word in words {
+        for (index, word) in words.iter().enumerate() {
             let facts = self.letter(word.letter);
             let is_new = letters.insert(word.letter);
             if !is_new && !facts.repeatable {
@@ -210,6 +232,12 @@ impl<'c> Dialect<'c> {
                 flags |= BlockFlags::UNKNOWN_ADDRESS;
             }
             match word.letter.ascii() {
+                b'M' if self.takes_m(words.get(..index).unwrap_or_default()) => {
+                    if matches!(word.value, Value::Expr(_)) {
+                        flags |= BlockFlags::EXPRESSION;
+                    }
+                    continue;
+                }
                 b'G' | b'M' => {
                     flags |= BlockFlags::CODE;
                     if let Some(code) = self.control.code_at(word.code) {
@@ -304,6 +332,7 @@ pub fn profile(control: &Control) -> SyntaxProfile {
         bare_expressions: syntax.bare_expressions,
         logic_binds_last: syntax.logic_binds_last,
         power_operator: syntax.power_operator,
+        words_after_if: syntax.words_after_if,
         system_commands: syntax.system_commands,
     }
 }
@@ -477,7 +506,10 @@ impl<'t, 'd> LowerSink<'t, 'd> {
 
     fn push_word(&mut self, range: Range<u32>, letter: Letter, value: Value, shape: NumberShape) {
         let code = match value {
-            Value::Number(number) => self.dialect.code_of(letter, number, shape),
+            Value::Number(number) => {
+                let before = self.table.words.get(self.block_words as usize..).unwrap_or_default();
+                self.dialect.code_after(before, letter, number, shape)
+            }
             _ => CodeIx::NONE,
         };
         self.table.words.push(Word { letter, value, shape, code, start: range.start, end: range.end });
@@ -643,7 +675,7 @@ impl<'t, 'd> LowerSink<'t, 'd> {
         let next = plain::line(self.text.as_bytes(), start, |word| {
             quiet.see(&word, dialect);
             let PlainWord { letter, value, shape, start, end, .. } = word;
-            let code = dialect.code_of(letter, value, shape);
+            let code = dialect.code_after(words.get(first..).unwrap_or_default(), letter, value, shape);
             words.push(Word { letter, value: Value::Number(value), shape, code, start, end });
         });
         let Some(next) = next else {

@@ -41,7 +41,7 @@ impl Default for World<'_> {
 impl World<'_> {
     /// What the examples of a rule's documentation hold in. Rules of the group `machine` speak only of what is configured:
     /// axes X, Y, Z and A, 8000 turns and 10 m a minute, 500 mm of travel each way, `G54` at the machine's zero, tools 1 to 3,
-    /// rotary axes of diameter 0, 0.01 s for a block and two blocks ahead. Those of the group `bar_feeder` have new bars of 1000 mm, and in another file a program
+    /// rotary axes of diameter 0, Haas controls set to inches, 0.01 s for a block and two blocks ahead. Those of the group `bar_feeder` have new bars of 1000 mm, and in another file a program
     /// 9099 that ends the job.
     pub(crate) fn of_examples(rule: &RuleMeta) -> Self {
         Self::of_group(rule.group)
@@ -60,8 +60,12 @@ impl World<'_> {
                 orientation: 0,
             };
             world.machine.axes = Some(LetterSet::of("XYZA"));
-            let setting = |number: &str, value: &str| (number.to_owned(), value.to_owned());
-            let settings = || BTreeMap::from([setting("34", "0"), setting("32", "off")]);
+            let settings = || {
+                BTreeMap::from(
+                    [("9", "inch"), ("32", "off"), ("34", "0")]
+                        .map(|(number, value)| (number.to_owned(), value.to_owned())),
+                )
+            };
             world.machine.settings = settings();
             world.machine.engine = Machine {
                 axes: Some(vec![Axis::X, Axis::Y, Axis::Z, Axis::A]),

@@ -749,6 +749,7 @@ fn if_statement<S: Sink>(p: &mut Parser<'_, S>) {
             }
             // `IF [#9 EQ #0] #9=#4109`: some controls let THEN be left out in front of an assignment.
             Some(Token::Variable | Token::NamedVariable | Token::Hash) => deeper(p, block),
+            Some(Token::Word) if p.profile.words_after_if => deeper(p, block),
             _ => {
                 let end = p.end_of_previous();
                 p.error(SyntaxErrorKind::IfWithoutConsequence, start..end);

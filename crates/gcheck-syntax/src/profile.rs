@@ -25,6 +25,8 @@ pub struct SyntaxProfile {
     pub logic_binds_last: bool,
     /// `**`.
     pub power_operator: bool,
+    /// `IF [#1 EQ 2] G65 P3`: words may be after a condition without `THEN`.
+    pub words_after_if: bool,
     /// `$H`, `$J=G91 X1`: lines that are commands to the firmware.
     pub system_commands: bool,
 }
@@ -40,6 +42,7 @@ impl SyntaxProfile {
         bare_expressions: true,
         logic_binds_last: false,
         power_operator: false,
+        words_after_if: false,
         system_commands: false,
     };
 
@@ -53,6 +56,7 @@ impl SyntaxProfile {
         bare_expressions: false,
         logic_binds_last: true,
         power_operator: true,
+        words_after_if: false,
         system_commands: false,
     };
 }

@@ -511,6 +511,7 @@ mod tests {
     fn exact() -> CycleRules {
         CycleRules {
             repeat: 'L',
+            zero_repeats_move: false,
             peck_clearance: 0.254,
             chip_break_retract: 0.254,
             motion_ends_cycle: true,

@@ -46,14 +46,18 @@ pub fn circular_pocket(
     out: &mut dyn FnMut(Stroke),
 ) -> Result<[Mm; 3], CycleError> {
     let CircularPocket { centre: (x, y), first, tool_radius, .. } = *words;
+    // `K` and `Q` go together, whatever the tool.
+    match (words.finished, words.step) {
+        (Some(_), None) => return Err(CycleFault::Missing(Letter::of('Q')).into()),
+        (None, Some(_)) => return Err(CycleFault::Missing(Letter::of('K')).into()),
+        _ => {}
+    }
     known(&[x, y, first, tool_radius, words.depth])?;
     if first <= tool_radius {
         return Err(CycleFault::Geometry.into());
     }
     let (finished, step) = match (words.finished, words.step) {
-        (None, None) => (first, Mm::ZERO),
-        (Some(_), None) => return Err(CycleFault::Missing(Letter::of('Q')).into()),
-        (None, Some(_)) => return Err(CycleFault::Missing(Letter::of('K')).into()),
+        (None, _) | (_, None) => (first, Mm::ZERO),
         (Some(finished), Some(step)) => {
             known(&[finished, step])?;
             if step <= Mm::ZERO {

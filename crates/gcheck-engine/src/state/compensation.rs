@@ -106,7 +106,10 @@ pub(crate) struct Compensation {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Programmed {
     pub(crate) origin: Origin,
+    /// Its end as it is programmed.
     pub(crate) target: Position,
+    /// Its end as scaling, rotation and mirrors leave it: the path is compensated after them.
+    pub(crate) end: Position,
 }
 
 /// What one path holds back says nothing of another.

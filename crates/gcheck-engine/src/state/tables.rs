@@ -7,7 +7,7 @@ use gcheck_geometry::Mm;
 
 use crate::lattice::{Flat, Lattice, May, lattice};
 use crate::machine::{self, Machine, WorkOffset};
-use crate::position::Position;
+use crate::position::{Axis, Position};
 use crate::value::Truth;
 
 /// Work offsets, reference points, tools.
@@ -43,6 +43,9 @@ lattice! {
         pub diameter: Mm,
         /// Corner or nose radius; NaN unknown.
         pub corner_radius: Mm,
+        /// Wear of the length along Z, and of the diameter, millimetres: they count with them. What nobody wrote is taken to be
+        /// none.
+        pub(crate) wear: [f64; 2],
         /// Lathe tool angles.
         pub(crate) angles: [f64; 2],
         /// Lathe orientation, 0 to 9.
@@ -56,6 +59,7 @@ impl ToolData {
         offset: Position::UNKNOWN,
         diameter: Mm::UNKNOWN,
         corner_radius: Mm::UNKNOWN,
+        wear: [0.0; 2],
         angles: [f64::NAN; 2],
         orientation: Flat::Unknown,
     };
@@ -65,26 +69,48 @@ impl ToolData {
         offset: Position::ZERO,
         diameter: Mm(0.0),
         corner_radius: Mm::UNKNOWN,
+        wear: [0.0; 2],
         angles: [0.0; 2],
         orientation: Flat::Known(0),
     };
+
+    /// Offsets by axis as they count: the length with its wear.
+    pub fn length(&self) -> Position {
+        let [wear, _] = self.wear;
+        let mut length = self.offset;
+        if wear != 0.0 {
+            length.set(Axis::Z, length.raw(Axis::Z) + wear);
+        }
+        length
+    }
+
+    /// The diameter as it counts: with its wear.
+    pub fn size(&self) -> Mm {
+        let [_, wear] = self.wear;
+        self.diameter + Mm(wear)
+    }
 }
 
 impl From<&machine::Tool> for ToolData {
     fn from(tool: &machine::Tool) -> Self {
         let machine::Tool { pocket: _, offset, diameter, corner_radius, angles, orientation } = *tool;
         let corner_radius = if corner_radius.is_known() { corner_radius } else { Mm::UNKNOWN };
-        Self { offset, diameter, corner_radius, angles, orientation: Flat::Known(orientation) }
+        let wear = [0.0; 2];
+        Self { offset, diameter, corner_radius, wear, angles, orientation: Flat::Known(orientation) }
     }
 }
 
 impl Tables {
-    /// The tables of a machine as a program finds them.
-    pub(crate) fn of(machine: &Machine) -> Self {
+    /// The tables of a machine as a program finds them. The first reference position may be the machine's zero.
+    pub(crate) fn of(machine: &Machine, reference_at_zero: bool) -> Self {
+        let mut references = [if machine.fresh { Position::ZERO } else { Position::UNKNOWN }; 4];
+        if reference_at_zero {
+            references[0] = Position::ZERO;
+        }
         Self {
             offsets: machine.offsets.iter().map(|(number, offset)| (*number, *offset)).collect(),
             other_offset: if machine.fresh { WorkOffset::ZERO } else { WorkOffset::UNTOLD },
-            references: [if machine.fresh { Position::ZERO } else { Position::UNKNOWN }; 4],
+            references,
             tools: machine
                 .tools
                 .iter()
@@ -151,7 +177,7 @@ impl Tables {
     /// A tool of unknown number was written, and may not have been there before.
     pub(crate) fn forget_tools(&mut self) {
         for (_, tool) in self.tools_mut() {
-            *tool = ToolData::UNKNOWN;
+            *tool = ToolData { wear: [f64::NAN; 2], ..ToolData::UNKNOWN };
         }
         self.partial = May(true);
     }

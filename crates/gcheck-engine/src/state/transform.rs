@@ -137,6 +137,31 @@ impl Transform {
         self.rotation.is_no() && self.scaling.is_no() && self.mirrors.iter().all(Perhaps::is_no)
     }
 
+    /// The factor of scaling on all axes: 1 without, NaN where it is unknown or differs.
+    pub(crate) fn common_factor(&self) -> f64 {
+        match self.scaling {
+            Perhaps::No => 1.0,
+            Perhaps::Yes(Scaling { factors: [x, y, z], .. })
+                if x.to_bits() == y.to_bits() && y.to_bits() == z.to_bits() =>
+            {
+                x
+            }
+            Perhaps::Yes(_) | Perhaps::Unknown => f64::NAN,
+        }
+    }
+
+    /// Does a circle in the plane stay one?
+    pub(crate) fn keeps_circles(&self, plane: Plane) -> bool {
+        match self.scaling {
+            Perhaps::No => true,
+            Perhaps::Yes(Scaling { factors, .. }) => {
+                let [first, second, _] = plane.to_local(factors.map(Mm));
+                first.0.abs().to_bits() == second.0.abs().to_bits()
+            }
+            Perhaps::Unknown => false,
+        }
+    }
+
     /// What it does to points.
     pub(crate) fn frame(&self) -> Perhaps<Frame> {
         if self.is_off() {

@@ -76,7 +76,12 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         } else {
             self.cutter_of_block(plane, state)?
         };
-        let side = if left { CutterSide::Left } else { CutterSide::Right };
+        // A mirror puts the tool on the other side of the path that it makes.
+        let mirrored = match state.transform.frame() {
+            Perhaps::Yes(frame) => frame.reverses_plane(plane),
+            Perhaps::No | Perhaps::Unknown => false,
+        };
+        let side = if left == mirrored { CutterSide::Right } else { CutterSide::Left };
         let cutter = Cutter::new(side, radius).with_tip(tip(orientation));
         // Switched off and on again without a move between, it goes on from where the tool stands.
         let mut compensation = match std::mem::take(&mut state.compensation.left) {
@@ -89,7 +94,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             Perhaps::Unknown => return Ok(()),
         };
         // An unknown start or size is no mistake of the program: it is carried as an unknown path.
-        let start = planar(state.position(), plane);
+        let start = planar(&self.transformed(state.position(), state), plane);
         if Rc::make_mut(&mut compensation).compensator.start(cutter, start).is_ok() {
             state.compensation.follow_path(compensation);
         }
@@ -156,6 +161,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let mode = state.mode(Role::Length).only();
         if mode.is_some_and(|ix| self.model.effect(ix) == Effect::LengthOff) {
             state.tool.h = value;
+        } else if self.model.semantics().zero_length_number_cancels && D::known(&value) == Some(0.0) {
+            self.cancel_length(state);
         }
         Ok(())
     }
@@ -183,7 +190,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let is_loaded = D::known(state.tool()) == Some(number) && !self.words.has(Letter::of('D'));
         if tables.is_complete() && is_loaded {
             let tool = state.tool.loaded.data;
-            return Ok(self.oriented(tool.diameter.0 / 2.0, &tool, state));
+            return Ok(self.oriented(tool.size().0 / 2.0, &tool, state));
         }
         if number == 0.0 {
             // Where left out means the tool in the spindle, so does zero.
@@ -205,13 +212,13 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let number = number as u32;
         match tables.tool(number) {
             Some(tool) => {
-                if tool.diameter.0.is_nan() {
+                if tool.size().0.is_nan() {
                     self.assumptions.insert(Assumption::ToolRadius(number));
                 }
                 let radius = if state.is_diameter(self.model) == Some(true) && tool.corner_radius.is_known() {
                     tool.corner_radius.0
                 } else {
-                    tool.diameter.0 / 2.0
+                    tool.size().0 / 2.0
                 };
                 Ok(self.oriented(radius, tool, state))
             }
@@ -247,7 +254,12 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         match result {
             Ok(exit) => {
                 let actual = above(state.actual(), exit.position, followed.plane);
-                let programmed = above(state.position(), exit.programmed, followed.plane);
+                // What turns or scales the path stays between the two.
+                let programmed = if state.transform.is_off() {
+                    above(state.position(), exit.programmed, followed.plane)
+                } else {
+                    *state.position()
+                };
                 let actual = state.wrapped().turned(actual);
                 state.points.actual = actual;
                 state.points.position = programmed;
@@ -305,12 +317,13 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     ) -> Step {
         let Some(mut compensation) = state.compensation.take_followed() else { return Ok(()) };
         let followed = Rc::make_mut(&mut compensation);
-        let to = planar(&target, followed.plane);
+        let end = self.transformed(&target, state);
+        let to = planar(&end, followed.plane);
         let line = if kind == TravelKind::Rapid { LineKind::Rapid } else { LineKind::Feed };
-        let payload = Programmed { origin: self.origin(), target };
+        let payload = Programmed { origin: self.origin(), target, end };
         let mut out = Vec::new();
         let result = followed.compensator.line(to, line, payload, |offset| out.push(offset));
-        self.finish_compensated(compensation, out, result, target, state)
+        self.finish_compensated(compensation, out, result, payload, state)
     }
 
     /// An arc under compensation.
@@ -323,9 +336,17 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     ) -> Step {
         let Some(mut compensation) = state.compensation.take_followed() else { return Ok(()) };
         let followed = Rc::make_mut(&mut compensation);
-        let to = planar(&target, followed.plane);
-        let (first, second) = arc.centre();
-        let payload = Programmed { origin: self.origin(), target };
+        if !state.transform.keeps_circles(followed.plane) {
+            // Of an ellipse the path beside it is not known.
+            state.points.position = target;
+            state.points.actual = Position::UNKNOWN;
+            state.compensation.on = Perhaps::Yes(Course::Unknown);
+            return Ok(());
+        }
+        let end = self.transformed(&target, state);
+        let to = planar(&end, followed.plane);
+        let ((first, second), turns) = self.arc_of_axes(followed.plane, arc.centre(), turns, state);
+        let payload = Programmed { origin: self.origin(), target, end };
         let mut out = Vec::new();
         let result = followed.compensator.arc(
             to,
@@ -335,7 +356,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             payload,
             |offset| out.push(offset),
         );
-        self.finish_compensated(compensation, out, result, target, state)
+        self.finish_compensated(compensation, out, result, payload, state)
     }
 
     fn finish_compensated(
@@ -343,7 +364,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         mut compensation: Rc<Compensation>,
         out: Vec<Offset>,
         result: Result<(), CompensationError>,
-        target: Position,
+        Programmed { target, end, .. }: Programmed,
         state: &mut State<D>,
     ) -> Step {
         let followed = Rc::make_mut(&mut compensation);
@@ -354,7 +375,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             state.compensation.on = Perhaps::Yes(Course::Unknown);
             return if error == CompensationError::NotUsable { Ok(()) } else { Err(fault(&error)) };
         }
-        let actual = above(&target, followed.compensator.position(), followed.plane);
+        let actual = above(&end, followed.compensator.position(), followed.plane);
         let actual = state.wrapped().turned(actual);
         state.points.actual = actual;
         state.compensation.follow_path(compensation);
@@ -366,11 +387,11 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             match offset {
                 OffsetEvent::Passed((origin, event)) => self.observer.event(origin, state, &event),
                 OffsetEvent::Programmed { segment, payload } => {
-                    self.segment(compensation, &segment, &payload, payload.target, false, state);
+                    self.segment(compensation, &segment, &payload, payload.end, false, state);
                 }
                 OffsetEvent::Inserted { segment, before, after } => {
                     let _ = before;
-                    let others = after.target;
+                    let others = after.end;
                     self.segment(compensation, &segment, &after, others, true, state);
                 }
             }

@@ -61,6 +61,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if rules.needs_axis && !has_words && !names_code {
             return if self.refuses_incomplete() { Err(Fault::NoAxisWords) } else { Ok(()) };
         }
+        if names_code && !has_point && rules.needs_axis && self.waits_for_point() {
+            return Ok(());
+        }
         let runs_here = names_code && self.runs_without_point();
         if !(rules.needs_axis || has_point || runs_here) {
             return Ok(());
@@ -75,6 +78,12 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             Some(_) => self.setting("28").is_none_or(|value| value == "on" || value == "true"),
             None => true,
         }
+    }
+
+    /// Is the setting told that a first block without a point makes no hole?
+    fn waits_for_point(&self) -> bool {
+        let told = self.machine.settings.get("28").filter(|_| self.model.control().setting("28").is_some());
+        told.is_some_and(|value| value == "off" || value == "false")
     }
 
     /// What cycles need of the state, on controls that refuse them without.
@@ -271,7 +280,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     }
 
     fn holes(&mut self, effect: Effect, plane: Plane, repeats: u32, state: &mut State<D>) -> Step {
-        let ([first, second, _], _) = plane_axes(plane);
+        let ([first, second, depth], _) = plane_axes(plane);
         let incremental = state.is_incremental(self.model);
         let target = self.target(state)?;
         let present = self.words.present();
@@ -285,6 +294,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 _ => (here, 0.0),
             }
         };
+        if repeats == 0 && self.model.semantics().cycles.zero_repeats_move {
+            return self.pass_hole(target, depth, state);
+        }
         let ((first_start, along), (second_start, across)) = (way(first), way(second));
         let start = (first_start, second_start);
         let most = repeats.min(crate::cycles::MAX_STROKES);
@@ -347,6 +359,15 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         holes
     }
 
+    /// `L0`: to the place of a hole that is not made.
+    fn pass_hole(&mut self, target: Position, depth: Axis, state: &mut State<D>) -> Step {
+        let mut to = target;
+        to.set(depth, state.position().raw(depth));
+        let moves =
+            Axis::ALL.into_iter().any(|axis| to.raw(axis).to_bits() != state.position().raw(axis).to_bits());
+        if moves { self.travel(TravelKind::Rapid, to, true, state) } else { Ok(()) }
+    }
+
     /// Holes at increments of a polar angle: each is turned about the origin as the first one is from where the tool stands.
     fn holes_around(
         &mut self,
@@ -402,6 +423,13 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let (clearance, above_r) = self.settings_of_pecks(effect, state);
         let shift = [words.word('I', i), words.word('J', j), words.word('K', k)].map(|word| word.map(Mm));
         let (peck, ijk) = self.shift_of_bore(effect, words.word('Q', words.q).map(Mm), shift);
+        // Pecks and shifts keep their size under scaling, which comes over the strokes.
+        let unscaled = |length: Mm| Mm(length.0 / state.transform.common_factor());
+        let (peck, ijk) = if state.transform.is_off() {
+            (peck, ijk)
+        } else {
+            (peck.map(unscaled), ijk.map(|word| word.map(unscaled)))
+        };
         Hole {
             plane: Plane::Xy,
             at: (Mm::ZERO, Mm::ZERO),

@@ -275,7 +275,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             }
             return self.lose_everything(state);
         };
-        let arguments = self.arguments(words);
+        let arguments = self.arguments(words, state);
         let Some(target) = self.program.find_number(number, self.origin.at.file) else {
             if is_modal {
                 self.assumptions.insert(Assumption::MissingProgram(number));
@@ -301,11 +301,16 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     }
 
     /// The argument words as local variables. Repeated `I`, `J`, `K` go to the next three.
-    fn arguments(&mut self, words: &[Word]) -> Vec<(u32, D::Value)> {
+    fn arguments(&mut self, words: &[Word], state: &State<D>) -> Vec<(u32, D::Value)> {
         let mut arguments: Vec<(u32, D::Value)> = Vec::new();
         let mut seen = [0_u32; 3];
         let several = "IJK".chars().any(|l| words.iter().filter(|w| w.letter == Letter::of(l)).count() > 1);
+        let whole = self.model.semantics().whole_arguments.as_deref();
+        let units = self.units_of_block(words, state);
         for word in words {
+            if word.code.is_some() {
+                continue;
+            }
             let Some((_, first)) =
                 self.model.argument_letters.iter().find(|(letter, _)| *letter == word.letter)
             else {
@@ -319,9 +324,16 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 number = 4 + turn as u32 + 3 * *count;
                 *count += 1;
             }
-            let value = match word.value {
+            let value = match (word.value, whole) {
+                (Value::Number(literal), Some(whole)) if word.shape.digits() > 0 => {
+                    D::number(if word.shape.point {
+                        literal
+                    } else {
+                        self.unpointed_argument(word.letter, literal, whole, units)
+                    })
+                }
                 // The value that the block's words hold is scaled; of a repeated address only the last is there.
-                Value::Number(literal) if several => D::number(literal),
+                (Value::Number(literal), _) if several => D::number(literal),
                 _ => self.words.get(word.letter).unwrap_or_else(D::vacant),
             };
             arguments.push((number, value));

@@ -251,7 +251,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             }
             E::GeneralPocket => self.general_pocket(state)?,
             E::BoltCircle | E::BoltArc | E::BoltLine => self.bolt_pattern(effect, state)?,
-            E::Engrave => self.opaque_operation(ix, state),
+            E::Engrave => self.engrave(ix, state)?,
             E::BarFeed => self.bar_feed(ix, words, state)?,
             E::NurbsClose => self.nurbs_close(state)?,
 
@@ -296,6 +296,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             }
             E::RestoreModes => self.restore_modes(state)?,
             E::UserCommand => self.user_command(ix, state),
+            E::AskOperator => self.ask_operator(state)?,
 
             E::SpindleClockwise => self.spindle(Spindle::Clockwise, state)?,
             E::SpindleCounterClockwise => self.spindle(Spindle::CounterClockwise, state)?,
@@ -344,7 +345,6 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             }
             E::AnalogOutput | E::AnalogOutputWithMove => self.analog_output(effect, state)?,
             E::WaitForInput => self.wait_for_input(state)?,
-            E::AskOperator => self.ask_operator(state)?,
             E::ChuckClamp => self.chuck(true, state),
             E::ChuckUnclamp => self.chuck(false, state),
             // Modes that only later blocks read, and interpolation, which happens with the block's axis words.
@@ -531,6 +531,16 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let p = self.words.number(Letter::of('P')).unwrap_or(0.0);
         let q = self.words.number(Letter::of('Q')).unwrap_or(0.0);
         self.emit(state, Event::UserCommand { number, p, q });
+    }
+
+    /// What the operator answers is not known.
+    fn ask_operator(&mut self, state: &mut State<D>) -> Step {
+        match self.count(Letter::of('P'))? {
+            Some(Count::Known(number)) => self.write_plain(number, D::unknown(), state),
+            Some(Count::Unknown) => state.variables.forget(),
+            None => {}
+        }
+        Ok(())
     }
 
     /// Both shifts together, as one on controls where they are one.

@@ -9,6 +9,7 @@ use gcheck_controls::{CodeIx, Effect, Letter, LetterSet};
 use gcheck_geometry::{Bezier, Mm};
 use nalgebra::Point2;
 
+use super::arc::plane_axes;
 use super::{Executor, Step};
 use crate::assumption::{Assumption, Unsettled};
 use crate::event::{Curve, CurvePiece, Event, FeedMode, Spindle, Travel, TravelKind};
@@ -355,6 +356,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             }
             return self.compensated_line(kind, target, state);
         }
+        if self.stays_beside(&target, state) {
+            self.beside_left_path(kind, target, expanded, state);
+            return Ok(());
+        }
         if !state.compensation.left.is_no() {
             self.leave_compensation(false, state)?;
         }
@@ -369,6 +374,30 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         self.travel_to(kind, &target, &to, expanded, state);
         state.points.position = target;
         Ok(())
+    }
+
+    /// Is the path of a compensation that was switched off still to be left: by a move in its plane?
+    fn stays_beside(&self, target: &Position, state: &State<D>) -> bool {
+        let Perhaps::Yes(left) = &state.compensation.left else { return false };
+        let ([first, second, _], _) = plane_axes(left.plane);
+        let stays = |axis: Axis| {
+            let named = self.model.letters_of(axis).any(|letter| self.words.has(letter));
+            !named && target.raw(axis).to_bits() == state.position().raw(axis).to_bits()
+        };
+        !self.refuses_incomplete() && stays(first) && stays(second)
+    }
+
+    /// A move beside a path that was compensated: the axes of its plane stand still.
+    fn beside_left_path(&mut self, kind: TravelKind, target: Position, expanded: bool, state: &mut State<D>) {
+        let mut to = self.axes_of(&target, state);
+        if let Perhaps::Yes(left) = &state.compensation.left {
+            let ([first, second, _], _) = plane_axes(left.plane);
+            for axis in [first, second] {
+                to.set(axis, state.actual().raw(axis));
+            }
+        }
+        self.travel_to(kind, &target, &to, expanded, state);
+        state.points.position = target;
     }
 
     /// Do the axes go where the program says, without compensation or mapping in between?

@@ -122,7 +122,12 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                     }
                 }
             };
-            state.offsets.shift.set(*axis, base + position.raw(*axis) - value);
+            // `G52` of the axis is over: what it moved is in the new shift.
+            let local = if self.shifts_are_one() { 0.0 } else { state.offsets.local.raw(*axis) };
+            if local != 0.0 {
+                state.offsets.local.set(*axis, 0.0);
+            }
+            state.offsets.shift.set(*axis, base + local + position.raw(*axis) - value);
             state.points.actual.set(*axis, *value);
             state.points.position.set(*axis, *value);
         }
@@ -271,7 +276,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     pub(super) fn loaded_length(&mut self, sign: f64, state: &mut State<D>) {
         let number = state.tool().clone();
         state.tool.h = number;
-        let mut length = state.tool.loaded.data.offset;
+        let mut length = state.tool.loaded.data.length();
         for axis in Axis::ALL {
             length.set(axis, sign * length.raw(axis));
         }
@@ -302,11 +307,18 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             return Ok(());
         }
         let length = match state.tables().tool(number) {
-            Some(tool) => tool.offset,
+            Some(tool) => tool.length(),
             None if number == 0 => Position::ZERO,
             None if state.tables().is_complete() => return Err(Fault::NoSuchTool(number)),
             None => self.unknown_length(state),
         };
+        // Of an entry of which nothing is known but its size, too: only along Z on mills.
+        let mut length = length;
+        for axis in Axis::ALL {
+            if length.raw(axis).is_nan() && !self.unknown_length(state).raw(axis).is_nan() {
+                length.set(axis, 0.0);
+            }
+        }
         if !length.is_known() {
             self.assumptions.insert(Assumption::ToolLength(number));
         }
@@ -327,7 +339,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         }
         let added = match self.count(Letter::of('H'))? {
             Some(Count::Known(number)) => match state.tables().tool(number) {
-                Some(tool) => tool.offset,
+                Some(tool) => tool.length(),
                 None if state.tables().is_complete() => return Err(Fault::NoSuchTool(number)),
                 None => self.unknown_length(state),
             },
@@ -470,7 +482,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let system = match number {
             Some(Count::Known(0)) if self.refuses_incomplete() => state.work(),
             // P0 is the shift of all systems on other controls.
-            Some(Count::Known(0)) => return Ok(()),
+            Some(Count::Known(0)) => {
+                self.write_shift_of_all(state);
+                return Ok(());
+            }
             Some(Count::Known(p)) => match u16::try_from(p) {
                 Ok(p) if p <= 9 || !self.refuses_incomplete() => Some(p),
                 _ => return Err(Fault::WordRange(Letter::of('P'))),
@@ -489,6 +504,29 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         }
         self.write_work_system(system, here, state);
         Ok(())
+    }
+
+    /// `G10 L2 P0`: the shift of `G52`, where the control keeps it apart.
+    fn write_shift_of_all(&mut self, state: &mut State<D>) {
+        if self.shifts_are_one() {
+            return;
+        }
+        let incremental = state.is_incremental(self.model);
+        for (axis, value) in self.named(state) {
+            let value = match incremental {
+                Some(true) => state.offsets.local.raw(axis) + value,
+                Some(false) => value,
+                None => f64::NAN,
+            };
+            self.set_local_shift(axis, value, state);
+        }
+    }
+
+    /// The shift of `G52` along an axis, millimetres or degrees.
+    pub(super) fn set_local_shift(&mut self, axis: Axis, value: f64, state: &mut State<D>) {
+        self.reframe(state, |state| state.offsets.local.set(axis, value));
+        let shift = state.shift();
+        self.emit(state, Event::Shift(shift));
     }
 
     /// Writes a work coordinate system: its origin, or so that the present position reads as programmed.
@@ -614,7 +652,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     /// A tool's entry was written: it is that of the tool in the spindle, too, where that was loaded from it.
     fn announce_tool(&mut self, number: u32, written: &ToolData, state: &mut State<D>) {
-        let ToolData { offset, diameter, corner_radius: _, angles, orientation } = *written;
+        let ToolData { angles, orientation, .. } = *written;
+        let (offset, diameter) = (written.length(), written.size());
         let entry = ToolEntry {
             pocket: state.tables().row_of(number),
             tool: number,
@@ -660,9 +699,15 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 let base = if incremental { tool.diameter.0 } else { 0.0 };
                 tool.diameter = Mm(base + if is_diameter { value } else { 2.0 * value });
             }
-            // Wear adds to a value that it does not replace, and its old value is not known.
-            1 | 11 => tool.offset.set(Axis::Z, f64::NAN),
-            _ => tool.diameter = Mm::UNKNOWN,
+            1 | 11 => {
+                let [wear, _] = &mut tool.wear;
+                *wear = value + if incremental { *wear } else { 0.0 };
+            }
+            _ => {
+                let [_, wear] = &mut tool.wear;
+                let value = if is_diameter { value } else { 2.0 * value };
+                *wear = value + if incremental { *wear } else { 0.0 };
+            }
         }
         Ok(())
     }

@@ -227,7 +227,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         }
         #[expect(clippy::cast_sign_loss, reason = "an offset number is a count")]
         let number = number as u32;
-        let radius = state.tables().tool(number).map_or(f64::NAN, |tool| tool.diameter.0 / 2.0);
+        let radius = state.tables().tool(number).map_or(f64::NAN, |tool| tool.size().0 / 2.0);
         if radius.is_nan() {
             self.assumptions.insert(Assumption::ToolRadius(number));
         }
@@ -239,6 +239,38 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         state.points.position = *target;
         state.points.position.set(Axis::Z, f64::NAN);
         state.points.actual = self.axes_of(state.position(), state);
+    }
+
+    // ---- engraving ----
+
+    /// `G47`: at rapid to the text, down to `Z` at feed `E`, along letters whose shape is the control's own, up to `R`.
+    pub(super) fn engrave(&mut self, ix: CodeIx, state: &mut State<D>) -> Step {
+        self.assumptions.insert(Assumption::Code(ix));
+        let target = self.target(state)?;
+        let checked = self.held(self.check_feed(state))?;
+        let mut at = target;
+        at.set(Axis::Z, state.position().raw(Axis::Z));
+        self.travel(TravelKind::Rapid, at, true, state)?;
+        let cutting = state.feed().clone();
+        if let Some(plunge) = self.length(Letter::of('E'), state) {
+            state.feed.rate = D::number(plunge);
+        }
+        let depth = if self.words.has(Letter::of('Z')) { target.raw(Axis::Z) } else { f64::NAN };
+        at.set(Axis::Z, depth);
+        self.travel(TravelKind::Feed, at, true, state)?;
+        state.feed.rate = cutting;
+        // Under increments what `R` counts from is in no page.
+        let absolute = state.is_incremental(self.model) == Some(false);
+        let level = self.length(Letter::of('R'), state).filter(|_| absolute).unwrap_or(f64::NAN);
+        let mut end = Position::UNKNOWN;
+        for axis in Axis::ALL.into_iter().filter(|axis| !matches!(axis, Axis::X | Axis::Y)) {
+            end.set(axis, state.position().raw(axis));
+        }
+        // Along the text nobody knows where.
+        self.travel(TravelKind::Feed, end, true, state)?;
+        end.set(Axis::Z, level);
+        self.travel(TravelKind::Rapid, end, true, state)?;
+        checked
     }
 
     // ---- patterns ----

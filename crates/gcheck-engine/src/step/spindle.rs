@@ -11,7 +11,7 @@ use crate::fault::Fault;
 use crate::lattice::{Flat, Perhaps};
 use crate::model::Role;
 use crate::observer::Observer;
-use crate::position::Position;
+use crate::position::{Axis, Position};
 use crate::state::{Loaded, State, ToolData};
 use crate::value::{Domain, Truth};
 
@@ -210,6 +210,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             return Err(Fault::NoToolSelected);
         }
         self.emit(state, Event::StartChange);
+        self.go_to_change(state);
         if rules.change_stops_spindle {
             self.spindle(Spindle::Stopped, state)?;
         }
@@ -231,6 +232,21 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             self.cancel_length(state);
         }
         Ok(())
+    }
+
+    /// The axis that a change takes to the machine's zero is there from now on.
+    fn go_to_change(&self, state: &mut State<D>) {
+        let Some(axis) =
+            self.model.semantics().tools.change_at_zero.and_then(|letter| Axis::of(Letter::of(letter)))
+        else {
+            return;
+        };
+        let mut machine = state.machine(self.model);
+        machine.set(axis, 0.0);
+        let at = state.from_machine(&machine, self.model).raw(axis);
+        state.points.actual.set(axis, at);
+        let programmed = self.programmed_of(state.actual(), state);
+        state.points.position.set(axis, programmed.raw(axis));
     }
 
     fn put_tool(&mut self, number: Option<u32>, state: &mut State<D>) {
@@ -320,26 +336,6 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             return Err(Fault::WordRange(Letter::of('Q')));
         }
         self.emit(state, Event::WaitInput { index, analog, what, timeout: Seconds(timeout) });
-        Ok(())
-    }
-
-    /// `M109`: what the operator answers is not known.
-    pub(super) fn ask_operator(&mut self, state: &mut State<D>) -> Step {
-        let number = match self.count(Letter::of('P'))? {
-            Some(Count::Known(number)) => number,
-            Some(Count::Unknown) => {
-                state.variables.forget();
-                return Ok(());
-            }
-            None => return Ok(()),
-        };
-        state.variables.set(number, D::unknown());
-        if let Some([first, last, by]) = self.model.semantics().twin_variables {
-            let twin = if (first..=last).contains(&number) { number + by } else { number.saturating_sub(by) };
-            if (first..=last).contains(&number) || (first..=last).contains(&twin) {
-                state.variables.set(twin, D::unknown());
-            }
-        }
         Ok(())
     }
 

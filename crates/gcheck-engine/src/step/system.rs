@@ -59,6 +59,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             }
             V::WorkRotation => number(state.tables().offset((row + 1) as u16).rotation),
             V::Shift => machine_units(&state.offsets.shift),
+            V::LocalShift => machine_units(&state.offsets.local),
             V::ShiftActive => truth(state.offsets.shift_on),
             V::WorkOffsetNumber => state.work().map_or_else(D::unknown, |n| {
                 if variable.name.is_some() { self.work_code(n) } else { D::number(f64::from(n)) }
@@ -67,7 +68,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             V::Reference2 => machine_units(&state.tables().references[1]),
             V::ToolNumber => state.tool().clone(),
             V::SelectedTool => state.selected().clone(),
-            V::ToolLength | V::ToolDiameter | V::ToolRadius => {
+            V::ToolLength | V::ToolDiameter | V::ToolRadius | V::ToolLengthWear | V::ToolDiameterWear => {
                 let tool = match &variable.of {
                     // A table by tool number.
                     Some(first) => Some(first.parse::<u32>().unwrap_or(1) + column),
@@ -86,6 +87,16 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                         _ => number(self.in_table_units(Axis::Z, entry.offset.raw(Axis::Z), state)),
                     },
                     V::ToolDiameter => number(self.in_table_units(Axis::X, entry.diameter.0, state)),
+                    V::ToolLengthWear | V::ToolDiameterWear => {
+                        let [length, diameter] = entry.wear;
+                        let wear = if variable.holds == V::ToolLengthWear { length } else { diameter };
+                        // What nobody wrote may be any wear.
+                        if wear == 0.0 {
+                            D::unknown()
+                        } else {
+                            number(self.in_table_units(Axis::Z, wear, state))
+                        }
+                    }
                     _ => number(self.in_table_units(Axis::X, entry.diameter.0 / 2.0, state)),
                 }
             }
@@ -262,23 +273,12 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                     }
                 }
             }
-            SystemValue::ToolLength | SystemValue::ToolDiameter | SystemValue::ToolRadius => {
-                let Some(first) = &variable.of else { return Err(Fault::ReadOnlyVariable(number)) };
-                let tool = first.parse::<u32>().unwrap_or(1) + column;
-                let value = self.millimetres_of_table(Axis::Z, known.unwrap_or(f64::NAN), state);
-                let entry = state.offsets.tables_mut().tool_mut(tool);
-                match variable.holds {
-                    SystemValue::ToolLength => {
-                        entry.offset.set(Axis::Z, value);
-                        for axis in [Axis::X, Axis::Y] {
-                            if entry.offset.raw(axis).is_nan() {
-                                entry.offset.set(axis, 0.0);
-                            }
-                        }
-                    }
-                    SystemValue::ToolDiameter => entry.diameter = gcheck_geometry::Mm(value),
-                    _ => entry.diameter = gcheck_geometry::Mm(value * 2.0),
-                }
+            SystemValue::ToolLength
+            | SystemValue::ToolDiameter
+            | SystemValue::ToolRadius
+            | SystemValue::ToolLengthWear
+            | SystemValue::ToolDiameterWear => {
+                self.write_tool_value(number, variable, column, known.unwrap_or(f64::NAN), state)?;
             }
             SystemValue::Shift => {
                 if let Some(axis) = axis {
@@ -286,9 +286,45 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                     state.offsets.shift.set(axis, value);
                 }
             }
+            SystemValue::LocalShift => {
+                if let Some(axis) = axis {
+                    let value = self.millimetres_of_table(axis, known.unwrap_or(f64::NAN), state);
+                    self.set_local_shift(axis, value, state);
+                }
+            }
             _ => self.write_plain(number, value, state),
         }
         Ok(None)
+    }
+
+    /// Writes a tool's length or size, or the wear of one.
+    fn write_tool_value(
+        &mut self,
+        number: u32,
+        variable: &SystemVariable,
+        column: u32,
+        value: f64,
+        state: &mut State<D>,
+    ) -> Step {
+        let Some(first) = &variable.of else { return Err(Fault::ReadOnlyVariable(number)) };
+        let tool = first.parse::<u32>().unwrap_or(1) + column;
+        let value = self.millimetres_of_table(Axis::Z, value, state);
+        let entry = state.offsets.tables_mut().tool_mut(tool);
+        match variable.holds {
+            SystemValue::ToolLength => {
+                entry.offset.set(Axis::Z, value);
+                for axis in [Axis::X, Axis::Y] {
+                    if entry.offset.raw(axis).is_nan() {
+                        entry.offset.set(axis, 0.0);
+                    }
+                }
+            }
+            SystemValue::ToolDiameter => entry.diameter = gcheck_geometry::Mm(value),
+            SystemValue::ToolLengthWear => entry.wear[0] = value,
+            SystemValue::ToolDiameterWear => entry.wear[1] = value,
+            _ => entry.diameter = gcheck_geometry::Mm(value * 2.0),
+        }
+        Ok(())
     }
 
     pub(super) fn millimetres_of_table(&self, axis: Axis, value: f64, state: &State<D>) -> f64 {

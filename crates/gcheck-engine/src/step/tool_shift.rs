@@ -75,7 +75,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     fn length_of_tool(&mut self, number: u32, state: &State<D>) -> Step<f64> {
         let length = match state.tables().tool(number) {
-            Some(tool) => tool.offset.raw(Axis::Z),
+            Some(tool) => tool.length().raw(Axis::Z),
             None if state.tables().is_complete() => return Err(Fault::NoSuchTool(number)),
             None => f64::NAN,
         };

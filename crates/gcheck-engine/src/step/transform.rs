@@ -8,7 +8,7 @@ use gcheck_geometry::{Mm, Plane};
 use super::arc::plane_axes;
 use super::tool_shift::shifted;
 use super::{Executor, Step};
-use crate::lattice::Perhaps;
+use crate::lattice::{Lattice, Perhaps};
 use crate::observer::Observer;
 use crate::position::{Axis, Position};
 use crate::state::State;
@@ -17,14 +17,14 @@ use crate::value::Domain;
 /// X, Y and Z, in the order of the arrays of [`Transform`].
 const XYZ: [Axis; 3] = [Axis::X, Axis::Y, Axis::Z];
 
-#[expect(clippy::unnecessary_wraps, reason = "handlers of effects share one signature")]
 #[expect(clippy::unused_self, reason = "the parts of a step read as its methods")]
 impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// `G50`, `G51`, `G68`, `G69`, mirrors.
     pub(super) fn transform_code(&mut self, effect: Effect, state: &mut State<D>) -> Step {
         let unit = self.unit(state);
         let mut transform = state.transform;
-        let word = |letter: char| self.words.number(Letter::of(letter));
+        let words = self.words.clone();
+        let word = |letter: char| words.number(Letter::of(letter));
         let position = *state.position();
         let centre = XYZ.map(|axis| word(axis.name()).map_or(position.raw(axis), |value| value * unit));
         match effect {
@@ -35,8 +35,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                     None if "IJK".chars().any(|l| word(l).is_some()) => {
                         ['I', 'J', 'K'].map(|l| word(l).map_or(1.0, |value| self.factor(l, value)))
                     }
-                    // A setting decides.
-                    None => [f64::NAN; 3],
+                    None => self.factors_of_settings(),
                 };
                 transform = transform.scaled(factors, centre);
             }
@@ -45,7 +44,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 let plane = state.plane(self.model);
                 // Double turrets mirror with the same code on lathes.
                 let turns = plane.is_some() && state.is_diameter(self.model) != Some(true);
-                let angle = word('R').filter(|_| turns).unwrap_or(f64::NAN);
+                let angle =
+                    word('R').or_else(|| self.angle_of_setting()).filter(|_| turns).unwrap_or(f64::NAN);
                 transform = transform.rotated(angle, centre, plane.unwrap_or(Plane::Xy));
             }
             Effect::MirrorOff => {
@@ -65,10 +65,41 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             }
             _ => {}
         }
+        if state.compensation.is_followed() && !transform.same(&state.transform) {
+            // How the path beside the programmed one goes over to the turned or scaled one is in no page.
+            self.flush_compensation(state)?;
+            state.compensation.lose_path();
+        }
         state.transform = transform;
         let programmed = self.programmed_of(state.actual(), state);
         state.points.position = programmed;
         Ok(())
+    }
+
+    /// The factors of scaling without one in its block: a setting decides.
+    fn factors_of_settings(&mut self) -> [f64; 3] {
+        let settings = &self.model.semantics().transform_settings;
+        let Some(number) = &settings.factor else { return [f64::NAN; 3] };
+        let factor = self.number_of_setting(number);
+        if factor != 0.0 {
+            return [factor; 3];
+        }
+        let mut factors = [f64::NAN; 3];
+        for (factor, number) in factors.iter_mut().zip(&settings.by_axis) {
+            *factor = self.number_of_setting(number);
+        }
+        factors
+    }
+
+    /// The angle of rotation without one in its block.
+    fn angle_of_setting(&mut self) -> Option<f64> {
+        let number = self.model.semantics().transform_settings.angle.as_ref()?;
+        Some(self.number_of_setting(number))
+    }
+
+    /// The number that a setting holds, NaN where it is not known.
+    fn number_of_setting(&mut self, number: &str) -> f64 {
+        self.setting(number).and_then(|value| value.parse().ok()).unwrap_or(f64::NAN)
     }
 
     /// A scaling factor: without a point it counts thousandths on controls that scale such numbers.

@@ -38,7 +38,7 @@ pub(crate) fn cutter_radius(cx: &PathCx<'_>) -> Option<f64> {
     let number = Abstract::known(cx.state().tool()).filter(|n| (1.0..1e6).contains(n))?;
     #[expect(clippy::cast_sign_loss, reason = "range checked above")]
     let tool = cx.state().tables().tool(number as u32)?;
-    Some(tool.diameter.0 / 2.0).filter(|radius| *radius > 0.0)
+    Some(tool.size().0 / 2.0).filter(|radius| *radius > 0.0)
 }
 
 /// What was cut so far, as far as it is known throughout.

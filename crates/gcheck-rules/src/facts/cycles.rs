@@ -16,6 +16,11 @@ pub(crate) fn cycle_range(cx: &PathCx<'_>) -> Range<u32> {
     cx.effect_range(|effect| is_cycle(effect) || is_operation(effect))
 }
 
+/// Does the code mill a round pocket in its block?
+pub(crate) fn is_round_pocket(effect: Effect) -> bool {
+    matches!(effect, Effect::CircularPocketClockwise | Effect::CircularPocketCounterClockwise)
+}
+
 /// Is it a canned cycle that stays on?
 pub(crate) fn is_cycle(effect: Effect) -> bool {
     Role::of(effect) == Some(Role::Cycle) && effect != Effect::CycleCancel

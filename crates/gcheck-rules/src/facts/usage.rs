@@ -86,6 +86,8 @@ pub(crate) fn is_assumed(value: SystemValue) -> bool {
             | V::ToolLength
             | V::ToolDiameter
             | V::ToolRadius
+            | V::ToolLengthWear
+            | V::ToolDiameterWear
             | V::CallLevel
             | V::Alarm
             | V::StopWithMessage

@@ -59,6 +59,7 @@ pub(crate) mod cycles {
     pub(crate) mod cycle_word_not_positive;
     pub(crate) mod cycle_words_lost;
     pub(crate) mod maybe_cycle_left_on;
+    pub(crate) mod pattern_without_cycle;
     pub(crate) mod pocket_on_wrong_side;
     pub(crate) mod pocket_outline_open;
     pub(crate) mod pocket_outline_too_long;
@@ -125,6 +126,7 @@ pub(crate) mod machine {
     pub(crate) mod pocket_step_above_tool;
     pub(crate) mod speed_above_machine_limit;
     pub(crate) mod tool_not_in_table;
+    pub(crate) mod units_against_setting;
     pub(crate) mod work_offset_not_listed;
 }
 
@@ -218,6 +220,7 @@ pub(crate) mod motion {
     pub(crate) mod rapid_plunge;
     pub(crate) mod rapid_sideways_and_down;
     pub(crate) mod rapid_with_feed;
+    pub(crate) mod reference_point_never_set;
     pub(crate) mod reference_return_through_point;
     pub(crate) mod thread_without_lead;
     pub(crate) mod tool_down_at_end;
@@ -228,7 +231,9 @@ pub(crate) mod offsets {
     pub(crate) mod plane_changed_under_rotation;
     pub(crate) mod polar_coordinates_left_on;
     pub(crate) mod rotation_left_on;
+    pub(crate) mod rotation_under_compensation;
     pub(crate) mod scaling_left_on;
+    pub(crate) mod scaling_under_rotation;
     pub(crate) mod shift_left_on;
     pub(crate) mod tool_tilt_left_on;
     pub(crate) mod work_offset_never_chosen;
@@ -346,6 +351,7 @@ pub(crate) mod syntax {
 pub(crate) mod tool {
     pub(crate) mod coolant_forgotten;
     pub(crate) mod length_cancelled_before_cut;
+    pub(crate) mod length_cancelled_before_move;
     pub(crate) mod length_offset_of_another_tool;
     pub(crate) mod length_offset_zero;
     pub(crate) mod length_subtracted;
@@ -444,6 +450,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &cycles::cycle_word_not_positive::RULE,
     &cycles::cycle_words_lost::RULE,
     &cycles::maybe_cycle_left_on::RULE,
+    &cycles::pattern_without_cycle::RULE,
     &cycles::pocket_on_wrong_side::RULE,
     &cycles::pocket_outline_open::RULE,
     &cycles::pocket_outline_too_long::RULE,
@@ -501,6 +508,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &machine::pocket_step_above_tool::RULE,
     &machine::speed_above_machine_limit::RULE,
     &machine::tool_not_in_table::RULE,
+    &machine::units_against_setting::RULE,
     &machine::work_offset_not_listed::RULE,
     &macros::assignment_to_read_only_variable::RULE,
     &macros::common_variable_never_set::RULE,
@@ -582,6 +590,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &motion::rapid_plunge::RULE,
     &motion::rapid_sideways_and_down::RULE,
     &motion::rapid_with_feed::RULE,
+    &motion::reference_point_never_set::RULE,
     &motion::reference_return_through_point::RULE,
     &motion::thread_without_lead::RULE,
     &motion::tool_down_at_end::RULE,
@@ -589,7 +598,9 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &offsets::plane_changed_under_rotation::RULE,
     &offsets::polar_coordinates_left_on::RULE,
     &offsets::rotation_left_on::RULE,
+    &offsets::rotation_under_compensation::RULE,
     &offsets::scaling_left_on::RULE,
+    &offsets::scaling_under_rotation::RULE,
     &offsets::shift_left_on::RULE,
     &offsets::tool_tilt_left_on::RULE,
     &offsets::work_offset_never_chosen::RULE,
@@ -686,6 +697,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &syntax::zero_for_letter_o::RULE,
     &tool::coolant_forgotten::RULE,
     &tool::length_cancelled_before_cut::RULE,
+    &tool::length_cancelled_before_move::RULE,
     &tool::length_offset_of_another_tool::RULE,
     &tool::length_offset_zero::RULE,
     &tool::length_subtracted::RULE,

@@ -119,8 +119,7 @@ const EXAMPLES: &[Example] = &[
         config: &[],
         expected: Expected {
             findings: &[],
-            shows: &[],
-            not_yet: &[Shows::Run(&[
+            shows: &[Shows::Run(&[
                 "feed 2.0000 -0.5000 -2.0000",
                 "rapid 2.0000 -0.5000 0.1000",
                 "feed 4.0000 -0.5000 -2.0000",
@@ -135,6 +134,7 @@ const EXAMPLES: &[Example] = &[
                 "feed 0.5000 -4.0000 -2.0000",
                 "feed 0.5000 -2.0000 -2.0000",
             ])],
+            not_yet: &[],
         },
     },
     Example {

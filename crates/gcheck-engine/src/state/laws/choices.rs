@@ -98,10 +98,11 @@ made! {
         points.passed = c.make();
         points
     };
-    ToolData, 14, c => ToolData {
+    ToolData, 16, c => ToolData {
         offset: c.make(),
         diameter: Mm(c.make()),
         corner_radius: Mm(c.make()),
+        wear: [c.make(), c.make()],
         angles: [c.make(), c.make()],
         orientation: c.make(),
     };
@@ -136,7 +137,7 @@ made! {
             tool_table_is_complete: c.make(),
             ..Machine::default()
         };
-        let mut tables = Tables::of(&machine);
+        let mut tables = Tables::of(&machine, false);
         if c.below(4) == 3 {
             tables.forget_offsets(c.make());
         }
@@ -167,7 +168,7 @@ made! {
         offsets
     };
     ToolState<Abstract>, 45, c => {
-        let mut tool = ToolState::<Abstract>::at_start(c.make(), &Tables::of(&Machine::default()));
+        let mut tool = ToolState::<Abstract>::at_start(c.make(), &Tables::of(&Machine::default(), false));
         tool.number = c.make();
         tool.selected = c.make();
         tool.loaded = c.make();
@@ -443,8 +444,8 @@ fn compensation(c: &mut Choices<'_>) -> Compensation {
     assert!(started.is_ok());
     let to = c.one_of(&[10.0, 20.0]);
     let target = Position::ZERO;
-    let moved =
-        compensator.line(PathPoint::new(to, 0.0, 0.0), LineKind::Feed, Programmed { origin, target }, |_| {});
+    let payload = Programmed { origin, target, end: target };
+    let moved = compensator.line(PathPoint::new(to, 0.0, 0.0), LineKind::Feed, payload, |_| {});
     assert!(moved.is_ok());
     compensator.pass((origin, Event::FeedReference), |_| {});
     Compensation { compensator, plane: Plane::Xy, at: Position::ZERO }

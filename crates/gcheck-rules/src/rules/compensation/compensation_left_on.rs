@@ -1,6 +1,6 @@
 //! Cutter compensation that is not switched off.
 
-use gcheck_controls::Effect;
+use gcheck_controls::{CompensationRefusals, Effect};
 use gcheck_engine::{At, Ending, Fact, Role};
 
 use crate::declare::declare_rule;
@@ -66,6 +66,8 @@ impl PathRule for CompensationLeftOn {
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
         if let Some(place) = boundary(cx) {
             self.judge(cx, place, report);
+        } else if cx.has_effect(is_stop) {
+            self.judge_stop(cx, report);
         }
     }
 
@@ -92,6 +94,12 @@ impl CompensationLeftOn {
             finding
                 .note("this control refuses a tool change under cutter compensation")
                 .at_most(limit(cx.model.semantics().confidence))
+        } else if place == Boundary::ProgramEnd
+            && let Some(refusals) = refused_at_end(cx)
+        {
+            finding
+                .note(format!("this control stops with an alarm  [{}]", refusals.source))
+                .at_most(limit(refusals.confidence))
         } else if place == Boundary::ProgramEnd && cx.end_resets(Role::Compensation) {
             finding
                 .note("the end of the program switches it off on this control; the retract was made beside the programmed path")
@@ -102,6 +110,47 @@ impl CompensationLeftOn {
         let finding = finding.fix_if(cx.block_before(cx.name_of_effect(Effect::CompensationOff).as_deref()));
         report.add(cx.resting_on(finding, Fact::Mode(Role::Compensation), &format!("`{name}`")));
     }
+}
+
+impl CompensationLeftOn {
+    /// A stop under compensation, where the control refuses it.
+    fn judge_stop(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
+        let Some(refusals) = refused_at_end(cx) else { return };
+        let Some(ActiveMode::Certain(code)) = left_on(cx, Role::Compensation, is_on) else { return };
+        let set_by = cx.trace().set_by(Fact::Mode(Role::Compensation));
+        if set_by.is_some() && set_by == self.told {
+            return;
+        }
+        self.told = set_by;
+        let name = cx.name_of(code);
+        let off = cx.name_of_effect(Effect::CompensationOff).unwrap_or_default();
+        let finding = cx
+            .finding(
+                &META,
+                cx.effect_range(is_stop),
+                format!("cutter compensation is still on at a stop of the program (`{name}`)"),
+            )
+            .label("the program stops with it")
+            .note(format!("this control stops with an alarm  [{}]", refusals.source))
+            .help(format!("leave the contour on a straight move with `{off}` before the stop"))
+            .at_most(limit(refusals.confidence));
+        // Only a switch of the panel makes it a stop.
+        let finding = if cx.has_effect(|effect| effect == Effect::OptionalStop) {
+            finding.at_most(Severity::Warning)
+        } else {
+            finding
+        };
+        report.add(cx.resting_on(finding, Fact::Mode(Role::Compensation), &format!("`{name}`")));
+    }
+}
+
+fn is_stop(effect: Effect) -> bool {
+    matches!(effect, Effect::Stop | Effect::OptionalStop)
+}
+
+/// What the manual says, where the control refuses an end of the program under compensation.
+fn refused_at_end<'a>(cx: &PathCx<'a>) -> Option<&'a CompensationRefusals> {
+    cx.model.semantics().compensation.refuses.as_ref().filter(|refusals| refusals.ends)
 }
 
 #[cfg(test)]
@@ -128,11 +177,33 @@ mod tests {
     fn an_end_that_resets_it_is_worth_knowing() {
         check_rule(
             &RULE,
+            "haas-lathe",
+            "G41 G1 X1. F.01\nZ-2.\nM30\n",
+            &expect![[r#"
+            3 | M30
+              | ^^^ info[compensation-left-on] cutter compensation is still on at the end of the program (`G41`)
+        "#]],
+        );
+    }
+
+    #[test]
+    fn a_control_that_refuses_the_end_makes_it_an_error() {
+        check_rule(
+            &RULE,
             "haas-mill",
             "G41 D1 G1 X1. F10.\nY2.\nM30\n",
             &expect![[r#"
             3 | M30
-              | ^^^ info[compensation-left-on] cutter compensation is still on at the end of the program (`G41`)
+              | ^^^ error[compensation-left-on] cutter compensation is still on at the end of the program (`G41`)
+        "#]],
+        );
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G41 D1 G1 X1. F10.\nY2.\nM1\nG40 X0.\nM30\n",
+            &expect![[r#"
+            3 | M1
+              | ^^ warning[compensation-left-on] cutter compensation is still on at a stop of the program (`G41`)
         "#]],
         );
     }

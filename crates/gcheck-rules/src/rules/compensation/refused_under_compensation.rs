@@ -1,9 +1,10 @@
 //! An operation that the control refuses while cutter compensation is on.
 
-use gcheck_engine::{CompensationFault, Fact, Fault, Role};
+use gcheck_controls::{CompensationRefusals, Effect};
+use gcheck_engine::{Abstract, At, CompensationFault, Domain, Fact, Fault, Role};
 
 use crate::declare::declare_rule;
-use crate::{PathCx, PathRule, Report, Run, Watch, limit};
+use crate::{PathCx, PathRule, Remembers, Report, Run, Watch, limit, remembers};
 
 declare_rule! {
     /// A block asks for something that the control refuses while cutter compensation is on, or switches compensation on
@@ -40,13 +41,64 @@ declare_rule! {
         severity: Error,
         tier: Path,
         since: "0.1.0",
-        run: Run::Path { watch: Watch::FAULTS, make: || Box::new(RefusedUnderCompensation) },
+        run: Run::Path {
+            watch: Watch::FAULTS.union(Watch::BLOCKS),
+            make: || Box::new(RefusedUnderCompensation { limited: None }),
+        },
     }
 }
 
-struct RefusedUnderCompensation;
+#[derive(Clone, PartialEq)]
+struct RefusedUnderCompensation {
+    /// The block that limited how far the control reads ahead.
+    limited: Option<At>,
+}
+
+remembers!(RefusedUnderCompensation: limited);
 
 impl PathRule for RefusedUnderCompensation {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
+    fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
+        let Some(refusals) = &cx.model.semantics().compensation.refuses else { return };
+        let is_on = |effect| matches!(effect, Effect::CompensationLeft | Effect::CompensationRight);
+        let was_on = cx.state().effect(Role::Compensation, cx.model).is_some_and(is_on);
+        let begins = cx.has_effect(is_on);
+        let ends = cx.has_effect(|effect| effect == Effect::CompensationOff);
+        let limits = cx.codes().iter().any(|code| refusals.read_ahead_limits.contains(&cx.name_of(*code)));
+        let refused = if limits && was_on && !ends {
+            Some(READ_AHEAD)
+        } else if begins && self.limited.is_some() {
+            Some(READ_AHEAD_LIMITED)
+        } else if begins || was_on && !ends {
+            refused_in_block(cx, refusals, begins)
+        } else {
+            None
+        };
+        if limits {
+            self.limited = cx.known_number('P').filter(|blocks| *blocks != 0.0).map(|_| cx.origin().at);
+        }
+        let Some((message, label, help)) = refused else { return };
+        let finding = cx
+            .finding(&META, cx.range(), message)
+            .label(label)
+            .note(format!("the control stops with an alarm  [{}]", refusals.source))
+            .help(help)
+            .at_most(limit(refusals.confidence));
+        let finding = match self.limited.filter(|_| begins && !limits).and_then(|at| cx.range_of(at)) {
+            Some(range) => finding.also(range, "limits how far the control reads ahead"),
+            None => finding,
+        };
+        report.add(if begins {
+            finding
+        } else {
+            let code = cx.code_name(Role::Compensation).unwrap_or_else(|| "compensation".to_owned());
+            cx.resting_on(finding, Fact::Mode(Role::Compensation), &format!("`{code}`"))
+        });
+    }
+
     fn fault(&mut self, cx: &PathCx<'_>, fault: &Fault, report: &mut Report<'_>) {
         let Fault::Compensation(fault) = fault else { return };
         let semantics = cx.model.semantics();
@@ -89,6 +141,58 @@ impl PathRule for RefusedUnderCompensation {
     }
 }
 
+/// What is wrong, why it is refused, what to do.
+type Words = (&'static str, &'static str, &'static str);
+
+const READ_AHEAD: Words = (
+    "the control refuses a limit of reading ahead under cutter compensation",
+    "compensation needs the blocks that follow",
+    "limit reading ahead before compensation is switched on, and end the limit (`P0`) before it, too",
+);
+
+const READ_AHEAD_LIMITED: Words = (
+    "cutter compensation begins while reading ahead is limited",
+    "compensation needs the blocks that follow",
+    "end the limit (`P0`) before compensation is switched on",
+);
+
+/// A plane, or an offset, that the control refuses in a block under compensation.
+fn refused_in_block(cx: &PathCx<'_>, refusals: &CompensationRefusals, begins: bool) -> Option<Words> {
+    let plane = match cx.code_of_role(Role::Plane) {
+        Some(code) => Some(cx.model.effect(code)),
+        None => cx.state().effect(Role::Plane, cx.model),
+    };
+    let motion = match cx.code_of_role(Role::Motion) {
+        Some(code) => Some(cx.model.effect(code)),
+        None => cx.state().effect(Role::Motion, cx.model),
+    };
+    let is_arc =
+        matches!(motion, Some(Effect::ArcClockwise | Effect::ArcCounterClockwise)) && cx.names_axes();
+    let elsewhere = matches!(plane, Some(Effect::PlaneZx | Effect::PlaneYz | Effect::PlaneSecondary));
+    if refusals.other_planes && elsewhere && is_arc && !begins {
+        return Some((
+            "an arc outside the XY plane under cutter compensation",
+            "compensation works in the XY plane only",
+            "switch compensation off (`G40`) before the arc, or cut it in the XY plane (`G17`)",
+        ));
+    }
+    if refusals.other_planes && elsewhere && begins {
+        return Some((
+            "cutter compensation does not work in this plane",
+            "switched on in a plane in which it does not work",
+            "select `G17` before compensation is switched on",
+        ));
+    }
+    let changes = cx
+        .known_number('D')
+        .is_some_and(|d| Abstract::known(cx.state().d()).is_some_and(|old| (old - d).abs() > 1e-9));
+    (refusals.offset_on_arc && is_arc && !begins && changes).then_some((
+        "another offset on an arc under cutter compensation",
+        "the offset cannot change on an arc",
+        "change the offset on a straight move",
+    ))
+}
+
 #[cfg(test)]
 mod tests {
     use expect_test::expect;
@@ -106,6 +210,27 @@ mod tests {
             4 | G28
               | ^^^ error[refused-under-compensation] the control refuses this while cutter compensation is on
         "#]],
+        );
+    }
+
+    #[test]
+    fn what_a_manual_refuses() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G20 G90 G17\nG41 D1 G1 X1. F10.\nG18 G2 X2. Z-1. R1.\nG17 G1 X3.\nG2 X4. Y-1. R1. D2\nG103 P1\nG40 G1 X5.\nG41 D1 X6.\nG40 X7.\nG103\nG19\nG41 D1 Y1.\nG40 Y2.\nM30\n",
+            &expect![[r#"
+                3 | G18 G2 X2. Z-1. R1.
+                  | ^^^^^^^^^^^^^^^^^^^ error[refused-under-compensation] an arc outside the XY plane under cutter compensation
+                5 | G2 X4. Y-1. R1. D2
+                  | ^^^^^^^^^^^^^^^^^^ error[refused-under-compensation] another offset on an arc under cutter compensation
+                6 | G103 P1
+                  | ^^^^^^^ error[refused-under-compensation] the control refuses a limit of reading ahead under cutter compensation
+                8 | G41 D1 X6.
+                  | ^^^^^^^^^^ error[refused-under-compensation] cutter compensation begins while reading ahead is limited
+                12 | G41 D1 Y1.
+                   | ^^^^^^^^^^ error[refused-under-compensation] cutter compensation does not work in this plane
+            "#]],
         );
     }
 

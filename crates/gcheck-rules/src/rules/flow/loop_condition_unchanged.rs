@@ -77,6 +77,18 @@ impl PathRule for LoopConditionUnchanged {
     }
 
     fn finish(&mut self, cx: &FinishCx<'_>, report: &mut Report<'_>) {
+        // An answer of the operator may come while the loop waits for it.
+        let asks = |place: &Place| {
+            let control = cx.environment.control();
+            let codes = place.table.words(place.block()).iter().filter_map(|word| control.code_at(word.code));
+            codes.into_iter().any(|code| code.effect() == Effect::AskOperator)
+        };
+        let control = cx.environment.control();
+        if control.codes().any(|code| code.effect() == Effect::AskOperator)
+            && blocks_with(cx.program, cx.environment, BlockFlags::CODE).any(|(_, place)| asks(&place))
+        {
+            return;
+        }
         for (at, place) in blocks_with(cx.program, cx.environment, BlockFlags::STATEMENT) {
             // Other rules judge a loop that is left before its first iteration, and one that repeats its state.
             if self.endless.contains(&at) || cx.is_never_reached(at.next()) {

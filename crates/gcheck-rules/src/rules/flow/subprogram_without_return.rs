@@ -4,7 +4,7 @@ use gcheck_controls::Ends;
 use gcheck_engine::{At, Ending, Fault, FrameKind};
 
 use crate::declare::declare_rule;
-use crate::{PathCx, PathRule, Report, Run, Watch};
+use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
 
 declare_rule! {
     /// A program that is called has no return (`M99`): it ends with `M30`, or runs to the end of the text.
@@ -40,7 +40,7 @@ declare_rule! {
     /// ```
     rule "subprogram-without-return" in "flow" {
         summary: "called program that does not return",
-        severity: Warning,
+        severity: Error,
         tier: Path,
         since: "0.1.0",
         run: Run::Path {
@@ -54,8 +54,11 @@ struct SubprogramWithoutReturn;
 
 impl PathRule for SubprogramWithoutReturn {
     fn ended(&mut self, cx: &PathCx<'_>, ending: Ending, report: &mut Report<'_>) {
-        if ending == Ending::Program {
-            check(cx, false, report);
+        match ending {
+            Ending::Program => check(cx, false, report),
+            // A `%` after the last line ends the text as well.
+            Ending::Tape => check(cx, true, report),
+            _ => {}
         }
     }
 
@@ -115,7 +118,9 @@ fn check(cx: &PathCx<'_>, at_end_of_text: bool, report: &mut Report<'_>) {
         .label(label)
         .also(entry, "the called program begins here")
         .help("end the called program with `M99`");
-    report.add(finding);
+    // Where the manual names the alarm, the end of the text is one.
+    let number = cx.model.semantics().missing_return_alarm.clone().filter(|_| at_end_of_text);
+    report.add(if number.is_some() { finding.alarm(number) } else { finding.at_most(Severity::Warning) });
 }
 
 #[cfg(test)]

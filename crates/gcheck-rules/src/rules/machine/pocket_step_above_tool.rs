@@ -5,6 +5,7 @@ use gcheck_engine::{Abstract, Domain as _, Units};
 use gcheck_program::Word;
 
 use crate::declare::declare_rule;
+use crate::facts::cycles::is_round_pocket;
 use crate::facts::offset_schemes::whole;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
@@ -42,9 +43,14 @@ struct PocketStepAboveTool;
 
 impl PathRule for PocketStepAboveTool {
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
-        if !cx.has_effect(|effect| effect == Effect::GeneralPocket) {
+        // A round pocket grows by `Q`, any other by `I` or `J`.
+        let steps: &[char] = if cx.has_effect(|effect| effect == Effect::GeneralPocket) {
+            &['I', 'J']
+        } else if cx.has_effect(is_round_pocket) {
+            &['Q']
+        } else {
             return;
-        }
+        };
         let number = match cx.word('D') {
             Some(_) => cx.known_number('D'),
             None => Abstract::known(cx.state().d()),
@@ -52,10 +58,10 @@ impl PathRule for PocketStepAboveTool {
         let number = number.and_then(whole);
         let Some(unit) = cx.state().units(cx.model).map(Units::in_mm) else { return };
         let tool = number.filter(|number| *number > 0).and_then(|number| cx.state().tables().tool(number));
-        let Some(diameter) = tool.map(|tool| tool.diameter.0).filter(|diameter| *diameter > 0.0) else {
+        let Some(diameter) = tool.map(|tool| tool.size().0).filter(|diameter| *diameter > 0.0) else {
             return;
         };
-        for letter in ['I', 'J'] {
+        for &letter in steps {
             // Without a point, a setting decides the number's unit.
             let pointed = cx.model.semantics().computed_words_are_pointed;
             let is_length = |word: &Word| word.shape.point || word.is_computed() && pointed;

@@ -4,7 +4,7 @@ use gcheck_controls::Effect;
 use gcheck_engine::{Event, Fact, Role, Units};
 
 use crate::declare::declare_rule;
-use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
+use crate::{PathCx, PathRule, Report, Run, Severity, Uses, Watch};
 use crate::{Remembers, remembers};
 
 declare_rule! {
@@ -32,7 +32,7 @@ declare_rule! {
     /// ```
     rule "units-changed" in "modal" {
         summary: "units changed within a program",
-        severity: Info,
+        severity: Warning,
         tier: Path,
         since: "0.1.0",
         run: Run::Path {
@@ -86,6 +86,13 @@ impl PathRule for UnitsChanged {
             .finding(&META, cx.effect_range(is_units), message)
             .label(format!("from here on numbers count {}", name(new)))
             .help("write the program in one unit; check what was pasted in");
+        // Where a setting fixes the unit, one of the two codes is an alarm.
+        let finding = match &cx.model.semantics().units_setting {
+            Some(number) => {
+                finding.note(format!("setting {number} fixes the unit: one of the two codes is an alarm"))
+            }
+            None => finding.at_most(Severity::Info),
+        };
         report.add(cx.resting_on(finding, fact, &format!("`{}`", cx.name_of(code))));
     }
 

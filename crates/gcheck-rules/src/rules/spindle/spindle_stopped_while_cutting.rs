@@ -186,7 +186,7 @@ impl PathRule for SpindleStoppedWhileCutting {
         // `S` may be a laser's power if no tool is changed.
         let is_mill = is_ever_started || has_length || cx.file_uses(|effect| effect == Effect::ToolChange);
         // Held at an angle, a tool may broach.
-        if !is_mill || self.is_oriented || cx.file_uses(probes) {
+        if !is_mill && !needs_turns || self.is_oriented || cx.file_uses(probes) {
             finding = finding.at_most(Severity::Info);
         }
         if needs_turns && let Some(name) = cx.code_name(Role::FeedMode) {
@@ -468,9 +468,9 @@ mod tests {
             "linuxcnc",
             "G21 G95 S900\nG1 X1 F0.1\nM2\n",
             &expect![[r#"
-            2 | G1 X1 F0.1
-              | ^^^^^^^^^^ info[spindle-stopped-while-cutting] feed per turn of a spindle that was not started (no `M3`)
-        "#]],
+                2 | G1 X1 F0.1
+                  | ^^^^^^^^^^ warning[spindle-stopped-while-cutting] feed per turn of a spindle that was not started (no `M3`)
+            "#]],
         );
     }
 

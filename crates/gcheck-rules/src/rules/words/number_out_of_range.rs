@@ -52,8 +52,8 @@ fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
     let told = cx.block().flags.contains(BlockFlags::POINT_ON_INTEGER);
     for word in cx.words() {
         let Some(value) = word.number() else { continue };
-        // Other rules judge program and sequence numbers, and computed values.
-        if matches!(word.letter.ascii(), b'N' | b'O') || word.is_computed() {
+        // Other rules judge sequence numbers and computed values.
+        if word.letter.ascii() == b'N' || word.is_computed() {
             continue;
         }
         let Some(facts) = cx.facts(word) else { continue };

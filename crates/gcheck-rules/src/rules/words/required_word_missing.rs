@@ -40,11 +40,16 @@ declare_rule! {
 
 fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
     for (word, code) in cx.codes() {
-        for needed in
-            code.entry().words.iter().filter(|w| w.need == Need::Required || !w.required_with.is_empty())
+        for needed in code
+            .entry()
+            .words
+            .iter()
+            .filter(|w| w.need == Need::Required || w.unless_comment || !w.required_with.is_empty())
         {
             let with = beside(cx, needed);
-            if needed.need != Need::Required && with.is_none() {
+            // A comment may be the path of a file.
+            let named = !needed.unless_comment || cx.block().flags.contains(BlockFlags::COMMENT);
+            if needed.need != Need::Required && with.is_none() && named {
                 continue;
             }
             let stands =

@@ -53,10 +53,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 ),
             ],
         ),
-        gap(
+        held(
             "p. 126",
             "A program is named by the letter O or o and five digits.",
-            "error[number-out-of-range] for a program number of more than five digits, as the letter's range says; small letters stay legal",
+            "letter `O`; rule `number-out-of-range`",
             &[
                 legal("O12345\nG4 P1.\nM30\n"),
                 legal("o00012\nG4 P1.\nM30\n"),
@@ -421,10 +421,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
             "no rule asks for a position before `M6`",
             &[legal("O1\nT1 M6\nG20 G54 G0 G90 X5. Y5.\nG43 H1 Z-1.\nT2 M6\nG43 H2 Z1.\nM30\n")],
         ),
-        gap(
+        held(
             "p. 134",
             "M6 brings Z to machine zero by itself; after the change Z is there.",
-            "after M6 machine Z is 0 on this control, so that the next move starts there: in work coordinates it is known as far as offset and length are",
+            "`change-at-zero`: machine Z is 0 after the change",
             &[Proof::Run {
                 program: super::mill::told("O1\nG20 G54 G0 G90 X0. Y0. Z1.\nT1 M6\nX1.\nM30\n"),
                 prints: &["2 rapid 0.0000 0.0000 1.0000", "3 tool", "4 rapid 1.0000 0.0000 8.0000"],
@@ -436,10 +436,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
             "effect of `M99`",
             &[moves("O1\nG20 G54 G0 G90\nM97 P10\nX2.\nM30\nN10 X1.\nM99\n", &["rapid X1.", "rapid X2."])],
         ),
-        gap(
+        held(
             "p. 134",
             "A subprogram that does not end with M99 raises alarm 312.",
-            "error[subprogram-without-return] with alarm 312, also where `%` closes the file after the last line",
+            "rule `subprogram-without-return`, alarm 312",
             &[
                 rule(
                     "error[subprogram-without-return]",
@@ -513,18 +513,18 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 "O1\nG20 G54 G0 G90 X4. Y2. Z0.\nG2 X5. Y3. I1. F20.\nM30\n",
             )],
         ),
-        gap(
+        held(
             "p. 135",
             "I belongs to X, J to Y, K to Z: an arc with only the centre word of the other plane has no centre.",
-            "error[arc-without-centre] where the only centre word is not of the active plane: the centre is the start, the arc has no radius",
+            "rule `arc-wrong-plane-word`",
             &[
                 rule(
-                    "error[arc-without-centre]",
+                    "warning[arc-wrong-plane-word]",
                     "O1\nG20 G54 G17 G0 G90 X4. Y2. Z0.\nG2 X5. Y3. K1. F20.\nM30\n",
                     "O1\nG20 G54 G17 G0 G90 X4. Y2. Z0.\nG2 X5. Y3. I1. F20.\nM30\n",
                 ),
                 rule(
-                    "error[arc-without-centre]",
+                    "warning[arc-wrong-plane-word]",
                     "O1\nG20 G54 G18 G0 G90 X4. Y2. Z0.\nG2 X5. Z1. J1. F20.\nM30\n",
                     "O1\nG20 G54 G18 G0 G90 X4. Y2. Z0.\nG2 X5. Z1. I1. F20.\nM30\n",
                 ),

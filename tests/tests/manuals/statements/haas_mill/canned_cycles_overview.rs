@@ -357,10 +357,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 explains("G51", "needs the option: rotation and scaling"),
             ],
         ),
-        gap(
+        held(
             "p. 148",
             "Scaling is commanded before rotation.",
-            "warning for G51 while G68 is in effect: scale first, then turn",
+            "rule `scaling-under-rotation`",
             &[rule(
                 "warning[scaling-under-rotation]",
                 "O1\nG20 G54 G0 G90 X0. Y0. Z1.\nG68 X0. Y0. R90.\nG51 X0. Y0. P2.\nX1. Y0.\nG50\nG69\nM30\n",
@@ -387,10 +387,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 ),
             ],
         ),
-        gap(
+        held(
             "p. 148",
             "Settings 45 to 48, 80 and 250 mirror X, Y, Z, A, B and C.",
-            "a run with one of these settings told mirrors the axis, or at least says that it does not; now neither",
+            "Settings 45 to 47 by `transform-settings`, where they are told; those of A, B and C are not followed",
             &[Proof::Moves {
                 program: set(
                     "O1\nG20 G54 G0 G90 X1. Y1. Z1.\nM30\n",

@@ -57,10 +57,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 },
             ],
         ),
-        gap(
+        held(
             "p. 137",
             "The offset in effect is the sum of geometry and wear.",
-            "G10 L12 and L13 (and #2401, #2601 on) in one program add up; where the wear of a told tool is not written it counts as zero, by a stated assumption",
+            "effect `write-offsets`; `tool-diameter-wear` of the system variables; a wear that nobody wrote counts as none",
             &[
                 moves_told(
                     "O1\nG20 G54 G0 G90 X0. Y0. Z0.\nG10 L12 P1 R.4\nG10 L13 P1 R.1\nG1 G41 D1 X1. F10.\nY1.\nG40 X-1.\nM30\n",
@@ -84,10 +84,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 explains("G141", "All of X, Y and Z are shifted"),
             ],
         ),
-        gap(
+        held(
             "p. 137",
             "Under G41 and G42 arcs are in G17 only.",
-            "error where G41 or G42 begins, or an arc comes under it, in G18 or G19 (alarm 344): the data says `requires = [\"G17\"]`, no rule reads it",
+            "rule `refused-under-compensation`",
             &[
                 rule_told(
                     "error[refused-under-compensation]",
@@ -149,10 +149,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 explains("G40", "active at power-on"),
             ],
         ),
-        gap(
+        held(
             "p. 137, 140",
             "A program may not end by M30, M2, M0 or M1 with compensation on; one that is terminated so raises an alarm.",
-            "error[compensation-left-on] at M30, M2 and M0 (the alarm is 349 as far as other books tell; this manual gives no number), a warning at M1, which stops only with OPT STOP on; no note may say that the end switches it off",
+            "rule `compensation-left-on`",
             &[
                 rule_told(
                     "error[compensation-left-on]",
@@ -295,10 +295,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 &["rapid", "feed X0. Y0. Z-1.", "feed X.75 Y0.", "feed X.75 Y1.", "feed X-1. Y1."],
             )],
         ),
-        gap(
+        held(
             "p. 140",
             "G40 in a block without X or Y changes nothing before the next move in X or Y.",
-            "a move in Z alone after G40 goes straight up, still offset; the next move in X or Y is the exit. Now the Z move goes sideways as well",
+            "effect `compensation-off`: the axes of the plane stand still until a move names one",
             &[moves_told(
                 "O1\nG20 G54 G0 G90 X0. Y0. Z0.\nG1 G41 D1 X1. F10.\nY1.\nG40\nZ1.\nX-1.\nM30\n",
                 &["rapid", "feed X.75 Y0.", "feed X.75 Y1.", "feed X.75 Y1. Z1.", "feed X-1. Y1."],
@@ -351,10 +351,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 prints: &["4 feed 2.0000", "6 feed 4.0000 0.5000", "7 feed 5.0000 0.0000"],
             }],
         ),
-        gap(
+        held(
             "p. 141",
             "D and the side cannot change on an arc.",
-            "error for a D word other than the one in effect in a block that cuts an arc under compensation; a change of side there is reported already",
+            "rules `refused-under-compensation`, `codes-conflict`",
             &[
                 rule_told(
                     "error[refused-under-compensation]",
@@ -488,10 +488,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 ),
             ],
         ),
-        gap(
+        held(
             "p. 192, 231",
             "G103 cannot be used while compensation is on.",
-            "error[refused-under-compensation] for G103 under G41 and G42, and for G41 after G103 P1 (alarm 387): the data forbids it",
+            "rule `refused-under-compensation`",
             &[
                 rule_told(
                     "error[refused-under-compensation]",

@@ -116,10 +116,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 },
             ],
         ),
-        gap(
+        held(
             "p. 243",
             "The same in a later block of the cycle.",
-            "`cycle-repeated-in-place` (warning) for an absolute position with L in any block under a cycle, not only in the cycle's own",
+            "rule `cycle-repeated-in-place`",
             &[Rule {
                 finding: "warning[cycle-repeated-in-place]",
                 violates: cut!("G81 Z-.5 R.1 F6.5\nX1. L3\n"),
@@ -146,10 +146,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 events: &["feed Z-0.5 F6.5", "rapid Z0.1"],
             }],
         ),
-        gap(
+        held(
             "p. 243, p. 378",
             "With Setting 28 off a cycle's own block without X or Y machines nothing.",
-            "setting 28 must be heard: with `false` the block keeps the words and makes no hole",
+            "Setting 28, where it is told",
             &[
                 Makes {
                     program: cut!("G81 G99 Z-.5 R.1 F6.5\nX1.\n").with(&["settings.28=false"]),
@@ -194,10 +194,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 },
             ],
         ),
-        gap(
+        held(
             "p. 243, p. 247",
             "L0 beside X or Y makes the move at rapid without the cycle, so that the tool goes round an obstacle.",
-            "L0 skips the hole, not the move: `X5.5 L0` under a cycle is a rapid move to X5.5; the same for the cycle's own block with X or Y",
+            "`zero-repeats-move`",
             &[
                 Makes {
                     program: cut!("G81 G99 Z-.5 R.1 F6.5\nX4.\nX5.5 L0\nY-2.\n"),

@@ -173,10 +173,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 Stands { program: cut!("G49\nZ1.\n").with(&[TOOL, G54]), after: "Z1.", at: "MZ-7" },
             ],
         ),
-        gap(
+        held(
             "p. 276",
             "After G49 Z counts from the spindle: without G53 the tool comes down by its length.",
-            "G49 with a Z move in its block or a Z move after it before G53, G43 or G28: silent so far (`length-cancelled-before-cut` too, even when the tool then cuts): warning",
+            "rule `length-cancelled-before-move`",
             &[
                 Rule {
                     finding: "warning[length-cancelled-before-move]",
@@ -184,16 +184,16 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                     conforms: cut!("G0 Z1.\nG53 G49 Z0.\n"),
                 },
                 Rule {
-                    finding: "warning[length-cancelled-before-cut]",
+                    finding: "warning[length-cancelled-before-move]",
                     violates: cut!("G49\nG0 Z1.\nG1 Z-1. F10.\nX1.\nG0 Z1.\n"),
                     conforms: cut!("G0 Z1.\nG1 Z-1. F10.\nX1.\nG0 Z1.\n"),
                 },
             ],
         ),
-        gap(
+        held(
             "p. 276",
             "H0 ends tool length compensation.",
-            "an `H0` by itself acts as G49; at present the length stays on",
+            "`zero-length-number-cancels`",
             &[Stands { program: cut!("H0\nZ1.\n").with(&[TOOL, G54]), after: "Z1.", at: "MZ-7" }],
         ),
         gap(

@@ -78,10 +78,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 },
             ],
         ),
-        gap(
+        held(
             "p. 271, p. 273",
             "P2 to P31 are no characters.",
-            "P is 0, 1 or 32 to 126: error",
+            "word `P` of `G47`",
             &[Rule {
                 finding: "error[number-out-of-range]",
                 violates: cut!("G47 P31 X2. Y2. J0.5 R0.05 Z-0.005 F15. E10.\nG0 Z1.\n"),
@@ -123,20 +123,20 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 conforms: cut!("G47 P0 (AB) X2. Y2. J.001 R0.05 Z-0.005 F15.\nG0 Z1.\n"),
             }],
         ),
-        gap(
+        held(
             "p. 271",
             "F is the feed of engraving: it is programmed.",
-            "G47 cuts: without any feed `feed-missing` must speak (error), as for other cuts; silent so far",
+            "effect `engrave`; rule `feed-missing`",
             &[Rule {
                 finding: "error[feed-missing]",
                 violates: cut!("G47 P0 (AB) X2. Y2. J.5 R0.05 Z-0.005\nG0 Z1.\n"),
                 conforms: cut!("G47 P0 (AB) X2. Y2. J.5 R0.05 Z-0.005 F15.\nG0 Z1.\n"),
             }],
         ),
-        gap(
+        held(
             "p. 273",
             "Engraving goes to X Y, plunges to Z at feed E, cuts at feed F, and goes back to R.",
-            "the levels are computed: rapid to X2 Y2, feed to Z-0.005 at F10, back to R0.05; what the letters look like is the control's own and is said to be an estimate. At present nothing moves and Z is unknown after it",
+            "effect `engrave`: the levels; the letters are an assumption",
             &[
                 Run {
                     program: cut!("G47 P0 (AB) X2. Y2. J0.5 R0.05 Z-0.005 F15. E10.\nG0 Z1.\n"),
@@ -148,10 +148,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 },
             ],
         ),
-        gap(
+        held(
             "p. 273",
             "After engraving the tool stands at R, somewhere along the text.",
-            "Z is known after G47: a rapid sideways is judged at R",
+            "effect `engrave`",
             &[Run {
                 program: cut!("G47 P0 (AB) X2. Y2. J0.5 R0.05 Z-0.005 F15. E10.\nX3.\n"),
                 prints: &["rapid 3.0000 ? 0.0500"],

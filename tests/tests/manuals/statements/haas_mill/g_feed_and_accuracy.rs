@@ -109,10 +109,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 },
             ],
         ),
-        gap(
+        held(
             "p. 303",
             "Under G95 nothing feeds while the spindle is stopped.",
-            "a feed under G95 with the spindle stopped or never started waits for ever; the warning for cutting with a stopped spindle is silent where the program never started one",
+            "rule `spindle-stopped-while-cutting`",
             &[Rule {
                 finding: "warning[spindle-stopped-while-cutting]",
                 violates: mill("O1 (A)\nG20 G90 G54 G0 X0.\nG95 G1 X1. F.01\nG94 F10.\nM30\n"),

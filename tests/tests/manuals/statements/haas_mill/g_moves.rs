@@ -269,18 +269,18 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 },
             ],
         ),
-        gap(
+        held(
             "p. 251",
             "An arc with the centre word of another plane only has no centre.",
-            "silent so far: `G17 G2 X Y K` and `G18 G2 X Z J` give no usable centre: error as for an arc without any",
+            "rule `arc-wrong-plane-word`",
             &[
                 Rule {
-                    finding: "error[arc-without-centre]",
+                    finding: "warning[arc-wrong-plane-word]",
                     violates: cut!("G2 X1. Y1. K1. F10.\n"),
                     conforms: cut!("G2 X1. Y1. I1. F10.\n"),
                 },
                 Rule {
-                    finding: "error[arc-without-centre]",
+                    finding: "warning[arc-wrong-plane-word]",
                     violates: cut!("G18 G2 X1. Z-.9 J1. F10.\nG17\n"),
                     conforms: cut!("G18 G2 X1. Z-.9 I1. F10.\nG17\n"),
                 },

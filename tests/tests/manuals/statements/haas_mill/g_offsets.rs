@@ -70,10 +70,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 },
             ],
         ),
-        gap(
+        held(
             "p. 259",
             "L2 P0 writes the shift of G52.",
-            "`G10 L2 P0 X1.` shifts every work offset by X1",
+            "effect `write-offsets`",
             &[Stands { program: cut!("G10 L2 P0 X1.\nX0.\n").with(&[G54]), after: "X0.", at: "MX-9" }],
         ),
         held(
@@ -106,10 +106,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 at: "MZ-4.5",
             }],
         ),
-        gap(
+        held(
             "p. 259",
             "L1 and L11 write the wear of the length, which counts with it.",
-            "with the length configured (geometry) and the wear written, `G43 H1` counts both; at present the length is unknown from there",
+            "effect `write-offsets`; a wear that nobody wrote counts as none",
             &[
                 Stands {
                     program: cut!("G10 L11 G90 P1 R.1\nG43 H1 Z1.\n").with(&[G54, TOOL]),
@@ -133,10 +133,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 events: &["feed X0.8125"],
             }],
         ),
-        gap(
+        held(
             "p. 259",
             "L13 writes the wear of the diameter, which counts with it.",
-            "with the diameter known and the wear written, `G41 D1` counts both; at present the size is unknown from there",
+            "effect `write-offsets`",
             &[Makes {
                 program: cut!("G10 L12 P1 R.375\nG10 L13 P1 R.025\nG41 D1 G1 X1. F10.\nY1.\nG40 X2.\n"),
                 block: "G41 D1 G1 X1. F10.",
@@ -153,37 +153,37 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 conforms: cut!("G10 L10 P200 R1.\n"),
             }],
         ),
-        gap(
+        held(
             "p. 259",
             "P is 0 to 6 with L2, 1 to 99 with L20, 1 to 200 with L10 to L13.",
-            "`G10` judges P against the table that L names: `L2 P7`, `L20 P0`, `L20 P100`, `L10 P0` are refused: error",
+            "word `P` of `G10` beside `L`; rule `word-unfit-for-another`",
             &[
                 Rule {
-                    finding: "error[number-out-of-range]",
+                    finding: "error[word-unfit-for-another]",
                     violates: cut!("G10 L2 P7 X1.\n"),
                     conforms: cut!("G10 L2 P6 X1.\n"),
                 },
                 Rule {
-                    finding: "error[number-out-of-range]",
+                    finding: "error[word-unfit-for-another]",
                     violates: cut!("G10 L20 P0 X1.\n"),
                     conforms: cut!("G10 L20 P1 X1.\n"),
                 },
                 Rule {
-                    finding: "error[number-out-of-range]",
+                    finding: "error[word-unfit-for-another]",
                     violates: cut!("G10 L20 P100 X1.\n"),
                     conforms: cut!("G10 L20 P99 X1.\n"),
                 },
                 Rule {
-                    finding: "error[number-out-of-range]",
+                    finding: "error[word-unfit-for-another]",
                     violates: cut!("G10 L10 P0 R1.\n"),
                     conforms: cut!("G10 L10 P1 R1.\n"),
                 },
             ],
         ),
-        gap(
+        held(
             "p. 259",
             "L is 1, 2, 10 to 13 or 20.",
-            "other values of L are refused: error",
+            "word `L` of `G10`",
             &[Rule {
                 finding: "error[number-out-of-range]",
                 violates: cut!("G10 L3 P1 R1.\n"),
@@ -281,10 +281,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 conforms: cut!("G52 X1. Y1.\nX0. Y0.\nG52 X0. Y0.\n").with(&["settings.33=\"haas\""]),
             }],
         ),
-        gap(
+        held(
             "p. 280, p. 302",
             "A G92 drops the G52 of the axes that it names, and of no other.",
-            "after `G52 X1.`, `G92 X5.` a `G52 X0.` changes nothing any more; at present the point moves by the old shift",
+            "effect `set-position`",
             &[Stands {
                 program: cut!("G52 X1.\nX0.\nG92 X5.\nG52 X0.\nX5.\n").with(&[G54]),
                 after: "X5.",

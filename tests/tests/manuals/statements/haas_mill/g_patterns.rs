@@ -3,7 +3,7 @@
 //! Knows: statements in our words, programs, expectations. Must not know: how they are checked.
 
 use super::blocks::cut;
-use super::mill::{gap, held};
+use super::mill::held;
 use crate::proof::Proof::{Makes, Rule};
 use crate::statements::statement::{Chapter, prove};
 
@@ -175,10 +175,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 },
             ],
         ),
-        gap(
+        held(
             "p. 285, p. 286",
             "G70, G71 and G72 need an active canned cycle.",
-            "without one the tool travels round the pattern and makes no hole: silent so far; warning",
+            "rule `pattern-without-cycle`",
             &[
                 Rule {
                     finding: "warning[pattern-without-cycle]",

@@ -3,7 +3,7 @@
 //! Knows: statements in our words, programs, expectations. Must not know: how they are checked.
 
 use super::blocks::cut;
-use super::mill::{gap, held, mill, not_modelled};
+use super::mill::{held, mill, not_modelled};
 use crate::proof::Proof::{Makes, Rule, Run, Stands};
 use crate::statements::statement::{Chapter, prove};
 
@@ -52,12 +52,12 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 events: &["feed Z-0.2", "arc X0.5 S180 I0.25 J0", "arc S360 I0 J0", "arc X0 S180 I0.25 J0"],
             }],
         ),
-        gap(
+        held(
             "p. 262",
             "With cutter compensation arcs are allowed in XY only.",
-            "silent: G41 or G42 with G18 or G19 in effect offsets in the wrong plane (`G18 .. G41 D1 G1 X1.` shifts Z): a code outside its plane, error with the page",
+            "rule `refused-under-compensation`",
             &[Rule {
-                finding: "error[compensation-outside-plane]",
+                finding: "error[refused-under-compensation]",
                 violates: cut!("G18\nG41 D1 G1 X1. F10.\nG3 X2. Z-.9 R1.\nG40 G1 X3.\nG17\n")
                     .with(&["tools.1={diameter=0.2}"]),
                 conforms: cut!("G41 D1 G1 X1. F10.\nG2 X2. Y-1. R1.\nG40 G1 X3.\n")
@@ -109,20 +109,20 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 },
             ],
         ),
-        gap(
+        held(
             "p. 263",
             "G20 alarms when Setting 9 is not inch.",
-            "silent with `settings.9 = \"mm\"` and with `machine.units = \"mm\"`: G20 (and G21 the other way round) against the setting that is configured is refused: error",
+            "rule `units-against-setting`",
             &[Rule {
                 finding: "error[units-against-setting]",
                 violates: cut!("G0 X1.\n").with(&["settings.9=\"mm\""]),
                 conforms: cut!("G0 X1.\n").with(&["settings.9=\"inch\""]),
             }],
         ),
-        gap(
+        held(
             "p. 263",
             "G20 and G21 are checked against one setting, so that one program cannot have both.",
-            "`units-changed` is an info: here the second code is an alarm whatever Setting 9 says: warning at least",
+            "rule `units-changed`",
             &[Rule {
                 finding: "warning[units-changed]",
                 violates: cut!("G20\nG0 X1.\nG21\nG0 X25.\n"),
@@ -141,10 +141,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 },
             ],
         ),
-        gap(
+        held(
             "p. 263, p. 281",
             "G28 ends at machine zero, which is where G53 counts from.",
-            "after G28 the machine position of the axes it names is 0 and, with offsets known, their work position follows",
+            "`reference-at-zero`",
             &[
                 Stands {
                     program: cut!("G28 G91 X0. Y0. Z0.\nG90\n").with(&[G54, "tools.1={length=4.0}"]),
@@ -164,7 +164,7 @@ pub(crate) const CHAPTER: Chapter = Chapter {
             "`reference-without-axes`",
             &[Run {
                 program: cut!("G28\n").with(&[G54, "tools.1={length=4.0}"]),
-                prints: &["7 rapid ? ? ?"],
+                prints: &["7 rapid 10.0000 5.0000 4.0000"],
             }],
         ),
         held(
@@ -173,7 +173,7 @@ pub(crate) const CHAPTER: Chapter = Chapter {
             "effect `return-reference`",
             &[Run {
                 program: cut!("G28 G91 Z0.\nG90\n").with(&[G54, "tools.1={length=4.0}"]),
-                prints: &["7 rapid 0.0000 0.0000 ?"],
+                prints: &["7 rapid 0.0000 0.0000 4.0000"],
             }],
         ),
         held(
@@ -196,10 +196,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 events: &["rapid X-1 Y-1", "rapid X2 Y3"],
             }],
         ),
-        gap(
+        held(
             "p. 263",
             "G29 needs the point of an earlier G28.",
-            "silent: G29 before any G28 of the program goes by a point that an earlier program left: warning",
+            "rule `reference-point-never-set`",
             &[Rule {
                 finding: "warning[reference-point-never-set]",
                 violates: cut!("G29 X1.\n"),

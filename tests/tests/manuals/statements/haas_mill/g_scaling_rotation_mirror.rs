@@ -153,10 +153,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 conforms: cut!("G51 X0. Y0. P2.\nG1 X1. F10.\nG50\n"),
             }],
         ),
-        gap(
+        held(
             "p. 276, p. 383",
             "Without P Setting 71 is the factor; it is 1 as delivered.",
-            "Setting 71 is read; where it is not configured its default 1 is assumed and named. At present the position is unknown",
+            "Setting 71 by `transform-settings`",
             &[
                 Makes {
                     program: cut!("G51 X0. Y0.\nG1 X2. F10.\nG50\n").with(&["settings.71=3.0"]),
@@ -166,10 +166,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 Assumes { program: cut!("G51 X0. Y0.\nG1 X2. F10.\nG50\n"), says: "setting 71" },
             ],
         ),
-        gap(
+        held(
             "p. 276, p. 394",
             "Without P and with Setting 71 at 0, Settings 188 to 190 scale X, Y and Z each by its own factor.",
-            "Settings 188, 189, 190 are read",
+            "Settings 188 to 190 by `transform-settings`",
             &[Makes {
                 program: cut!("G51 X0. Y0.\nG1 X2. Y2. F10.\nG50\n").with(&[
                     "settings.71=0",
@@ -206,10 +206,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 at: "MZ-2",
             }],
         ),
-        gap(
+        held(
             "p. 280",
             "The size of the tool is not scaled by G51: compensation is by the true radius of the scaled path.",
-            "scaling and cutter compensation together: at present the compensated path is not scaled at all",
+            "compensation acts after scaling",
             &[Makes {
                 program: cut!("G51 X0. Y0. P2.\nG41 D1 G1 X1. F10.\nY1.\nG40 X2.\nG50\n").with(&[TOOL]),
                 block: "G41 D1 G1 X1. F10.",
@@ -236,10 +236,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 events: &["rapid X2", "rapid Z0.2", "feed Z-1", "rapid Z2"],
             }],
         ),
-        gap(
+        held(
             "p. 280",
             "Pecks of G73 and G83 (Q, I, J, K) are not scaled.",
-            "the pecks keep their size; at present they are scaled with the depth",
+            "pecks are counted after scaling",
             &[
                 Run {
                     program: cut!("G51 X0. Y0. Z0. P2.\nG99 G83 Z-.5 R.1 Q.4 F5.\nG80 G50\n"),
@@ -259,10 +259,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 },
             ],
         ),
-        gap(
+        held(
             "p. 280",
             "The shift Q of G76 and G77 is not scaled.",
-            "the shift keeps its size",
+            "the shift is counted after scaling",
             &[Run {
                 program: cut!("G51 X0. Y0. Z0. P2.\nG99 G76 Z-.5 R.1 Q.02 F5.\nG80 G50\n")
                     .with(&["settings.27=\"x+\""]),
@@ -274,10 +274,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
             "Scaled results are rounded to the last place of the axis.",
             "rounding to 0.0001 inch is below what any figure or rule of gcheck depends on",
         ),
-        gap(
+        held(
             "p. 276, p. 382",
             "Scaling stays on after M30 when Setting 56 is off.",
-            "`scaling-left-on` reads Setting 56: with `56 = false` the end of the program keeps it: warning",
+            "rule `scaling-left-on`; Setting 56",
             &[Rule {
                 finding: "warning[scaling-left-on]",
                 violates: cut!("G51 P2. X0. Y0.\nG0 X1.\n").with(&["settings.56=false"]),
@@ -351,10 +351,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 conforms: cut!("G68 X0. Y0. R360.\nG0 X1.\nG69\n"),
             }],
         ),
-        gap(
+        held(
             "p. 282, p. 383",
             "Without R Setting 72 is the angle.",
-            "Setting 72 is read; where it is not configured that is said. At present the position is unknown without a word",
+            "Setting 72 by `transform-settings`",
             &[
                 Makes {
                     program: cut!("G68 X0. Y0.\nG0 X1. Y0.\nG69\n").with(&["settings.72=90.0"]),
@@ -419,30 +419,30 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 Legal { program: cut!("G51 X0. Y0. P2.\nG68 X0. Y0. R90.\nG0 X1. Y0.\nG69\nG50\n") },
             ],
         ),
-        gap(
+        held(
             "p. 285",
             "The other order, and both in one block, are not to be written.",
-            "G51 while G68 is on, G50 before G69, and both codes in a block: info with the page",
+            "rule `scaling-under-rotation`",
             &[Rule {
-                finding: "info[scaling-inside-rotation]",
+                finding: "warning[scaling-under-rotation]",
                 violates: cut!("G68 X0. Y0. R90.\nG51 X0. Y0. P2.\nG0 X1. Y0.\nG50\nG69\n"),
                 conforms: cut!("G51 X0. Y0. P2.\nG68 X0. Y0. R90.\nG0 X1. Y0.\nG69\nG50\n"),
             }],
         ),
-        gap(
+        held(
             "p. 285",
             "Cutter compensation goes on after rotation and off before it.",
-            "G68 or G69 while G41 or G42 is on: warning; silent so far",
+            "rule `rotation-under-compensation`",
             &[Rule {
                 finding: "warning[rotation-under-compensation]",
                 violates: cut!("G41 D1 G1 X1. F10.\nG68 X0. Y0. R90.\nY1.\nG69\nG40 X2.\n"),
                 conforms: cut!("G68 X0. Y0. R90.\nG41 D1 G1 X1. F10.\nY1.\nG40 X2.\nG69\n"),
             }],
         ),
-        gap(
+        held(
             "p. 285",
             "Compensation goes on after rotation and off before it: in between it acts on the turned path (the manual gives the order only).",
-            "rotation and cutter compensation together: at present the compensated path is not turned at all",
+            "compensation acts after rotation",
             &[
                 Makes {
                     program: cut!("G68 X0. Y0. R90.\nG41 D1 G1 X1. F10.\nY1.\nG40 X2.\nG69\n").with(&[TOOL]),
@@ -466,10 +466,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 events: &["rapid X2 Y0"],
             }],
         ),
-        gap(
+        held(
             "p. 285, p. 382",
             "Rotation stays on after M30 when Setting 56 is off.",
-            "`rotation-left-on` reads Setting 56: with `56 = false` the end of the program keeps it: warning",
+            "rule `rotation-left-on`; Setting 56",
             &[Rule {
                 finding: "warning[rotation-left-on]",
                 violates: cut!("G68 R20. X0. Y0.\nG0 X1.\n").with(&["settings.56=false"]),
@@ -535,10 +535,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 },
             ],
         ),
-        gap(
+        held(
             "p. 306",
             "Mirror image and cutter compensation together follow the mirrored path on its other side.",
-            "at present the compensated path is not mirrored at all",
+            "compensation acts after mirrors, on the other side",
             &[Makes {
                 program: cut!("G101 X0.\nG41 D1 G1 X1. F10.\nY1.\nG40 X2.\nG100 X0.\n").with(&[TOOL]),
                 block: "G41 D1 G1 X1. F10.",
@@ -574,10 +574,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 conforms: cut!("G101 X0.\nG0 X1.\nG100 X0.\n"),
             }],
         ),
-        gap(
+        held(
             "p. 306, p. 381, p. 385, p. 396",
             "Settings 45, 46, 47, 48, 80 and 250 mirror an axis without a code.",
-            "a mirror setting that is configured on is heard (or said not to be); silent and wrong so far",
+            "Settings 45 to 47 by `transform-settings`, where they are told; those of A, B and C are not followed",
             &[Makes {
                 program: cut!("G0 X1.\n").with(&["settings.45=true"]),
                 block: "G0 X1.",

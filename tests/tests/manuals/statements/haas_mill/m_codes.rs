@@ -645,7 +645,7 @@ pub(crate) const CHAPTER: Chapter = Chapter {
             "The subprogram ends with M99.",
             "rule `subprogram-without-return`",
             &[Rule {
-                finding: "warning[subprogram-without-return]",
+                finding: "error[subprogram-without-return]",
                 violates: short!("M97 P100\nM30\nN100 X1.\n"),
                 conforms: short!("M97 P100\nM30\nN100 X1.\nM99\n"),
             }],

@@ -47,10 +47,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 ),
             ],
         ),
-        gap(
+        held(
             "p. 196, 197",
             "M in a block of G65 is an argument: it arrives in #13, without a point as a whole number.",
-            "M after G65 is an argument, not a code: the control does not execute it, does not count it among the M codes of the block, and #13 gets its number",
+            "`m-is-argument`",
             &[
                 moves("O1\nG20 G54 G0 G90\nG65 P2 M8\nM30\nO2\nX#13\nM99\n", &["rapid X8."]),
                 moves("O1\nG20 G54 G0 G90\nG65 P2 M3.5\nM30\nO2\nX#13\nM99\n", &["rapid X3.5"]),
@@ -106,10 +106,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 ),
             ],
         ),
-        gap(
+        held(
             "p. 197",
             "In inches an argument without a point counts 0.0001 in A, B, C, I, J, K, Q, R and U to Z.",
-            "A, B and C count 0.0001 as the others do (now 0.001, as angles do outside of a macro call)",
+            "`whole-arguments`: all other letters count least increments of length",
             &[
                 moves(
                     "O1\nG20 G54 G0 G90\nG65 P2 A1 B2 C3\nM30\nO2\nX[#1*1000]\nX[#2*1000]\nX[#3*1000]\nM99\n",
@@ -131,10 +131,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 ),
             ],
         ),
-        gap(
+        held(
             "p. 197, 198",
             "A set of I, J, K given more than once counts 0.0001 without a point as well.",
-            "I1 J2 K3 I4 J5 K6 fill #4 to #9 with 0.0001 to 0.0006; now a second I, J or K makes all of them whole numbers",
+            "`whole-arguments`",
             &[moves(
                 "O1\nG20 G54 G0 G90\nG65 P2 I1 J2 K3 I4 J5 K6\nM30\nO2\nX[#4*1000]\nX[#5*1000]\nX[#6*1000]\nX[#7*1000]\nX[#8*1000]\nX[#9*1000]\nM99\n",
                 &["rapid X.1", "rapid X.2", "rapid X.3", "rapid X.4", "rapid X.5", "rapid X.6"],
@@ -149,19 +149,19 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 &["rapid X4.", "rapid X7.", "rapid X11.", "rapid X12."],
             )],
         ),
-        gap(
+        held(
             "p. 197",
             "E and F without a point are whole numbers too.",
-            "E5 arrives as 5 and F6 as 6 in a macro call; now both count least increments, as a feed does outside of it",
+            "`whole-arguments`",
             &[moves(
                 "O1\nG20 G54 G0 G90\nG65 P2 E5 F6\nM30\nO2\nX#8\nX#9\nM99\n",
                 &["rapid X5.", "rapid X6."],
             )],
         ),
-        gap(
+        held(
             "p. 197",
             "In metric an argument without a point counts 0.001.",
-            "in millimetres A1 arrives as 0.001, and D1, E1, F1, H1, S1, T1 as 1",
+            "`whole-arguments`",
             &[moves(
                 "O1\nG21 G54 G0 G90\nG65 P2 A1 X2 D3 E4 F5\nM30\nO2\nX[#1*1000]\nX[#24*1000]\nX#7\nX#8\nX#9\nM99\n",
                 &["rapid X1.", "rapid X2.", "rapid X3.", "rapid X4.", "rapid X5."],

@@ -27,10 +27,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 legal("O1\nG65 P1000\nM30\nO01000\nG4 P1.\nM99\n"),
             ],
         ),
-        gap(
+        held(
             "p. 232",
             "G65 needs P, or a path.",
-            "error[required-word-missing] for G65 with neither (alarm 313); now there is no finding",
+            "word `P` of `G65`; rule `required-word-missing`",
             &[rule(
                 "error[required-word-missing]",
                 "O1\nG65 A1.\nM30\n",

@@ -128,10 +128,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 ],
             )],
         ),
-        gap(
+        held(
             "p. 221",
             "ATAN takes one number, like the ATAN[ ]/[1] of other controls: a slash after it divides.",
-            "ATAN[1]/[-1] is 45 divided by -1, not the angle of a point; a warning may name what is probably meant. The text of the function says so already, the engine reads two arguments",
+            "`atan-takes-one`",
             &[moves(
                 "O1\nG20 G54 G0 G90\nX[ATAN[1]/[-1]]\nX[ATAN[1]/2]\nM30\n",
                 &["rapid X-45.", "rapid X22.5"],
@@ -259,10 +259,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 &["rapid X2.", "rapid X3.", "rapid X4."],
             )],
         ),
-        gap(
+        held(
             "p. 227",
             "A condition before M99 is for M99 alone: the moves of the block are made whether it holds or not.",
-            "the words in front of the condition are executed in both cases; now a condition that does not hold drops the whole block",
+            "`words-before-conditions`",
             &[moves(
                 "O1\nG20 G54 G0 G90 X9. Y9.\n#1=1\n#2=2\nG0 X0. Y0. [#1 EQ #2] M99 P5\nX1.\nG0 X5. Y5. [#1 NE #2] M99 P5\nX2.\nN5 X3.\nM30\n",
                 &["rapid X9. Y9.", "rapid X0. Y0.", "rapid X1.", "rapid X5. Y5.", "rapid X3."],
@@ -305,10 +305,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 rule("error[jump-target-missing]", "O1\nGOTO16\nN15 M30\n", "O1\nGOTO15\nN15 M30\n"),
             ],
         ),
-        gap(
+        held(
             "p. 226",
             "GOTO may stand in a block with other codes; it is executed after all of them, M codes too.",
-            "the words in front of GOTO are executed; now they are dropped without a finding: moves, coolant and spindle codes are lost",
+            "`words-before-conditions`",
             &[
                 moves(
                     "O1\nG20 G54 G0 G90 X0.\nX1. GOTO15\nX2.\nN15 X3.\nM30\n",
@@ -386,10 +386,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 &["rapid X1."],
             )],
         ),
-        gap(
+        held(
             "p. 228",
             "Of a false IF the remainder of the block is passed over: calls and moves may be conditioned.",
-            "IF [..] G65 P.. without THEN is read as with it, as this control does in practice: no error[if-without-consequence], and the call is made where the condition holds",
+            "`words-after-if`",
             &[
                 reports("O1\nG65 P2 A1.\nM30\nO2\nIF [#1 EQ 1] G65 P3 A2.\nM99\nO3\n#100=#1\nM99\n", &[]),
                 moves(

@@ -148,10 +148,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 &["rapid", "feed X.75 Y0.", "feed X.75 Y1.", "feed X-1. Y1."],
             )],
         ),
-        gap(
+        held(
             "p. 200, 210",
             "A length acts along Z only: where it is unknown, X and Y are as known as before.",
-            "G43 of a tool whose size the program wrote (#2401) and whose length nobody told leaves X and Y known; now the whole path under compensation is unknown",
+            "effect `length-plus`",
             &[moves(
                 "O1\nG20\n#2401=.5\nT1 M6\nG54 G0 G90 X0. Y0.\nG43 H1 Z1.\nG1 G41 D1 X1. F10.\nY1.\nG40 X-1.\nM30\n",
                 &["rapid X0. Y0.", "rapid X0. Y0. Z1.", "feed X.75 Y0.", "feed X.75 Y1.", "feed X-1. Y1."],
@@ -178,14 +178,14 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 rule("warning[number-out-of-range]", "O1\n#3000=1000\nM30\n", "O1\n#3000=999\nM30\n"),
             ],
         ),
-        gap(
+        held(
             "p. 211, 229",
             "#3001 counts milliseconds and #3002 hours from the value that was assigned; a program may wait for them.",
-            "the variables change by themselves: no endless-loop for a loop that waits for them, and a run goes on after that time",
+            "system variables 3001, 3002: their values are never known",
             &[
                 reports("O1\n#3001=0\nWH [#3001 LT 500] DO1\nEND1\nG4 P1.\nM30\n", &[]),
                 reports("O1\n#3002=0\nWHILE [#3002 LT 1] DO1\nEND1\nG4 P1.\nM30\n", &[]),
-                run("O1\n#3001=0\nWH [#3001 LT 500] DO1\nEND1\nG4 P1.\nM30\n", &["5 dwell 1.000"]),
+                stops("O1\n#3001=0\nWH [#3001 LT 500] DO1\nEND1\nG4 P1.\nM30\n", "depends on an unknown value"),
             ],
         ),
         held(
@@ -410,10 +410,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 &["rapid", "rapid X1.", "rapid Z1.", "rapid X3."],
             )],
         ),
-        gap(
+        held(
             "p. 214",
             "#5083 includes the wear of the length.",
-            "length in effect = #2000 + H plus #2200 + H: a program that sets the wear moves deeper by it",
+            "`tool-length-wear` of the system variables",
             &[moves_told(
                 "O1\nG20 T1 M6\nG54 G0 G90 X0. Y0.\n#2201=.1\nG43 H1 Z1.\nX#5083\nM30\n",
                 &["rapid", "rapid Z1. MZ-3.9", "rapid X3.1"],
@@ -432,10 +432,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 variables([5321, 5326], "G59", "read-write"),
             ],
         ),
-        gap(
+        held(
             "p. 202, 214",
             "#5201 to #5206 are the shift of G52.",
-            "reading gives what G52 set, writing replaces it; now they are a second shift beside G52's",
+            "`local-shift` of the system variables",
             &[
                 moves_told("O1\nG20 G54 G0 G90 X0. Y0. Z0.\nG52 X1.\nX#5201\nM30\n", &["rapid", "rapid MX-8."]),
                 moves_told("O1\nG20 G54 G0 G90 X0. Y0. Z0.\nG52 X1.\n#5201=2.\nX0.\nM30\n", &["rapid", "rapid MX-8."]),

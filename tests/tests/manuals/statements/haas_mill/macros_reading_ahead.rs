@@ -28,10 +28,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 explains("M109", "code of the key pressed arrives in `#P`"),
             ],
         ),
-        gap(
+        held(
             "p. 192, 361",
             "M109 puts the operator's answer into the variable of P.",
-            "the variable is unknown after M109: no endless-loop where the program waits for it, both ways after a condition, and a run stops at a condition on it",
+            "effect `ask-operator`",
             &[
                 reports(
                     "O1\n#501=0\nM109 P501 (GO ON)\nWHILE [#501 EQ 0] DO1\nEND1\nIF [#501 EQ 89] GOTO5\nG4 P1.\nN5 M30\n",
@@ -112,10 +112,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 "O1\nG20 G54 G0 G90 X0.\nG1 F5.\n/G1 X1.\nG1 X2.\nM30\n",
             )],
         ),
-        gap(
+        held(
             "p. 194, 199",
             "A variable of three digits and the one 10000 above are the same: #100 is #10100.",
-            "one store under both numbers, for #100 to #199, #500 to #699 and #800 to #999; now they are two variables",
+            "`mirrored-variables`",
             &[
                 moves(
                     "O1\nG20 G54 G0 G90\n#100=5.\nX#10100\n#10501=6.\nX#501\n#800=7.\nX#10800\nM30\n",

@@ -1,0 +1,139 @@
+//! A tool that comes down because its length was cancelled.
+
+use gcheck_controls::{Effect, Letter};
+use gcheck_engine::{At, Axis, Event, Fact, Role};
+
+use crate::declare::declare_rule;
+use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
+use crate::{Remembers, remembers};
+
+declare_rule! {
+    /// The length of a tool is cancelled (`G49`), and a rapid move in Z follows that does not rise by the length of a tool.
+    ///
+    /// ## Why it matters
+    /// From there Z is the position of the spindle nose: the tool comes down by its own length, at rapid.
+    ///
+    /// ## Reported
+    /// ```nc,reported,haas-mill
+    /// G20 G90 G54 G0 X0. Y0.
+    /// G43 H1 Z.1
+    /// G0 G49 Z1.
+    /// M30
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,haas-mill
+    /// G20 G90 G54 G0 X0. Y0.
+    /// G43 H1 Z.1
+    /// G0 Z1.
+    /// G53 G49 Z0.
+    /// M30
+    /// ```
+    rule "length-cancelled-before-move" in "tool" {
+        summary: "tool comes down because its length was cancelled",
+        severity: Warning,
+        tier: Path,
+        since: "0.1.0",
+        run: Run::Path {
+            watch: Watch::BLOCKS.union(Watch::RAPIDS),
+            make: || Box::new(LengthCancelledBeforeMove { cancelled: None }),
+        },
+    }
+}
+
+/// Millimetres: no tool in its holder is shorter.
+const SHORTEST_TOOL: f64 = 50.0;
+
+#[derive(Clone, PartialEq)]
+struct LengthCancelledBeforeMove {
+    /// The block that cancelled the length, and the height of the tip there in millimetres.
+    cancelled: Option<(At, f64)>,
+}
+
+remembers!(LengthCancelledBeforeMove: cancelled);
+
+impl PathRule for LengthCancelledBeforeMove {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
+    fn concerns(&self, program: &Uses<'_>) -> bool {
+        program.may(|effect| effect == Effect::LengthPlus)
+            && program.may(|effect| effect == Effect::LengthOff)
+    }
+
+    fn block(&mut self, cx: &PathCx<'_>, _: &mut Report<'_>) {
+        let elsewhere = |effect| {
+            matches!(
+                effect,
+                Effect::ToolChange
+                    | Effect::LengthPlus
+                    | Effect::MachineCoordinates
+                    | Effect::ReturnReference(_)
+                    | Effect::WorkOffset(_)
+                    | Effect::WorkOffsetByP(_)
+            )
+        };
+        let is_on = cx.state().effect(Role::Length, cx.model) == Some(Effect::LengthPlus);
+        if cx.has_effect(elsewhere) {
+            self.cancelled = None;
+        } else if is_on && cx.has_effect(|effect| effect == Effect::LengthOff) {
+            self.cancelled = cx.state().position().get(Axis::Z).map(|height| (cx.origin().at, height));
+        }
+    }
+
+    fn rapid(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
+        let Event::Travel(travel) = event else { return };
+        if travel.expanded || !cx.origin().letters.contains(Letter::of('Z')) {
+            return;
+        }
+        let Some((at, before)) = self.cancelled.take() else { return };
+        if cx.state().is_incremental(cx.model) != Some(false) {
+            return;
+        }
+        let Some(to) = travel.programmed.get(Axis::Z) else { return };
+        let rises_by = to - before;
+        // Where lengths are measured from the machine's zero, `Z0.` without one is the way home.
+        if rises_by >= SHORTEST_TOOL || to == 0.0 {
+            return;
+        }
+        let off = cx.name_of_effect(Effect::LengthOff).unwrap_or_default();
+        let machine = cx.name_of_effect(Effect::MachineCoordinates).unwrap_or_default();
+        let finding = cx
+            .finding(
+                &META,
+                cx.letter_range('Z'),
+                format!("the tool comes down: its length was cancelled before this move (`{off}`)"),
+            )
+            .label("moves the spindle nose to this Z: the tool goes deeper by its length")
+            .assuming("length offsets are the lengths of tools, not distances from the machine's zero")
+            .help(format!(
+                "go up in machine coordinates (`{machine} {off} Z0.`), or keep the length for this move"
+            ));
+        let finding = match cx.range_of(at).filter(|_| at != cx.origin().at) {
+            Some(range) => finding.also(range, "cancelled here"),
+            None => finding,
+        };
+        report.add(cx.resting_on(finding, Fact::Mode(Role::Length), &format!("`{off}`")));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::check_rule;
+
+    #[test]
+    fn the_next_move_in_z_decides() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G20 G90 G54 G0 X0. Y0.\nG43 H1 Z.1\nG49\nX2.\nZ2.\nZ3.\nG43 H1 Z.1\nG49 Z10.\nG43 H1 Z.1\nG49\nG28 G91 Z0.\nG90\nM30\n",
+            &expect![[r#"
+                5 | Z2.
+                  | ^^^ warning[length-cancelled-before-move] the tool comes down: its length was cancelled before this move (`G49`)
+            "#]],
+        );
+    }
+}
