@@ -29,10 +29,10 @@ pub use code_number::CodeNumber;
 pub use control::{Code, CodeIx, Control, GroupIx, UserCode, Variable};
 pub use detect::{Evidence, Guess, Score, guess, scores};
 pub use execution::{
-    AlongTool, ArcRules, CompensationRefusals, CompensationRules, CompensationStyle, CycleRules, CylinderRules,
-    DwellWord, Effect, Fix, HelixFeed, HelixRules, LastingEnd, LastingFrom, LastingWords, LengthAgreement,
-    LocalShift, MessageComment, MirroredVariables, OffsetValue, ProbeFeed, Refusals, ReturnTo, Semantics,
-    SystemValue, SystemVariable, ToolRules, TransformSettings, Unset,
+    AlongTool, ArcRules, CompensationRefusals, CompensationRules, CompensationStyle, CycleRules,
+    CylinderRules, DwellWord, Effect, Fix, HelixFeed, HelixRules, LastingEnd, LastingFrom, LastingWords,
+    LengthAgreement, LocalShift, MessageComment, MirroredVariables, OffsetValue, ProbeFeed, Refusals,
+    ReturnTo, Semantics, SystemValue, SystemVariable, ToolRules, TransformSettings, Unset,
 };
 pub use letter_set::{Letter, LetterSet};
 pub use loader::{LoadError, fallback, load, names};
