@@ -68,7 +68,7 @@ impl PathRule for CycleWordMissing {
         let is_written = |effect: Effect| cx.codes().iter().any(|ix| cx.model.effect(*ix) == effect);
         let is_incremental = is_written(Effect::Incremental)
             || cx.state().is_incremental(cx.model) == Some(true) && !is_written(Effect::Absolute);
-        // Where it is no fault, feeding begins at the level of the tool.
+        // Where the control takes that, feeding begins at the level of the tool.
         let r = Letter::of('R');
         if is_cycle(code.effect()) && !is_incremental && !cx.origin().letters.contains(r) {
             self.tell(cx, code, r, Severity::Info, report);
@@ -113,7 +113,7 @@ impl CycleWordMissing {
             Need::Modal => severity == Severity::Error && begins && !told_by_text,
             // The plane decides which axis has the depth.
             Need::Optional => is_depth,
-            _ => false,
+            Need::Required => false,
         });
         let stands = cx.origin().letters.contains(letter);
         let was_given = is_cycle(code.effect())

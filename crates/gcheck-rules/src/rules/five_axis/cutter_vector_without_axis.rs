@@ -1,5 +1,6 @@
 //! A direction of 3D cutter compensation along an axis that its block does not name.
 
+use gcheck_controls::Letter;
 use gcheck_engine::{Axis, Event, Role};
 
 use crate::declare::declare_rule;
@@ -82,10 +83,14 @@ impl PathRule for CutterVectorWithoutAxis {
             }
             let (name, axis) = (cx.name_of(code), axis.name());
             let source = cx.control().code_at(code).map_or("", |code| code.entry().source.as_str());
-            let message = if applied == 0.0 {
-                format!("no offset along {axis}: `{letter}` without `{axis}` (`{name}`)")
-            } else {
-                format!("offset along {axis} stays as it is: `{letter}` without `{axis}` (`{name}`)")
+            let message = match (applied == 0.0, letters.contains(Letter::of(letter))) {
+                (true, _) => format!("no offset along {axis}: `{letter}` without `{axis}` (`{name}`)"),
+                (false, true) => {
+                    format!("offset along {axis} stays as it is: `{letter}` without `{axis}` (`{name}`)")
+                }
+                (false, false) => {
+                    format!("offset along {axis} stays as it is: the direction has none now (`{name}`)")
+                }
             };
             let finding = cx
                 .finding(&META, cx.letter_range(letter), message)
@@ -129,7 +134,7 @@ mod tests {
             "G90 G0 G141 D1 X0. Y0. Z0. K1.\nG1 X5. K1. F20.\nX6. Y1. J1.\nG40\nM30\n",
             &expect![[r#"
                 3 | X6. Y1. J1.
-                  | ^^^^^^^^^^^ warning[cutter-vector-without-axis] offset along Z stays as it is: `K` without `Z` (`G141`)
+                  | ^^^^^^^^^^^ warning[cutter-vector-without-axis] offset along Z stays as it is: the direction has none now (`G141`)
             "#]],
         );
     }

@@ -31,7 +31,7 @@ declare_rule! {
 
 fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
     let Some(number) = cx.control().semantics().units_setting.as_deref() else { return };
-    // What nobody told is no reason for an alarm.
+    // A setting that is not configured is not a reason for an alarm.
     let Some((value, None)) = cx.environment.setting(number) else { return };
     for (word, code) in cx.codes() {
         let other = match code.effect() {
