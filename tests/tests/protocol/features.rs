@@ -151,9 +151,9 @@ fn a_list_of_all_g_codes_is_short_on_the_wire() {
         assert!(rows.len() >= codes.min(90), "{control}: {} rows of {codes} codes", rows.len());
         session.edit("a.nc", 2, [4, 1, 4, 1], "9");
         let (narrow, _) = listed(&mut session, 4, 2);
-        let last = all.codes().filter(|code| code.number().to_string().starts_with("G9")).last().unwrap();
-        let last = last.number().to_string();
-        assert!(narrow["items"].as_array().unwrap().iter().any(|row| row["label"] == *last), "{narrow}");
+        let highest = all.codes().filter(|code| code.number().to_string().starts_with("G9")).last().unwrap();
+        let highest = highest.number().to_string();
+        assert!(narrow["items"].as_array().unwrap().iter().any(|row| row["label"] == *highest), "{narrow}");
         assert_eq!(shown(&list["itemDefaults"]["editRange"]), "4:0-4:1");
         assert!(rows.iter().all(|row| row["documentation"].is_null()), "{list}");
         // An editor that knows nothing of short lists is sent the rows that fit best.
