@@ -65,10 +65,11 @@ fn a_mistake_is_found_whether_its_words_are_written_or_computed() {
     };
     let shown: String = silent.into_iter().map(line).collect();
     expect![[r#"
-        3328 words
+        3606 words
         blank-inside-number: G Y
         block-number-not-first: G
         code-must-come-first: M
+        coolant-locked: M
         decimal-point-on-integer: H
         dwell-unit-unsure: P
         dwell-very-short: P
@@ -88,6 +89,7 @@ fn a_mistake_is_found_whether_its_words_are_written_or_computed() {
         maybe-refused-in-five-axis-mode: G
         maybe-spindle-stopped-while-cutting: G M
         number-out-of-range: P Q
+        offset-words-beside-motion: G
         pocket-arc-below-tool: G M
         pocket-on-wrong-side: G M
         pocket-outline-open: G M
@@ -99,9 +101,11 @@ fn a_mistake_is_found_whether_its_words_are_written_or_computed() {
         tool-comment-of-another-tool: M T
         turning-profile-turns-back: F G X Z
         turning-start-inside-profile: F G X Z
+        undefined-code: G
         unknown-address: @ G ^
         unknown-code: G
         unreachable-block: G M
+        unwanted-word: G
         word-of-newer-version: $ M
         word-passed-over: G
     "#]]

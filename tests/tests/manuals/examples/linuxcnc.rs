@@ -762,7 +762,9 @@ const EXAMPLES: &[Example] = &[
         what: "is a value of the machine file there?",
         around: ["", "M2\n"],
         findings: &[],
-        both: Both::End,
+        both: Both::Differ(
+            "whether the value is there depends on the machine file, which gcheck is not given",
+        ),
     },
     Example {
         at: ("overview", 672),
@@ -780,7 +782,9 @@ const EXAMPLES: &[Example] = &[
         what: "is a pin there?",
         around: ["", "M2\n"],
         findings: &[],
-        both: Both::End,
+        both: Both::Differ(
+            "whether the value is there depends on the machine file, which gcheck is not given",
+        ),
     },
     Example {
         at: ("overview", 799),

@@ -467,7 +467,7 @@ lasting: By(&[
                 },
 ]),
 missing: By(&[
-rule("info[compensation-left-on]", mill("T1 M6\nG90 G1 G141 D1 X1. Y0. Z0. I0. J0. K1. F20.\nM30\n"), mill("T1 M6\nG90 G1 G141 D1 X1. Y0. Z0. I0. J0. K1. F20.\nG40\nM30\n")),
+rule("error[compensation-left-on]", mill("T1 M6\nG90 G1 G141 D1 X1. Y0. Z0. I0. J0. K1. F20.\nM30\n"), mill("T1 M6\nG90 G1 G141 D1 X1. Y0. Z0. I0. J0. K1. F20.\nG40\nM30\n")),
 ]),
 extra: No("no other word"),
 range: No("no range"),

@@ -85,7 +85,8 @@ fn check(cx: &PathCx<'_>, at_end_of_text: bool, report: &mut Report<'_>) {
             let finding = cx
                 .finding(&META, cx.range(), "called subroutine ends the whole job")
                 .label("ends here, and does not return to its caller")
-                .help("end the program after the call, or return before this block");
+                .help("end the program after the call, or return before this block")
+                .at_most(Severity::Warning);
             report.add(finding);
         }
         return;

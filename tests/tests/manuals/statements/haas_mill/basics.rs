@@ -187,10 +187,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 "O1\nT1 M6\nG20 G54 G0 G90 X0. Y0.\nS800 M3\nG43 H1 Z.1\nG1 Z-1. F5.\nG0 Z1.\nG49\nT2 M6\nX1. S800 M3\nG43 H2 Z.1\nG1 Z-1.\nG0 Z1.\nM30\n",
             )],
         ),
-        gap(
+        held(
             "p. 132",
             "H should be the number of the tool in the spindle, or there may be a collision.",
-            "warning[length-offset-of-another-tool] by default in a program of one tool or of few as well, where no H fits the tool that cuts",
+            "rule `length-offset-of-another-tool`",
             &[
                 rule(
                     "warning[length-offset-of-another-tool]",
@@ -204,10 +204,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 ),
             ],
         ),
-        gap(
+        held(
             "p. 132",
             "With setting 15 on, H and T that differ raise alarm 332.",
-            "with `settings.15` told to be on: error[length-offset-of-another-tool] that names alarm 332; H0 stays legal there",
+            "rule `length-offset-of-another-tool`",
             &[
                 Proof::Rule {
                     finding: "error[length-offset-of-another-tool]",

@@ -549,10 +549,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 read_only("O1\n#30001=1\nM30\n", "O1\n#100=#30001\nM30\n"),
             ],
         ),
-        gap(
+        held(
             "p. 218",
             "#20000 + n reads setting n.",
-            "with setting n told (`settings.34 = 4.`), #20034 reads it; a default that gcheck assumes is read with its assumption",
+            "variables of settings",
             &[Proof::Moves {
                 program: mill("O1\nG20 G54 G0 G90\nX#20034\nM30\n").with(&["machine.units=\"inch\"", "settings.34=4.0"]),
                 are: &["rapid X4."],
