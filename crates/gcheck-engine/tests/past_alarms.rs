@@ -90,12 +90,12 @@ fn a_half_typed_cycle_goes_to_its_hole_and_the_rest_is_run() {
     check(
         "O1\nG21 G90 G0 X0. Y0. Z50.\nG83 X5. Y6.\nG80\nG0 X9.\nM30\n",
         &expect![[r#"
-        rapid X0 Y0 Z50
-        block 2: Cycle(Missing(R))
-        rapid X5 Y6 Z50
-        rapid X9 Y6 Z50
-        Ended(Program), 1 alarms
-    "#]],
+            rapid X0 Y0 Z50
+            block 2: Cycle(Missing(Z))
+            rapid X5 Y6 Z50
+            rapid X9 Y6 Z50
+            Ended(Program), 1 alarms
+        "#]],
     );
 }
 

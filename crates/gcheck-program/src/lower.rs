@@ -310,7 +310,8 @@ pub(crate) struct Lasting {
 /// they are is a question of the whole path.
 fn lasting_words(entry: &CodeEntry) -> Vec<Lasting> {
     let lasts = |word: &&WordEntry| {
-        word.need == Need::Modal && !matches!(word.kind, WordKind::Feed | WordKind::Speed)
+        let is_set_by_itself = matches!(word.kind, WordKind::Feed | WordKind::Speed);
+        word.need == Need::Modal && word.default.is_none() && !is_set_by_itself
     };
     let letters = |word: &WordEntry| {
         let set = |letters: &[String]| letters.iter().filter_map(|letter| Letter::parse(letter)).collect();

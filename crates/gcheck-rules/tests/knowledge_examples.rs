@@ -50,6 +50,10 @@ fn examples_of_codes_give_no_finding() {
         let control = gcheck_controls::load(name).unwrap();
         for code in control.codes() {
             let entry = code.entry();
+            // What such a code does is not defined: no use of it is right.
+            if entry.undefined {
+                continue;
+            }
             let mut program = entry.setup.join("\n");
             program.push('\n');
             program.push_str(&entry.example);

@@ -64,6 +64,9 @@ impl ToolData {
         orientation: Flat::Unknown,
     };
 
+    /// It may be anything, and somebody may have written its wear.
+    pub(crate) const ANYTHING: Self = Self { wear: [f64::NAN; 2], ..Self::UNKNOWN };
+
     /// A tool without length and size.
     pub(crate) const NOTHING: Self = Self {
         offset: Position::ZERO,
@@ -177,7 +180,7 @@ impl Tables {
     /// A tool of unknown number was written, and may not have been there before.
     pub(crate) fn forget_tools(&mut self) {
         for (_, tool) in self.tools_mut() {
-            *tool = ToolData { wear: [f64::NAN; 2], ..ToolData::UNKNOWN };
+            *tool = ToolData::ANYTHING;
         }
         self.partial = May(true);
     }
@@ -241,7 +244,7 @@ impl Lattice for Tables {
             let (a, b) = (self.line(number), other.line(number));
             let listed = a.listed.join(&b.listed);
             // A tool that is there on one path only may be anything.
-            let tool = if listed == Truth::Unknown { ToolData::UNKNOWN } else { a.tool.join(&b.tool) };
+            let tool = if listed == Truth::Unknown { ToolData::ANYTHING } else { a.tool.join(&b.tool) };
             Row { number, tool, listed }
         };
         Self {

@@ -239,7 +239,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     fn starts_without_r(&self, state: &State<D>) -> bool {
         let cycle = state.active_cycle(self.model).and_then(|ix| self.model.control().code_at(ix));
         let word = cycle.and_then(|code| code.entry().words.iter().find(|word| word.letter == "R"));
-        word.is_some_and(|word| matches!(word.need, Need::Optional | Need::Conditional))
+        word.is_some_and(|word| word.need == Need::Optional || word.default.is_some())
     }
 
     /// Does the block name an axis beside the one of depth, in whatever way?

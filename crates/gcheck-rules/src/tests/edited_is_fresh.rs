@@ -78,7 +78,10 @@ fn shown(outcome: &Outcome) -> String {
         let Finding { assumptions, fixes, .. } = finding;
         format!("{place} | {labels:?} {notes:?} {help:?} {alarm:?} {assumptions:?} {fixes:?}")
     };
-    let findings: Vec<String> = outcome.findings.iter().map(line).collect();
+    let mut findings: Vec<String> = outcome.findings.iter().map(line).collect();
+    if outcome.out_of_fuel {
+        findings.sort();
+    }
     let omitted: Vec<_> = outcome.omitted.iter().map(|(rule, sev, count)| (rule.id, sev, count)).collect();
     format!(
         "{}\n{omitted:?} {} {} {:?} {}",

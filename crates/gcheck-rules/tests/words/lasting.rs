@@ -2,7 +2,7 @@
 //!
 //! Knows: the ways in which a word may come before a block, what the data say of each. Must not know: any rule.
 
-use gcheck_controls::{CodeNumber, Control, LastingEnd, LastingFrom, LastingWords, Letter, Need};
+use gcheck_controls::{CodeNumber, Control, LastingEnd, LastingFrom, LastingWords, Letter, Need, WordEntry};
 use gcheck_engine::{
     Concrete, Event, Fault, Machine, Model, NoLibrary, Observer, Options, Origin, Program, State, run,
 };
@@ -41,8 +41,7 @@ fn row<'c>(control: &'c Control, subject: &Subject<'_>, letter: Letter) -> Optio
     let reads = |code: &&gcheck_controls::Code<'_>| code.reads().contains(letter);
     let reader = subject.codes.iter().find(reads).filter(|_| !sets_mode || letter != Letter::of('F'))?;
     let words = &reader.entry().words;
-    let is_modal =
-        words.iter().any(|word| Letter::parse(&word.letter) == Some(letter) && word.need == Need::Modal);
+    let is_modal = words.iter().any(|word| Letter::parse(&word.letter) == Some(letter) && lasts(word));
     control.lasting_in(letter, &reader.entry().group).filter(|_| is_modal)
 }
 
@@ -147,4 +146,9 @@ impl Observer<Concrete> for Moves {
             self.list.push(format!("{fault:?}"));
         }
     }
+}
+
+/// A word with a value of its own is left out: the cycle before may have left the tool where that value is.
+fn lasts(word: &WordEntry) -> bool {
+    word.need == Need::Modal && word.default.is_none()
 }

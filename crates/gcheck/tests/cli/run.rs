@@ -121,12 +121,15 @@ fn the_control_and_what_is_taken_for_granted_are_said_beside_the_moves() {
               8  end
         ! part.nc: control haas-mill, set by `--control`
         ! taken for granted
+        !   setting 17 (optional stop lockout) is `off`, as usual
         !   the positions of the axes at the start are not known
         !   the work offset G54 is not known
         !   block delete is off: blocks with `/` were executed
         !   the optional stop is off: `M1` was passed over
         !   in effect at the start, as at power-on: G0 G80 G17 G90 G94 G40 G49 G98 G54 G64 G50 G69 G100 G255
         ! gcheck.toml can say
+        !   [settings]
+        !   17 = false
         !   [offsets]
         !   G54 = { X = …, Y = …, Z = … }
         exit 0
@@ -385,7 +388,7 @@ fn the_machine_file_gives_offsets_tools_and_units() {
         .map(|line| line["machine"].to_string())
         .collect();
     expect![[r#"
-        {"X":-390.0,"Y":-180.0,"Z":null}
+        {"X":-390.0,"Y":-180.0,"Z":0.0}
         {"X":-390.0,"Y":-180.0,"Z":125.0}
         {"X":-1.0,"Y":-2.0,"Z":125.0}
         {"X":-1.0,"Y":-2.0,"Z":117.0}"#]]

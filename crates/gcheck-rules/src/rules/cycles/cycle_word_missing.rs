@@ -108,8 +108,9 @@ impl CycleWordMissing {
         // A letter of an arc or a call elsewhere in the text does not belong to the cycle.
         let is_depth = cx.control().letter(letter).is_some_and(|entry| entry.axis);
         let needed = word.is_some_and(|word| match word.need {
-            Need::Conditional => true,
-            // What is a fault of the control is told there.
+            Need::Conditional => severity == Severity::Error,
+            // The control has a value for it: worth knowing, and no more.
+            Need::Modal if word.default.is_some() => severity == Severity::Info,
             Need::Modal => severity == Severity::Error && begins && !told_by_text,
             // The plane decides which axis has the depth.
             Need::Optional => is_depth,
