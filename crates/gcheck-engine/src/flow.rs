@@ -15,6 +15,7 @@
 //! wait or that later ones are compared with are counted and limited, and what a call needed goes when it returns. A limit that
 //! is reached is named in the result ([`GivenUp`]).
 
+mod branch;
 mod budget;
 mod checkpoint;
 mod heads;
@@ -28,6 +29,8 @@ use std::rc::Rc;
 
 use rustc_hash::FxHashMap;
 
+use branch::Before;
+pub use branch::Branch;
 pub use budget::{Budget, GivenUp, Limit};
 pub use checkpoint::{Checkpoint, Leg};
 use heads::Heads;
@@ -109,6 +112,18 @@ pub trait FlowObserver {
         true
     }
 
+    /// Paths that were one part for the first time at this block: so many of its ways are to be given out as
+    /// [branches](FlowObserver::branches).
+    fn wanted_branches(&self, at: At) -> usize {
+        let _ = at;
+        0
+    }
+
+    /// Paths that were one part here, and each of these ways can be followed by itself another time.
+    fn branches(&mut self, branches: Vec<Branch>) {
+        let _ = branches;
+    }
+
     /// Asked now and then: is the analysis to be given up?
     fn stops(&mut self) -> bool {
         false
@@ -144,6 +159,12 @@ pub struct FlowResult {
 }
 
 impl FlowResult {
+    /// All of an analysis in one leg.
+    fn of(leg: Leg) -> Self {
+        let Leg { reached, always, given_up, work, assumptions, partings, .. } = leg;
+        Self { reached, always, given_up, work, assumptions, partings }
+    }
+
     /// Did it end before it had seen all paths?
     pub fn is_incomplete(&self) -> bool {
         !self.given_up.is_empty()
@@ -235,14 +256,15 @@ fn calls(state: &State<Abstract>) -> Rc<[At]> {
 /// A state that waits at a block.
 #[derive(Debug, Clone)]
 struct Pending {
-    state: State<Abstract>,
+    /// Shared with what is kept of the block: states are large, and most are joined with others before they are executed.
+    state: Rc<State<Abstract>>,
     trace: Trace,
 }
 
 /// A state that stands for all that came to a block since the last solo stretch.
 #[derive(Debug)]
 struct Met {
-    state: State<Abstract>,
+    state: Rc<State<Abstract>>,
     trace: Trace,
     visits: u32,
 }
@@ -298,15 +320,33 @@ pub fn flow<O: FlowObserver>(
     task: Task<'_>,
     observer: &mut O,
 ) -> FlowResult {
-    let leg = flow_from(program, model, machine, task, None, observer);
-    FlowResult {
-        reached: leg.reached,
-        always: leg.always,
-        given_up: leg.given_up,
-        work: leg.work,
-        assumptions: leg.assumptions,
-        partings: leg.partings,
-    }
+    FlowResult::of(flow_from(program, model, machine, task, None, observer))
+}
+
+/// Analyses all paths of a task that take a branch, from where it begins. The work that led there counts as done; what it
+/// rests on and reaches before is not repeated.
+pub fn flow_branch<O: FlowObserver>(
+    program: &Program<'_>,
+    model: &Model<'_>,
+    machine: &Machine,
+    task: Task<'_>,
+    branch: Branch,
+    observer: &mut O,
+) -> FlowResult {
+    let Branch { choice: _, to, state, trace, before } = branch;
+    trace.begin_leg();
+    let facts = trace.clone();
+    let mut flow = Flow::new(program, model, machine, task, observer, to);
+    flow.taken = before.taken + 1;
+    flow.work = before.work;
+    flow.asked_at = before.work;
+    flow.heads = before.heads.clone();
+    flow.forks = before.forks;
+    flow.lost_ways.clone_from(&before.lost_ways);
+    flow.lost = before.lost;
+    flow.arrive(to, state, trace);
+    flow.explore();
+    FlowResult::of(flow.end_leg(&facts))
 }
 
 /// Analyses all paths of a task from a checkpoint on, or from the beginning: what was done since the last checkpoint that the
@@ -319,56 +359,15 @@ pub fn flow_from<O: FlowObserver>(
     from: Option<Checkpoint>,
     observer: &mut O,
 ) -> Leg {
-    let offers = observer.wants_checkpoints();
-    let shown = Shown {
-        observer,
-        model,
-        trace: Trace::default(),
-        solo: true,
-        muted: false,
-        also: Vec::new(),
-        stepping: None,
-        events: 0,
-    };
-    let mut executor = Executor::new(program, model, machine, task.options, shown);
-    executor.lenient = true;
-    let from = from.unwrap_or_else(|| Checkpoint {
-        at: At { file: 0, block: 0 },
-        state: start_state::<Abstract>(model, machine, &mut executor.assumptions),
-        trace: Trace::default(),
-        parted: false,
-        taken: 0,
-    });
-    let Checkpoint { at, state, trace, parted, taken } = from;
+    let mut flow = Flow::new(program, model, machine, task, observer, At { file: 0, block: 0 });
+    let Checkpoint { at, state, trace, parted, taken } = from.unwrap_or_else(|| flow.beginning());
     trace.begin_leg();
     let facts = trace.clone();
-    let most_met = MOST_MET + executor.file(0).map_or(0, |file| file.loaded.outline().blocks() as usize);
-    let mut flow = Flow {
-        chunk: executor.chunk_of(at.block),
-        executor,
-        limit: task.work,
-        work: 0,
-        choices: task.choices,
-        taken,
-        most_met,
-        settle_at: MOST_UNSETTLED,
-        asked_at: 0,
-        forks: 0,
-        parted,
-        pending: BTreeMap::from([(Key::of(at, &state), Pending { state, trace })]),
-        met: FxHashMap::default(),
-        lost_ways: BTreeSet::new(),
-        lost: 0,
-        order: Vec::new(),
-        heads: Heads::default(),
-        offers,
-        last_offer: at.block,
-        leg: Leg::default(),
-        leg_began: 0,
-        stopped: false,
-        at,
-        path: Rc::default(),
-    };
+    flow.chunk = flow.executor.chunk_of(at.block);
+    flow.last_offer = at.block;
+    flow.parted = parted;
+    flow.taken = taken;
+    flow.pending.insert(Key::of(at, &state), Pending { state: Rc::new(state), trace });
     flow.explore();
     flow.end_leg(&facts)
 }
@@ -439,7 +438,73 @@ enum Stretch {
     Stopped,
 }
 
-impl<O: FlowObserver> Flow<'_, '_, '_, '_, O> {
+impl<'a, 'p, 'o, 'd, O: FlowObserver> Flow<'a, 'p, 'o, 'd, O> {
+    /// An analysis that has nothing to follow yet.
+    fn new(
+        program: &'a Program<'p>,
+        model: &'a Model<'a>,
+        machine: &'a Machine,
+        task: Task<'d>,
+        observer: &'o mut O,
+        at: At,
+    ) -> Self {
+        let offers = observer.wants_checkpoints();
+        let shown = Shown {
+            observer,
+            model,
+            trace: Trace::default(),
+            solo: true,
+            muted: false,
+            also: Vec::new(),
+            stepping: None,
+            events: 0,
+        };
+        let mut executor = Executor::new(program, model, machine, task.options, shown);
+        executor.lenient = true;
+        let blocks = executor.file(0).map_or(0, |file| file.loaded.outline().blocks() as usize);
+        Flow {
+            chunk: executor.chunk_of(at.block),
+            executor,
+            limit: task.work,
+            work: 0,
+            choices: task.choices,
+            taken: 0,
+            most_met: MOST_MET + blocks,
+            settle_at: MOST_UNSETTLED,
+            asked_at: 0,
+            forks: 0,
+            parted: false,
+            pending: BTreeMap::new(),
+            met: FxHashMap::default(),
+            lost_ways: BTreeSet::new(),
+            lost: 0,
+            order: Vec::new(),
+            heads: Heads::default(),
+            offers,
+            last_offer: at.block,
+            leg: Leg::default(),
+            leg_began: 0,
+            stopped: false,
+            at,
+            path: Rc::default(),
+        }
+    }
+
+    /// The first block, in the state in which the machine is switched on.
+    fn beginning(&mut self) -> Checkpoint {
+        Checkpoint {
+            at: At { file: 0, block: 0 },
+            state: start_state::<Abstract>(
+                self.executor.model,
+                self.executor.machine,
+                &mut self.executor.assumptions,
+            ),
+            trace: Trace::default(),
+            parted: false,
+            taken: 0,
+        }
+    }
+
     fn explore(&mut self) {
         while let Some((key, next)) = self.pending.pop_first() {
             let solo = self.pending.is_empty();
@@ -574,7 +639,8 @@ impl<O: FlowObserver> Flow<'_, '_, '_, '_, O> {
 
     /// Executes exactly, showing everything, until the paths part or end.
     fn alone(&mut self, key: Key, from: Pending) -> Stretch {
-        let Pending { mut state, trace } = from;
+        let Pending { state, trace } = from;
+        let mut state = Rc::unwrap_or_clone(state);
         let mut at = key.at;
         self.path = key.path;
         self.heads.are_in(&self.path);
@@ -707,9 +773,10 @@ impl<O: FlowObserver> Flow<'_, '_, '_, '_, O> {
             head.forks = self.forks;
             head.joins += 1;
             let widen = head.visits - head.before > JOINS_BEFORE_WIDENING || head.visits > MOST_EXACT_TURNS;
-            let joined = if widen { head.state.widen(state) } else { head.state.join(state) };
+            let before: &State<Abstract> = &head.state;
+            let joined = if widen { before.widen(state) } else { before.join(state) };
             let gives_up = head.joins > MOST_VISITS;
-            if joined == head.state || gives_up {
+            if joined == *before || gives_up {
                 if gives_up {
                     self.give_up(Limit::Turns);
                 }
@@ -720,11 +787,11 @@ impl<O: FlowObserver> Flow<'_, '_, '_, '_, O> {
                 }
                 return over;
             }
-            head.state = joined.clone();
+            head.state = Rc::new(joined.clone());
             *state = joined;
             return Turn::On;
         }
-        if head.state == *state {
+        if *head.state == *state {
             if over == Turn::Over {
                 let origin = self.executor.origin();
                 self.executor.observer.endless(origin, at, state);
@@ -733,7 +800,7 @@ impl<O: FlowObserver> Flow<'_, '_, '_, '_, O> {
         }
         // Compared with a state that is taken ever more seldom: a loop that repeats itself is found, whatever its period.
         if head.visits - head.before >= head.taken.saturating_mul(2) {
-            head.state = state.clone();
+            head.state = Rc::new(state.clone());
             head.taken = head.visits - head.before;
         }
         Turn::On
@@ -741,7 +808,8 @@ impl<O: FlowObserver> Flow<'_, '_, '_, '_, O> {
 
     /// Executes silently, one of several states, until it is no longer the earliest.
     fn among_others(&mut self, key: Key, from: Pending) -> Stretch {
-        let Pending { mut state, trace } = from;
+        let Pending { state, trace } = from;
+        let mut state = Rc::unwrap_or_clone(state);
         let mut at = key.at;
         self.path = key.path;
         self.executor.observer.trace = trace;
@@ -828,7 +896,9 @@ impl<O: FlowObserver> Flow<'_, '_, '_, '_, O> {
     fn part(&mut self, at: At, ways: &mut Vec<(At, State<Abstract>)>) {
         let is_known = self.leg.partings.iter().any(|known| known.at == at);
         if !is_known && self.leg.partings.len() < MOST_PARTINGS {
-            self.leg.partings.push(Parting { at, ways: ways.len() });
+            let work = self.work - self.leg_began;
+            self.leg.partings.push(Parting { at, ways: ways.len(), work });
+            self.give_out_branches(at, ways);
         }
         if let Some(choice) = self.choices.get(self.taken).filter(|choice| choice.at == at)
             && choice.way < ways.len()
@@ -837,6 +907,30 @@ impl<O: FlowObserver> Flow<'_, '_, '_, '_, O> {
             *ways = vec![chosen];
             self.taken += 1;
         }
+    }
+
+    /// Gives out the ways that the observer wants to follow by themselves.
+    fn give_out_branches(&mut self, at: At, ways: &[(At, State<Abstract>)]) {
+        let wanted = self.executor.observer.observer.wanted_branches(at);
+        if wanted == 0 {
+            return;
+        }
+        let before = Rc::new(Before {
+            heads: self.heads.clone(),
+            forks: self.forks,
+            lost_ways: self.lost_ways.clone(),
+            lost: self.lost,
+            taken: self.taken,
+            work: self.work,
+        });
+        let branch = |(way, (to, state)): (usize, &(At, State<Abstract>))| {
+            let mut trace = self.executor.observer.trace.apart();
+            trace.decide(Decision { at, to: *to });
+            let choice = Choice { at, way };
+            Branch { choice, to: *to, state: state.clone(), trace, before: Rc::clone(&before) }
+        };
+        let branches = ways.iter().enumerate().take(wanted).map(branch).collect();
+        self.executor.observer.observer.branches(branches);
     }
 
     /// A state comes to a block: it waits there, joined with what came before.
@@ -852,24 +946,26 @@ impl<O: FlowObserver> Flow<'_, '_, '_, '_, O> {
         let item = match self.met.get_mut(&key) {
             None => {
                 self.order.push(key.clone());
-                let met = Met { state: state.clone(), trace: trace.clone(), visits: 1 };
+                let state = Rc::new(state);
+                let met = Met { state: Rc::clone(&state), trace: trace.clone(), visits: 1 };
                 self.met.insert(key.clone(), met);
                 Pending { state, trace }
             }
             Some(met) => {
                 met.visits += 1;
                 let widen = met.visits > JOINS_BEFORE_WIDENING;
-                let joined = if widen { met.state.widen(&state) } else { met.state.join(&state) };
-                if joined == met.state {
+                let before: &State<Abstract> = &met.state;
+                let joined = if widen { before.widen(&state) } else { before.join(&state) };
+                if joined == *before {
                     return;
                 }
                 if met.visits > MOST_VISITS {
                     self.give_up(Limit::Turns);
                     return;
                 }
-                met.state = joined.clone();
+                met.state = Rc::new(joined);
                 met.trace.join(&trace);
-                Pending { state: joined, trace: met.trace.clone() }
+                Pending { state: Rc::clone(&met.state), trace: met.trace.clone() }
             }
         };
         self.pending.insert(key, item);
@@ -918,7 +1014,7 @@ impl<O: FlowObserver> Flow<'_, '_, '_, '_, O> {
     }
 
     fn show(&mut self, key: &Key, from: &Met, met: &FxHashMap<Key, Met>) {
-        let mut state = from.state.clone();
+        let mut state = State::clone(&from.state);
         let mut at = key.at;
         self.path = Rc::clone(&key.path);
         self.executor.observer.trace = from.trace.clone();

@@ -28,8 +28,8 @@ pub use cylinder::Cylinder;
 pub use event::*;
 pub use fault::{ArcFault, CompensationFault, CycleFault, Fault, ValueFault};
 pub use flow::{
-    Budget, Checkpoint, Choice, Decision, Fact, Facts, FlowCx, FlowObserver, FlowResult, GivenUp, Leg, Limit,
-    MOST_EXACT_TURNS, Parting, Reach, Task, Trace, flow, flow_from,
+    Branch, Budget, Checkpoint, Choice, Decision, Fact, Facts, FlowCx, FlowObserver, FlowResult, GivenUp,
+    Leg, Limit, MOST_EXACT_TURNS, Parting, Reach, Task, Trace, flow, flow_branch, flow_from,
 };
 pub use gcheck_controls::{CornerRules, Halt, MotionRules, RapidRules, SpindleWaitRules, TapRules};
 pub use lattice::Lattice;

@@ -358,6 +358,7 @@ impl<'c> Model<'c> {
     }
 
     /// A code's effect; [`Effect::None`] for codes that the control does not have.
+    #[inline]
     pub fn effect(&self, code: CodeIx) -> Effect {
         self.code(code).map_or(Effect::None, |c| c.effect)
     }
@@ -372,6 +373,7 @@ impl<'c> Model<'c> {
         self.code(code)?.role
     }
 
+    #[inline]
     pub(crate) fn code(&self, code: CodeIx) -> Option<&CodeModel> {
         self.codes.get(code.index())
     }

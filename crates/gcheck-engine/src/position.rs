@@ -89,11 +89,13 @@ impl Position {
 
     /// The coordinate, NaN when unknown.
     #[expect(clippy::indexing_slicing, reason = "an axis is below nine")]
+    #[inline]
     pub const fn raw(&self, axis: Axis) -> f64 {
         self.0[axis.index()]
     }
 
     /// The coordinate, if known.
+    #[inline]
     pub fn get(&self, axis: Axis) -> Option<f64> {
         Some(self.raw(axis)).filter(|value| !value.is_nan())
     }
@@ -181,6 +183,7 @@ impl Eq for Position {}
 impl Add for Position {
     type Output = Self;
 
+    #[inline]
     fn add(self, other: Self) -> Self {
         self.zip(&other, |a, b| a + b)
     }

@@ -9,13 +9,13 @@ use std::ops::Range;
 
 use gcheck_controls::{Control, Ends};
 use gcheck_diagnostics::{Finding, RuleMeta, Severity};
-use gcheck_engine::{Assumption, Budget, FlowResult, Model, Options, Program, Task, flow};
+use gcheck_engine::{Assumption, Budget, FlowResult, Model, Options, Program, Task, flow, flow_branch};
 use gcheck_program::{BlockFlags, BlockTable, Loaded, Survey, code_region};
 use gcheck_syntax::SourceText;
 
 use crate::block_delete::name_condition;
 use crate::environment::ProgramLibrary;
-use crate::partitions::{Case, Partitions, Rules, Told};
+use crate::partitions::{Case, Follower, Partition, Partitions, Rules, Told};
 use crate::watchers::{Scope, Watchers};
 use crate::{
     BlockCx, Environment, FileCx, ProgramText, Report, RuleEntry, RuleTable, Run, Selection, Suppressions,
@@ -339,13 +339,19 @@ fn check_paths(
     let machine = &job.environment.machine.engine;
     let all_paths = Task::all_paths(job.execution.work(&program));
     let switches = switch_positions(job.execution.block_skip, survey.block_deletes);
+    let keeps = watchers.remembers_all();
+    let mut partitions = Partitions::default();
     let mut results = Vec::new();
     for skip in &switches {
-        if !results.is_empty() {
-            watchers.restart(Scope::Skipping);
-        }
         let task = Task { options: Options { skip: *skip, ..Options::NONE }, ..all_paths };
-        results.push(flow(&program, &model, machine, task, &mut watchers));
+        if results.is_empty() {
+            let mut follower =
+                Follower { watchers: &mut watchers, partitions: &mut partitions, choices: &[], keeps };
+            results.push(flow(&program, &model, machine, task, &mut follower));
+        } else {
+            watchers.restart(Scope::Skipping);
+            results.push(flow(&program, &model, machine, task, &mut watchers));
+        }
     }
     let out_of_fuel = results.iter().any(FlowResult::is_incomplete);
     let mut assumptions = Assumptions::new();
@@ -357,16 +363,23 @@ fn check_paths(
     };
     watchers.finish(first, others);
     // The ways of the first conditions, each by itself.
-    let mut partitions = Partitions::default();
     partitions.add(&[], first.partings.iter().copied());
     let mut left = Partitions::work(first.work);
-    while let Some(choices) = partitions.next() {
+    while let Some(Partition { choices, begins, from }) = partitions.next() {
         watchers.restart(Scope::OneWay);
         out.borrow_mut().case = Some(Case::new(&choices, &program, job.environment));
         let options = Options { skip: *skip, ..Options::NONE };
-        let task = Task { options, choices: &choices, work: all_paths.work.min(left) };
-        let result = flow(&program, &model, machine, task, &mut watchers);
-        left = left.saturating_sub(result.work);
+        let task = Task { options, choices: &choices, work: all_paths.work.min(begins.saturating_add(left)) };
+        if let Some((_, memories)) = &from {
+            memories.restore(&mut watchers, |_| ());
+        }
+        let mut follower =
+            Follower { watchers: &mut watchers, partitions: &mut partitions, choices: &choices, keeps };
+        let result = match from {
+            Some((branch, _)) => flow_branch(&program, &model, machine, task, branch, &mut follower),
+            None => flow(&program, &model, machine, task, &mut follower),
+        };
+        left = left.saturating_sub(result.work.saturating_sub(begins));
         if left == 0 {
             partitions.leave_rest();
         }

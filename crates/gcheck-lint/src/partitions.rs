@@ -1,7 +1,7 @@
 //! Paths kept apart by the way that they take at one condition, also after they meet again.
 //!
-//! Knows: which further analyses a program is worth, how a finding of one of them names its condition. Must not know: any rule,
-//! how paths are followed.
+//! Knows: which further analyses a program is worth, where each begins, how a finding of one of them names its condition. Must
+//! not know: any rule, how paths are followed.
 //!
 //! The analysis of all paths joins states where paths meet, and what only one of them brings is unknown from there on. So each
 //! way of the first conditions is followed once more by itself: what is certain there holds on some paths of the program.
@@ -10,24 +10,40 @@
 
 use std::collections::{HashSet, VecDeque};
 use std::ops::Range;
+use std::rc::Rc;
 
 use gcheck_diagnostics::{Certainty, Finding, Severity};
-use gcheck_engine::{At, Choice, Parting, Program};
+use gcheck_engine::{At, Branch, Choice, Ending, Event, Fault, FlowCx, FlowObserver, Parting, Program};
 use gcheck_program::{BinaryOp, BlockTable, ExprIx, Op, Place, StatementKind};
 
+use crate::memories::Memories;
+use crate::watchers::Watchers;
 use crate::{Environment, RuleEntry, RuleTable};
 
 /// Ways of all conditions that are followed by themselves.
 const MOST: usize = 64;
 /// Ways of one condition that are followed by themselves: a computed jump may have hundreds.
 const MOST_WAYS: usize = 8;
-/// Work, in blocks, that they may take together beside as much as the analysis of all paths took.
-const WORK: u64 = 100_000;
+/// Work, in blocks, that they may take together after their conditions, beside a share of what the analysis of all paths took.
+const WORK: u64 = 20_000;
+/// One part of so many is that share.
+const SHARE: u64 = 4;
+
+/// A way that is to be followed by itself.
+#[derive(Debug)]
+pub(crate) struct Partition {
+    /// The choices that lead to it.
+    pub(crate) choices: Vec<Choice>,
+    /// The work that an analysis from the beginning does to come to the last of them.
+    pub(crate) begins: u64,
+    /// Where it begins, and what the rules remember there; `None`: at the beginning of the program.
+    pub(crate) from: Option<(Branch, Rc<Memories>)>,
+}
 
 /// The ways that are still to be followed.
 #[derive(Debug, Default)]
 pub(crate) struct Partitions {
-    waiting: VecDeque<Vec<Choice>>,
+    waiting: VecDeque<Partition>,
     seen: HashSet<At>,
     /// How many have been followed.
     followed: usize,
@@ -37,18 +53,41 @@ pub(crate) struct Partitions {
 impl Partitions {
     /// An analysis that made these choices came by these partings.
     pub(crate) fn add(&mut self, choices: &[Choice], partings: impl IntoIterator<Item = Parting>) {
-        for Parting { at, ways } in partings {
+        for Parting { at, ways, work } in partings {
             if !self.seen.insert(at) {
                 continue;
             }
             self.left_out |= ways > MOST_WAYS;
-            self.waiting
-                .extend((0..ways.min(MOST_WAYS)).map(|way| [choices, &[Choice { at, way }]].concat()));
+            let partition = |way| Partition {
+                choices: [choices, &[Choice { at, way }]].concat(),
+                begins: work,
+                from: None,
+            };
+            self.waiting.extend((0..ways.min(MOST_WAYS)).map(partition));
         }
     }
 
-    /// The next way, as the choices that lead to it.
-    pub(crate) fn next(&mut self) -> Option<Vec<Choice>> {
+    /// Ways of the condition at a block that are kept as branches, one more than are followed where there are more.
+    fn wanted(&self, at: At) -> usize {
+        let is_wanted = !self.seen.contains(&at) && self.followed + self.waiting.len() < MOST;
+        if is_wanted { MOST_WAYS + 1 } else { 0 }
+    }
+
+    /// An analysis that made these choices came by a condition with these ways.
+    fn add_branches(&mut self, choices: &[Choice], branches: Vec<Branch>, memories: Memories) {
+        let Some(first) = branches.first() else { return };
+        self.seen.insert(first.choice().at);
+        self.left_out |= branches.len() > MOST_WAYS;
+        let memories = Rc::new(memories);
+        self.waiting.extend(branches.into_iter().take(MOST_WAYS).map(|branch| Partition {
+            choices: [choices, &[branch.choice()]].concat(),
+            begins: branch.work(),
+            from: Some((branch, Rc::clone(&memories))),
+        }));
+    }
+
+    /// The next way.
+    pub(crate) fn next(&mut self) -> Option<Partition> {
         if self.followed == MOST {
             self.leave_rest();
         }
@@ -70,7 +109,55 @@ impl Partitions {
 
     /// The work that may be done on all of them, after so much on all paths.
     pub(crate) fn work(all_paths: u64) -> u64 {
-        all_paths.saturating_add(WORK)
+        (all_paths / SHARE).saturating_add(WORK)
+    }
+}
+
+/// Lets the rules watch, and keeps the ways of conditions from where they begin.
+pub(crate) struct Follower<'f, 'a, 'c> {
+    pub(crate) watchers: &'f mut Watchers<'a, 'c>,
+    pub(crate) partitions: &'f mut Partitions,
+    /// The choices made so far.
+    pub(crate) choices: &'f [Choice],
+    /// All rules say what they remember, so that a way can be followed from where it begins.
+    pub(crate) keeps: bool,
+}
+
+impl FlowObserver for Follower<'_, '_, '_> {
+    fn before(&mut self, cx: &FlowCx<'_>) {
+        self.watchers.before(cx);
+    }
+
+    fn event(&mut self, cx: &FlowCx<'_>, event: &Event) {
+        self.watchers.event(cx, event);
+    }
+
+    fn vacant_read(&mut self, cx: &FlowCx<'_>, variable: u32) {
+        self.watchers.vacant_read(cx, variable);
+    }
+
+    fn after(&mut self, cx: &FlowCx<'_>) {
+        self.watchers.after(cx);
+    }
+
+    fn fault(&mut self, cx: &FlowCx<'_>, fault: &Fault) {
+        self.watchers.fault(cx, fault);
+    }
+
+    fn ended(&mut self, cx: &FlowCx<'_>, ending: Ending) {
+        self.watchers.ended(cx, ending);
+    }
+
+    fn endless(&mut self, cx: &FlowCx<'_>, head: At) {
+        self.watchers.endless(cx, head);
+    }
+
+    fn wanted_branches(&self, at: At) -> usize {
+        if self.keeps { self.partitions.wanted(at) } else { 0 }
+    }
+
+    fn branches(&mut self, branches: Vec<Branch>) {
+        self.partitions.add_branches(self.choices, branches, Memories::of(self.watchers));
     }
 }
 

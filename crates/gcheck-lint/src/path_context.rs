@@ -8,14 +8,14 @@ use std::cell::Cell;
 use std::ops::Range;
 use std::rc::Rc;
 
-use gcheck_controls::{Code, CodeIx, CodeNumber, Control, Effect, Ends, Letter, LetterSet, Machine};
+use gcheck_controls::{Code, CodeIx, CodeNumber, Control, Effect, Letter, LetterSet, Machine};
 use gcheck_diagnostics::{Certainty, Finding, RuleMeta, Severity};
 use gcheck_engine::{
     Abstract, AbstractValue, At, Domain, Fact, FlowCx, FlowResult, FrameKind, Look, Model, Origin, Program,
     Role, State, Trace, Units,
 };
 use gcheck_geometry::Mm;
-use gcheck_program::{BlockFlags, BlockTable, ExprIx, OKeyword, Place, Survey, Word};
+use gcheck_program::{BlockFlags, BlockTable, ExprIx, Place, Survey, Word};
 
 use crate::block_context::facts_of;
 use crate::evaluated::{BlockOfValues, Evaluated, with_codes};
@@ -41,6 +41,8 @@ pub struct PathCx<'a> {
     pub(crate) shared: &'a SharedMemories,
     /// Evaluated when the first rule asks.
     pub(crate) evaluated: &'a Evaluated,
+    /// See [`PathCx::is_called_only`].
+    pub(crate) is_called_only: bool,
 }
 
 /// A block as rules read it, kept because loops come by again.
@@ -212,6 +214,9 @@ impl<'a> PathCx<'a> {
         if let Some(read) = self.read_block() {
             return Cow::Borrowed(&read.codes);
         }
+        if !self.origin().flags.contains(BlockFlags::CODE) {
+            return Cow::Borrowed(&[]);
+        }
         let codes = |place: Place| {
             let words = place.table.words(place.block()).iter();
             words.map(|word| word.code).filter(|code| code.is_some()).collect()
@@ -231,7 +236,7 @@ impl<'a> PathCx<'a> {
 
     /// Does the block have a code with an effect that `is` accepts?
     pub fn has_effect(&self, is: impl Fn(Effect) -> bool) -> bool {
-        if !self.origin().flags.contains(gcheck_program::BlockFlags::CODE) {
+        if !self.origin().flags.contains(BlockFlags::CODE) {
             return false;
         }
         match self.read_block() {
@@ -329,14 +334,7 @@ impl<'a> PathCx<'a> {
 
     /// The file holds what others call, and no main program: what its caller set is not known.
     pub fn is_called_only(&self) -> bool {
-        let survey = self.survey;
-        let has_end = |ends: Ends| survey.ends.iter().any(|end| end.ends == ends);
-        let is_library = survey.o_words.first().is_some_and(|o| o.keyword == OKeyword::Sub);
-        // A bar job starts again by the code that returns elsewhere.
-        if self.file_uses(|effect| effect == Effect::BarFeed) {
-            return false;
-        }
-        !has_end(Ends::Program) && (has_end(Ends::Subprogram) || is_library)
+        self.is_called_only
     }
 
     /// A program was called that is not available: it may have changed anything.

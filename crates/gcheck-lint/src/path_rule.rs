@@ -38,6 +38,8 @@ bitflags::bitflags! {
         const ARCS = 1 << 11;
         /// [`PathRule::block`]: blocks with a computed word, before they are executed.
         const COMPUTED = 1 << 12;
+        /// [`PathRule::block`]: blocks with a computed code, before they are executed.
+        const COMPUTED_CODES = 1 << 13;
     }
 }
 

@@ -40,6 +40,8 @@ pub enum Run {
     BlockAndValues {
         /// Blocks without any of these are skipped.
         trigger: BlockFlags,
+        /// What it judges of the values.
+        reads: Reads,
         /// Looks at the block.
         check: fn(&BlockCx<'_>, &mut Report<'_>),
     },
@@ -62,13 +64,26 @@ pub enum Run {
     },
 }
 
+/// What a rule judges of a block whose computed words have values.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Reads {
+    /// Its codes and its addresses: a number counts where it names a code, as in `G#1`, and nowhere else.
+    Codes,
+    /// Its numbers.
+    Numbers,
+}
+
 impl Run {
     /// What the rule watches while all paths are executed, if it does, and how.
     pub(crate) fn watcher(&self) -> Option<(Watch, Box<dyn PathRule>)> {
         match *self {
             Self::Path { watch, make } => Some((watch, make())),
-            Self::BlockAndValues { trigger, check } => {
-                Some((Watch::COMPUTED, Box::new(WithValues { trigger, check })))
+            Self::BlockAndValues { trigger, reads, check } => {
+                let watch = match reads {
+                    Reads::Codes => Watch::COMPUTED_CODES,
+                    Reads::Numbers => Watch::COMPUTED,
+                };
+                Some((watch, Box::new(WithValues { trigger, check })))
             }
             Self::Token { .. } | Self::Block { .. } | Self::Program { .. } | Self::Suppressions { .. } => {
                 None

@@ -47,8 +47,4 @@ impl SharedMemories {
     pub(crate) fn iter_mut(&mut self) -> impl Iterator<Item = &mut (dyn SharedMemory + 'static)> {
         self.0.iter_mut().map(|(_, memory)| &mut **memory)
     }
-
-    pub(crate) fn is_empty(&self) -> bool {
-        self.0.is_empty()
-    }
 }

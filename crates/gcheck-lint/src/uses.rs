@@ -2,8 +2,8 @@
 //!
 //! Knows: the codes of the main file. Must not know: any rule, paths.
 
-use gcheck_controls::{Code, Effect};
-use gcheck_program::Survey;
+use gcheck_controls::{Code, Effect, Ends};
+use gcheck_program::{OKeyword, Survey};
 
 use crate::Environment;
 
@@ -29,6 +29,15 @@ impl<'a> Uses<'a> {
             effects: codes.flatten().map(Code::effect).collect(),
             is_open: is_opaque || survey.has_computed_codes || !survey.calls.is_empty(),
         }
+    }
+
+    /// The file holds what others call, and no main program: what its caller set is not known.
+    pub(crate) fn is_called_only(&self) -> bool {
+        let has_end = |ends: Ends| self.survey.ends.iter().any(|end| end.ends == ends);
+        let is_library = self.survey.o_words.first().is_some_and(|o| o.keyword == OKeyword::Sub);
+        // A bar job starts again by the code that returns elsewhere.
+        let is_bar_job = self.effects.contains(&Effect::BarFeed);
+        !is_bar_job && !has_end(Ends::Program) && (has_end(Ends::Subprogram) || is_library)
     }
 
     /// May a block have a code with an effect that `is` accepts?

@@ -61,10 +61,12 @@ pub(crate) struct Watchers<'a, 'c> {
     read: FxHashMap<u32, Rc<ReadBlock>>,
     /// The block that is being executed, if it was read.
     current: Option<Rc<ReadBlock>>,
+    /// The file holds what others call, and no main program.
+    is_called_only: bool,
 }
 
 /// By bit of [`Watch`]: indices of the rules that watch it.
-type Lists = [Vec<usize>; 13];
+type Lists = [Vec<usize>; 14];
 
 /// How far the rules have come, beside what each remembers.
 #[derive(Debug, Clone, PartialEq)]
@@ -126,6 +128,7 @@ impl<'a, 'c> Watchers<'a, 'c> {
             scope: Scope::All,
             read: FxHashMap::default(),
             current: None,
+            is_called_only: uses.is_called_only(),
         }
     }
 
@@ -251,6 +254,7 @@ impl<'a, 'c> Watchers<'a, 'c> {
             had_enough: &Cell::new(false),
             shared: &SharedMemories::default(),
             evaluated,
+            is_called_only: self.is_called_only,
         };
         let known = read.with_codes(cx.computed_words(), self.model);
         self.current = Some(Rc::new(known));
@@ -296,31 +300,44 @@ impl<'a, 'c> Watchers<'a, 'c> {
             had_enough: &had_enough,
             shared: &shared,
             evaluated,
+            is_called_only: self.is_called_only,
         };
         self.each(watch, flow.origin.flags, &had_enough, |rule, report| call(rule, &cx, report));
         self.current = read;
         self.shared = shared;
     }
 
-    /// Every rule has seen a move: what they remember together goes on.
-    fn move_shared(&mut self, flow: &FlowCx<'_>, event: &Event) {
-        if flow.origin.at.file != 0 || self.shared.is_empty() {
-            return;
-        }
-        let cx = PathCx {
+    /// Shows a move to those that watch one of these kinds; then what rules remember together goes on.
+    fn show_move(&mut self, kinds: &[Watch], flow: &FlowCx<'_>, event: &Event) {
+        let read = self.current.take();
+        let mut shared = std::mem::take(&mut self.shared);
+        let had_enough = Cell::new(false);
+        let none = SharedMemories::default();
+        let alone = PathCx {
             environment: self.environment,
             program: self.program,
             model: self.model,
             survey: self.survey,
             flow,
-            read: self.current.as_deref(),
-            had_enough: &Cell::new(false),
-            shared: &SharedMemories::default(),
+            read: read.as_deref(),
+            had_enough: &had_enough,
+            shared: &none,
             evaluated: &Evaluated::default(),
+            is_called_only: self.is_called_only,
         };
-        for shared in self.shared.iter_mut() {
-            shared.moved(&cx, event);
+        let cx = PathCx { shared: &shared, ..alone };
+        for kind in kinds {
+            self.each(*kind, flow.origin.flags, &had_enough, |rule, report| match *kind {
+                Watch::RAPIDS => rule.rapid(&cx, event, report),
+                Watch::CUTS => rule.cut(&cx, event, report),
+                _ => rule.moved(&cx, event, report),
+            });
         }
+        for shared in shared.iter_mut() {
+            shared.moved(&alone, event);
+        }
+        self.current = read;
+        self.shared = shared;
     }
 }
 
@@ -340,6 +357,7 @@ impl FlowObserver for Watchers<'_, '_> {
             self.current = self.read_block(cx.origin.at);
             self.read_computed_codes(cx, &evaluated);
             let is_eventful = self.current.as_ref().is_some_and(|read| read.is_eventful);
+            let has_computed_code = self.current.as_ref().is_some_and(|read| read.has_computed_code);
             let mut show =
                 |watch| self.show_evaluated(watch, cx, &evaluated, |rule, cx, report| rule.block(cx, report));
             if is_eventful {
@@ -348,6 +366,9 @@ impl FlowObserver for Watchers<'_, '_> {
             show(Watch::ALL_BLOCKS);
             if cx.origin.flags.contains(BlockFlags::EXPRESSION) {
                 show(Watch::COMPUTED);
+            }
+            if has_computed_code {
+                show(Watch::COMPUTED_CODES);
             }
         }
     }
@@ -367,17 +388,21 @@ impl FlowObserver for Watchers<'_, '_> {
             self.show(Watch::CHANGES, cx, |rule, cx, report| rule.changed(cx, event, report));
             return;
         }
-        self.show(Watch::MOVES, cx, |rule, cx, report| rule.moved(cx, event, report));
-        if matches!(event, Event::Arc(_)) {
-            self.show(Watch::ARCS, cx, |rule, cx, report| rule.moved(cx, event, report));
+        // Blocks of other files are judged when those files are checked.
+        if cx.origin.at.file != 0 {
+            return;
         }
-        if !cuts {
-            self.show(Watch::RAPIDS, cx, |rule, cx, report| rule.rapid(cx, event, report));
-        } else if self.changed && cx.origin.at.file == 0 {
-            self.changed = false;
-            self.show(Watch::CUTS, cx, |rule, cx, report| rule.cut(cx, event, report));
-        }
-        self.move_shared(cx, event);
+        let is_arc = matches!(event, Event::Arc(_));
+        let is_first = self.changed;
+        self.changed &= !cuts;
+        let kinds: &[Watch] = match (cuts, is_first) {
+            (false, _) => &[Watch::MOVES, Watch::RAPIDS],
+            (true, false) if is_arc => &[Watch::MOVES, Watch::ARCS],
+            (true, true) if is_arc => &[Watch::MOVES, Watch::ARCS, Watch::CUTS],
+            (true, false) => &[Watch::MOVES],
+            (true, true) => &[Watch::MOVES, Watch::CUTS],
+        };
+        self.show_move(kinds, cx, event);
     }
 
     fn vacant_read(&mut self, cx: &FlowCx<'_>, variable: u32) {

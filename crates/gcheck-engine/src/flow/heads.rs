@@ -16,9 +16,10 @@ use crate::state::State;
 use crate::value::Abstract;
 
 /// The start of a loop.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct Head {
-    pub(super) state: State<Abstract>,
+    /// Shared by copies.
+    pub(super) state: Rc<State<Abstract>>,
     /// How many forks there were when it was met.
     pub(super) forks: u64,
     /// How often a refused block that may lead elsewhere was come by before it was met.
@@ -37,7 +38,7 @@ pub(super) struct Head {
 type Place = (At, bool);
 
 /// Starts of loops, for each of the programs under way.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Default)]
 pub(super) struct Heads {
     main: FxHashMap<Place, Head>,
     /// Of calls, the outermost first, with the blocks that called.
@@ -72,7 +73,8 @@ impl Heads {
         };
         let visits = before.saturating_add(1);
         if let Entry::Vacant(slot) = self.last().entry((at, wanted)) {
-            slot.insert(Head { state: state.clone(), forks, lost, visits, before, joins: 0, taken: 1 });
+            let state = Rc::new(state.clone());
+            slot.insert(Head { state, forks, lost, visits, before, joins: 0, taken: 1 });
         }
     }
 

@@ -69,6 +69,8 @@ pub struct Parting {
     pub at: At,
     /// How many ways lead on.
     pub ways: usize,
+    /// The work done before, since the leg of the analysis began.
+    pub work: u64,
 }
 
 /// One way of a [`Parting`].

@@ -25,7 +25,7 @@ use super::layout::Layout;
 use super::rule_state::RuleState;
 use crate::Environment;
 use crate::check::{Assumptions, Collector};
-use crate::partitions::{Case, Partitions, Rules, Told};
+use crate::partitions::{Case, Partition, Partitions, Rules, Told};
 use crate::watchers::{Scope, Watchers};
 
 /// What is kept of the analysis, for each position of the block delete switches.
@@ -254,13 +254,14 @@ impl Paths {
         partitions.add(&[], first.partings(inputs.layout));
         let mut left = Partitions::work(first.work());
         let mut known = std::mem::take(&mut self.partitions);
-        while let Some(choices) = partitions.next() {
+        // Its own segments are what it goes on from.
+        while let Some(Partition { choices, begins, from: _ }) = partitions.next() {
             let same = known.iter().position(|chain| chain.choices(inputs.layout).as_ref() == Some(&choices));
             let kept = same.map(|index| known.swap_remove(index)).filter(|chain| !chain.is_used_up);
             let is_kept = kept.is_some();
             let mut chain =
                 kept.unwrap_or_else(|| Chain::new(first.skip, Scope::OneWay, named(&choices, inputs.layout)));
-            let fuel = inputs.fuel.min(left);
+            let fuel = inputs.fuel.min(begins.saturating_add(left));
             let inputs = Inputs { fuel, enough: u32::MAX, ..*inputs };
             let went_back = advance(&mut chain, &inputs, watchers, found, offers, work)?;
             if is_kept && (went_back || chain.is_given_up()) {
@@ -270,7 +271,7 @@ impl Paths {
                 chain.segments.clear();
                 advance(&mut chain, &inputs, watchers, found, false, work)?;
             }
-            left = left.saturating_sub(chain.work());
+            left = left.saturating_sub(chain.work().saturating_sub(begins));
             if left == 0 {
                 partitions.leave_rest();
             }
@@ -388,12 +389,18 @@ impl Chain {
 
     /// Where its paths part.
     fn partings(&self, layout: &Layout) -> Vec<Parting> {
-        let all = self.segments.iter().flat_map(|segment| &segment.partings);
-        let numbered = |parting: &Parting| {
-            let mut parting = *parting;
-            layout.number_again(&mut parting.at).then_some(parting)
-        };
-        all.filter_map(numbered).collect()
+        let mut before = 0;
+        let mut partings = Vec::new();
+        for segment in &self.segments {
+            for parting in &segment.partings {
+                let mut parting = Parting { work: before + parting.work, ..*parting };
+                if layout.number_again(&mut parting.at) {
+                    partings.push(parting);
+                }
+            }
+            before += segment.work;
+        }
+        partings
     }
 
     /// Is all known of the paths that come by some blocks? An analysis that was given up, or has come far enough, knows what is

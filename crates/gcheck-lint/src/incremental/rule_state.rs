@@ -8,69 +8,32 @@ use std::ops::Range;
 use gcheck_engine::At;
 
 use super::layout::Layout;
-use crate::watchers::{Progress, Watchers};
-use crate::{Memory, Places, Remembers};
-
-/// A copy of a rule's memory.
-type Copied = Box<dyn Memory>;
+use crate::Places;
+use crate::memories::Memories;
+use crate::watchers::Watchers;
 
 /// What the rules remember at a checkpoint. Blocks are stored in it by their names, bytes beside it.
+#[derive(Debug, PartialEq)]
 pub(crate) struct RuleState {
-    /// By rule; none of rules that remember nothing.
-    memories: Vec<Option<Copied>>,
+    memories: Memories,
     /// Names of the bytes of each range in the memories, in their order.
     bytes: Vec<[u64; 2]>,
-    progress: Progress,
 }
 
 impl RuleState {
     /// Of the rules that watch.
     pub(crate) fn of(watchers: &mut Watchers<'_, '_>, layout: &Layout) -> Self {
         let mut names = NamePlaces { layout, bytes: Vec::new() };
-        let progress = watchers.progress();
-        let memories = watchers.memories().map(|memory| match memory {
-            Remembers::All(memory) => {
-                let mut memory = memory.copy();
-                memory.visit(&mut names);
-                Some(memory)
-            }
-            Remembers::Nothing | Remembers::Unknown => None,
-        });
-        Self { memories: memories.collect(), bytes: names.bytes, progress }
+        let mut memories = Memories::of(watchers);
+        memories.visit(&mut names);
+        Self { memories, bytes: names.bytes }
     }
 
     /// Makes the rules remember what they did there. `false` when it names text that is not there any more.
     pub(crate) fn restore(&self, watchers: &mut Watchers<'_, '_>, layout: &Layout) -> bool {
         let mut places = FindPlaces { layout, bytes: self.bytes.iter(), all: true };
-        for (memory, own) in self.memories.iter().zip(watchers.memories()) {
-            if let (Some(memory), Remembers::All(own)) = (memory, own) {
-                let mut memory = memory.copy();
-                memory.visit(&mut places);
-                own.recall(&*memory);
-            }
-        }
-        watchers.set_progress(&self.progress);
+        self.memories.restore(watchers, |memory| memory.visit(&mut places));
         places.all
-    }
-}
-
-impl std::fmt::Debug for RuleState {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("RuleState").field("bytes", &self.bytes.len()).finish_non_exhaustive()
-    }
-}
-
-impl PartialEq for RuleState {
-    fn eq(&self, other: &Self) -> bool {
-        let same = |pair: (&Option<Copied>, &Option<Copied>)| match pair {
-            (Some(own), Some(other)) => own.is_as(&**other),
-            (None, None) => true,
-            _ => false,
-        };
-        self.progress == other.progress
-            && self.bytes == other.bytes
-            && self.memories.len() == other.memories.len()
-            && self.memories.iter().zip(&other.memories).all(same)
     }
 }
 

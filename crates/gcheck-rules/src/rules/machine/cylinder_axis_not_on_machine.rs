@@ -4,7 +4,7 @@ use gcheck_controls::{Code, Effect, Letter, LetterSet};
 use gcheck_program::{BlockFlags, Word};
 
 use crate::declare::declare_rule;
-use crate::{BlockCx, Finding, Report, Run, limit};
+use crate::{BlockCx, Finding, Reads, Report, Run, limit};
 
 declare_rule! {
     /// Cylindrical mapping names an axis that the machine file does not list.
@@ -27,7 +27,7 @@ declare_rule! {
         severity: Error,
         tier: Block,
         since: "0.1.0",
-        run: Run::BlockAndValues { trigger: BlockFlags::CODE, check },
+        run: Run::BlockAndValues { trigger: BlockFlags::CODE, reads: Reads::Numbers, check },
     }
 }
 

@@ -4,7 +4,7 @@ use gcheck_controls::Effect;
 use gcheck_program::BlockFlags;
 
 use crate::declare::declare_rule;
-use crate::{BlockCx, Finding, Report, Run, limit};
+use crate::{BlockCx, Finding, Reads, Report, Run, limit};
 
 declare_rule! {
     /// A code chooses inches or millimetres, and the setting of the control is told to be the other unit.
@@ -25,7 +25,7 @@ declare_rule! {
         severity: Error,
         tier: Block,
         since: "0.1.0",
-        run: Run::BlockAndValues { trigger: BlockFlags::CODE, check },
+        run: Run::BlockAndValues { trigger: BlockFlags::CODE, reads: Reads::Codes, check },
     }
 }
 

@@ -4,7 +4,7 @@ use gcheck_controls::{Code, Handling};
 use gcheck_program::{BlockFlags, Word};
 
 use crate::declare::declare_rule;
-use crate::{BlockCx, Finding, Fix, Report, Run, Severity, limit};
+use crate::{BlockCx, Finding, Fix, Reads, Report, Run, Severity, limit};
 
 declare_rule! {
     /// The same code is written twice in one block.
@@ -28,7 +28,7 @@ declare_rule! {
         tier: Block,
         fixable: Safely,
         since: "0.1.0",
-        run: Run::BlockAndValues { trigger: BlockFlags::CODE, check },
+        run: Run::BlockAndValues { trigger: BlockFlags::CODE, reads: Reads::Codes, check },
     }
 }
 

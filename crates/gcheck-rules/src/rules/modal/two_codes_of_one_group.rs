@@ -4,7 +4,7 @@ use gcheck_controls::{Code, Handling};
 use gcheck_program::{BlockFlags, Word};
 
 use crate::declare::declare_rule;
-use crate::{BlockCx, Finding, Report, Run, Severity, limit};
+use crate::{BlockCx, Finding, Reads, Report, Run, Severity, limit};
 
 declare_rule! {
     /// Two codes of one modal group are in the same block.
@@ -32,7 +32,7 @@ declare_rule! {
         severity: Error,
         tier: Block,
         since: "0.1.0",
-        run: Run::BlockAndValues { trigger: BlockFlags::CODE, check },
+        run: Run::BlockAndValues { trigger: BlockFlags::CODE, reads: Reads::Codes, check },
     }
 }
 

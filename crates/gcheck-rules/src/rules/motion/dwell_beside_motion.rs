@@ -4,7 +4,7 @@ use gcheck_controls::{Effect, Letter};
 use gcheck_program::BlockFlags;
 
 use crate::declare::declare_rule;
-use crate::{BlockCx, Finding, Report, Run, limit};
+use crate::{BlockCx, Finding, Reads, Report, Run, limit};
 
 declare_rule! {
     /// A dwell is in one block with a motion code, and the word that looks like the end of the move is the time of the dwell.
@@ -26,7 +26,7 @@ declare_rule! {
         severity: Warning,
         tier: Block,
         since: "0.1.0",
-        run: Run::BlockAndValues { trigger: BlockFlags::CODE, check },
+        run: Run::BlockAndValues { trigger: BlockFlags::CODE, reads: Reads::Codes, check },
     }
 }
 

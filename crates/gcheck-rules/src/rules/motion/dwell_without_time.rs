@@ -4,7 +4,7 @@ use gcheck_controls::{Effect, Letter, LetterSet, Need};
 use gcheck_program::{BlockFlags, Word};
 
 use crate::declare::declare_rule;
-use crate::{BlockCx, Finding, Report, Run, Severity, limit};
+use crate::{BlockCx, Finding, Reads, Report, Run, Severity, limit};
 
 declare_rule! {
     /// A dwell has none of the words that hold its time. `required-word-missing` reports it where the control has one word
@@ -30,7 +30,7 @@ declare_rule! {
         severity: Warning,
         tier: Block,
         since: "0.1.0",
-        run: Run::BlockAndValues { trigger: BlockFlags::CODE, check },
+        run: Run::BlockAndValues { trigger: BlockFlags::CODE, reads: Reads::Codes, check },
     }
 }
 

@@ -94,6 +94,11 @@ impl PathRule for RapidBelowZeroOnApproach {
     fn moved(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
         let approach = self.approach.take();
         let Event::Travel(travel) = event else { return };
+        let tool = cx.trace().set_by(Fact::Tool);
+        // Most moves come after the first one of their tool.
+        if approach.is_none() && self.has_moved && self.tool == tool {
+            return;
+        }
         // Of several paths, this move may follow another one.
         if !cx.is_on_every_path() || cx.is_called_only() || cx.state().plane(cx.model) != Some(Plane::Xy) {
             return;
@@ -101,7 +106,6 @@ impl PathRule for RapidBelowZeroOnApproach {
         if let Some(approach) = approach {
             tell(cx, &approach, travel, report);
         }
-        let tool = cx.trace().set_by(Fact::Tool);
         self.has_moved &= self.tool == tool;
         self.tool = tool;
         if self.has_moved || !goes_along_z(cx, travel) {

@@ -6,7 +6,7 @@ use gcheck_controls::Effect;
 use gcheck_engine::{Axis, Event, Position, Touch, Travel, TravelKind, Way, Ways};
 
 use crate::declare::declare_rule;
-use crate::facts::probing::driven;
+use crate::facts::probing::{driven, is_touch};
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 use crate::{Remembers, remembers};
 
@@ -83,12 +83,17 @@ impl PathRule for GoesOnAfterTouch {
     }
 
     fn concerns(&self, program: &Uses<'_>) -> bool {
-        program.environment.control().machine() == gcheck_controls::Machine::Mill
+        let touches =
+            |effect| is_touch(effect) || matches!(effect, Effect::ProbeToward | Effect::ProbeTowardOptional);
+        program.environment.control().machine() == gcheck_controls::Machine::Mill && program.may(touches)
     }
 
     fn moved(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
         let touched = self.touched.take();
         let Event::Travel(travel) = event else { return };
+        if touched.is_none() && !matches!(travel.kind, TravelKind::Probe { .. }) {
+            return;
+        }
         // Of several paths, this move may follow another one.
         if !cx.is_on_every_path() || cx.is_called_only() {
             return;

@@ -85,6 +85,9 @@ impl PathRule for LengthCancelledBeforeCut {
     }
 
     fn rapid(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
+        if !cx.origin().letters.contains(Letter::of('Z')) {
+            return;
+        }
         let (fact, changed) = (Fact::Mode(Role::Length), cx.trace().set_by(Fact::Tool));
         let is_off = cx.state().effect(Role::Length, cx.model) == Some(Effect::LengthOff);
         if cx.model.semantics().tools.offset_in_t || !is_off || changed.is_none() || self.worked != changed {
@@ -100,9 +103,6 @@ impl PathRule for LengthCancelledBeforeCut {
         let is_absolute = cx.state().is_incremental(cx.model) == Some(false);
         let is_near = travel.to.raw(Axis::Z) < NEAR_THE_PART;
         if goes_elsewhere || !is_absolute || !is_near || self.told == Some(cancelled) {
-            return;
-        }
-        if !cx.origin().letters.contains(Letter::of('Z')) {
             return;
         }
         self.told = Some(cancelled);

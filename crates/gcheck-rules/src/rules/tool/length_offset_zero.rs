@@ -4,7 +4,7 @@ use gcheck_controls::Effect;
 use gcheck_program::BlockFlags;
 
 use crate::declare::declare_rule;
-use crate::{BlockCx, Finding, Report, Run};
+use crate::{BlockCx, Finding, Reads, Report, Run};
 
 declare_rule! {
     /// A block moves Z with tool length compensation and offset number zero: `G43 H0 Z1.`.
@@ -32,7 +32,7 @@ declare_rule! {
         severity: Warning,
         tier: Block,
         since: "0.1.0",
-        run: Run::BlockAndValues { trigger: BlockFlags::CODE, check },
+        run: Run::BlockAndValues { trigger: BlockFlags::CODE, reads: Reads::Numbers, check },
     }
 }
 

@@ -2,6 +2,8 @@
 
 use std::ops::Range;
 
+use memchr::{memchr2, memchr3};
+
 use crate::declare::declare_rule;
 use crate::{FileCx, Finding, Report, Run};
 
@@ -52,12 +54,12 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
     let finds = if tools.change_by_t { turret_call } else { spindle_call };
     // Most programs have no such comment, and need no second look.
     let mut calls = Vec::new();
-    for (start, line) in cx.lines() {
-        let found = comments(line).filter_map(|(at, comment)| {
+    for (start, run) in cx.runs() {
+        let found = comments(run).filter_map(|(at, comment)| {
             let (tool, place) = finds(comment)?;
             Some((tool, start + (at + place.start) as u32..start + (at + place.end) as u32))
         });
-        calls.extend(found);
+        calls.extend(found.take(MOST + 1));
         if calls.len() > MOST {
             return;
         }
@@ -193,16 +195,19 @@ fn code_words(line: &str) -> Vec<Found> {
     words(line).into_iter().filter(is_code).collect()
 }
 
-/// The comments of a line, without their marks, each with its place.
-fn comments(line: &str) -> impl Iterator<Item = (usize, &str)> {
+/// The comments of one or more lines, without their marks, each with its place. A comment ends with its line.
+fn comments(lines: &str) -> impl Iterator<Item = (usize, &str)> {
     let mut at = 0;
     std::iter::from_fn(move || {
-        let rest = line.get(at..)?;
-        let open = rest.find(['(', ';'])?;
+        let rest = lines.as_bytes().get(at..)?;
+        let open = memchr2(b'(', b';', rest)?;
         let start = at + open + 1;
-        let is_rest = rest.as_bytes().get(open) == Some(&b';');
-        let inside = line.get(start..)?;
-        let length = if is_rest { inside.len() } else { inside.find(')').unwrap_or(inside.len()) };
+        let inside = lines.get(start..)?;
+        let end = match rest.get(open) {
+            Some(b';') => memchr2(b'\n', b'\r', inside.as_bytes()),
+            _ => memchr3(b')', b'\n', b'\r', inside.as_bytes()),
+        };
+        let length = end.unwrap_or(inside.len());
         at = start + length;
         Some((start, inside.get(..length)?))
     })

@@ -4,7 +4,7 @@ use gcheck_controls::{Letter, Motion};
 use gcheck_program::{BlockFlags, Word};
 
 use crate::declare::declare_rule;
-use crate::{BlockCx, Finding, Report, Run, limit};
+use crate::{BlockCx, Finding, Reads, Report, Run, limit};
 
 declare_rule! {
     /// One axis is in a block with two addresses: its position (`X`) and its increment (`U`).
@@ -31,7 +31,7 @@ declare_rule! {
         severity: Warning,
         tier: Block,
         since: "0.1.0",
-        run: Run::BlockAndValues { trigger: BlockFlags::AXIS_TWICE, check },
+        run: Run::BlockAndValues { trigger: BlockFlags::AXIS_TWICE, reads: Reads::Codes, check },
     }
 }
 

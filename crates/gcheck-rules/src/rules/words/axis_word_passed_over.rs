@@ -5,7 +5,7 @@ use gcheck_engine::owns_axes;
 use gcheck_program::BlockFlags;
 
 use crate::declare::declare_rule;
-use crate::{BlockCx, Finding, Report, Run, Severity, limit};
+use crate::{BlockCx, Finding, Reads, Report, Run, Severity, limit};
 
 declare_rule! {
     /// A code of the block uses axis words for itself, so that no axis moves, and it has no use for this one.
@@ -34,7 +34,7 @@ declare_rule! {
         tier: Block,
         fixable: OnRequest,
         since: "0.1.0",
-        run: Run::BlockAndValues { trigger: BlockFlags::CODE, check },
+        run: Run::BlockAndValues { trigger: BlockFlags::CODE, reads: Reads::Codes, check },
     }
 }
 

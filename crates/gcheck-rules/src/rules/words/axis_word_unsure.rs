@@ -5,7 +5,7 @@ use gcheck_engine::owns_axes;
 use gcheck_program::BlockFlags;
 
 use crate::declare::declare_rule;
-use crate::{BlockCx, Finding, Report, Run, Severity};
+use crate::{BlockCx, Finding, Reads, Report, Run, Severity};
 
 declare_rule! {
     /// A move or a dwell has an axis word that the manual of its code does not name. The axis moves with the others, moves
@@ -35,7 +35,7 @@ declare_rule! {
         severity: Warning,
         tier: Block,
         since: "0.1.0",
-        run: Run::BlockAndValues { trigger: BlockFlags::CODE, check },
+        run: Run::BlockAndValues { trigger: BlockFlags::CODE, reads: Reads::Codes, check },
     }
 }
 

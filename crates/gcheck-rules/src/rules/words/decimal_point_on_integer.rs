@@ -4,7 +4,7 @@ use gcheck_controls::WordKind;
 use gcheck_program::{BlockFlags, Word};
 
 use crate::declare::declare_rule;
-use crate::{BlockCx, Finding, Fix, Report, Run, WordFacts, limit};
+use crate::{BlockCx, Finding, Fix, Reads, Report, Run, WordFacts, limit};
 
 declare_rule! {
     /// A word that takes a whole number is written with a decimal point.
@@ -30,7 +30,7 @@ declare_rule! {
         tier: Block,
         fixable: Safely,
         since: "0.1.0",
-        run: Run::BlockAndValues { trigger: BlockFlags::POINT_ON_INTEGER, check },
+        run: Run::BlockAndValues { trigger: BlockFlags::POINT_ON_INTEGER, reads: Reads::Numbers, check },
     }
 }
 

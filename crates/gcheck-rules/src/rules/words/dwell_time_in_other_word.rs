@@ -6,7 +6,7 @@ use gcheck_program::{BlockFlags, Word};
 use crate::declare::declare_rule;
 use crate::facts::dwell::{time_in_other_word, time_words};
 use crate::facts::word_sets::choice;
-use crate::{BlockCx, Finding, Report, Run, limit};
+use crate::{BlockCx, Finding, Reads, Report, Run, limit};
 
 declare_rule! {
     /// A dwell gives its time in a word from which other controls read it, `G4 X2.`, and this control does not.
@@ -34,7 +34,7 @@ declare_rule! {
         severity: Error,
         tier: Block,
         since: "0.1.0",
-        run: Run::BlockAndValues { trigger: BlockFlags::CODE, check },
+        run: Run::BlockAndValues { trigger: BlockFlags::CODE, reads: Reads::Numbers, check },
     }
 }
 

@@ -5,7 +5,7 @@ use gcheck_program::{BlockFlags, Word};
 
 use crate::declare::declare_rule;
 use crate::facts::computed_words::{is_among, range_of};
-use crate::{BlockCx, Finding, Report, Run, Severity, WordFacts, limit};
+use crate::{BlockCx, Finding, Reads, Report, Run, Severity, WordFacts, limit};
 
 declare_rule! {
     /// A value is outside the range that its word has in this block, or is a fraction where the word counts something.
@@ -31,7 +31,7 @@ declare_rule! {
         severity: Error,
         tier: Block,
         since: "0.1.0",
-        run: Run::BlockAndValues { trigger: BlockFlags::CODE.union(BlockFlags::OUT_OF_RANGE), check },
+        run: Run::BlockAndValues { trigger: BlockFlags::CODE.union(BlockFlags::OUT_OF_RANGE), reads: Reads::Numbers, check },
     }
 }
 

@@ -5,7 +5,7 @@ use gcheck_program::{BlockFlags, Word};
 
 use crate::declare::declare_rule;
 use crate::facts::dwell::time_in_other_word;
-use crate::{BlockCx, Finding, Report, Run, limit};
+use crate::{BlockCx, Finding, Reads, Report, Run, limit};
 
 declare_rule! {
     /// A code is in a block without a word that it needs every time.
@@ -34,7 +34,7 @@ declare_rule! {
         severity: Error,
         tier: Block,
         since: "0.1.0",
-        run: Run::BlockAndValues { trigger: BlockFlags::CODE, check },
+        run: Run::BlockAndValues { trigger: BlockFlags::CODE, reads: Reads::Numbers, check },
     }
 }
 

@@ -3,7 +3,7 @@
 use gcheck_program::{BlockFlags, Word};
 
 use crate::declare::declare_rule;
-use crate::{BlockCx, Finding, Fix, Report, Run, WordFacts, limit};
+use crate::{BlockCx, Finding, Fix, Reads, Report, Run, WordFacts, limit};
 
 declare_rule! {
     /// A word has a minus sign that it does not accept.
@@ -29,7 +29,7 @@ declare_rule! {
         tier: Block,
         fixable: OnRequest,
         since: "0.1.0",
-        run: Run::BlockAndValues { trigger: BlockFlags::NEGATIVE, check },
+        run: Run::BlockAndValues { trigger: BlockFlags::NEGATIVE, reads: Reads::Numbers, check },
     }
 }
 

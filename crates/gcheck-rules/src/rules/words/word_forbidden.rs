@@ -4,7 +4,7 @@ use gcheck_controls::{Code, Letter};
 use gcheck_program::{BlockFlags, Word};
 
 use crate::declare::declare_rule;
-use crate::{BlockCx, Finding, Report, Run, limit};
+use crate::{BlockCx, Finding, Reads, Report, Run, limit};
 
 declare_rule! {
     /// A word shares a block with a code that does not allow it, although another code could use it.
@@ -25,7 +25,7 @@ declare_rule! {
         severity: Error,
         tier: Block,
         since: "0.1.0",
-        run: Run::BlockAndValues { trigger: BlockFlags::CODE, check },
+        run: Run::BlockAndValues { trigger: BlockFlags::CODE, reads: Reads::Codes, check },
     }
 }
 

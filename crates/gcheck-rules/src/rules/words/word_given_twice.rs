@@ -4,7 +4,7 @@ use gcheck_controls::{Handling, LetterSet};
 use gcheck_program::{BlockFlags, Word};
 
 use crate::declare::declare_rule;
-use crate::{BlockCx, Finding, Fix, Report, Run, Severity, limit};
+use crate::{BlockCx, Finding, Fix, Reads, Report, Run, Severity, limit};
 
 declare_rule! {
     /// One block has the same address twice.
@@ -32,7 +32,7 @@ declare_rule! {
         tier: Block,
         fixable: Safely,
         since: "0.1.0",
-        run: Run::BlockAndValues { trigger: BlockFlags::REPEATED, check },
+        run: Run::BlockAndValues { trigger: BlockFlags::REPEATED, reads: Reads::Numbers, check },
     }
 }
 

@@ -5,7 +5,7 @@ use gcheck_program::{BlockFlags, Word};
 
 use crate::declare::declare_rule;
 use crate::facts::word_sets::read_by_modes;
-use crate::{BlockCx, Finding, Report, Run, Severity, limit};
+use crate::{BlockCx, Finding, Reads, Report, Run, Severity, limit};
 
 declare_rule! {
     /// No code of the block reads this word, and no mode that may be in effect reads it either.
@@ -32,7 +32,7 @@ declare_rule! {
         tier: Block,
         fixable: OnRequest,
         since: "0.1.0",
-        run: Run::BlockAndValues { trigger: BlockFlags::UNREAD_WORD, check },
+        run: Run::BlockAndValues { trigger: BlockFlags::UNREAD_WORD, reads: Reads::Codes, check },
     }
 }
 

@@ -68,7 +68,8 @@ impl PathRule for WordUnfitForAnother {
             let Some(code) = cx.control().code_at(*ix).filter(|code| !code.entry().any_words) else {
                 continue;
             };
-            for entry in &code.entry().words {
+            let depends = |entry: &&WordEntry| !entry.beside.is_empty() || !entry.required_with.is_empty();
+            for entry in code.entry().words.iter().filter(depends) {
                 let Some(letter) = Letter::parse(&entry.letter) else { continue };
                 if let Some((other, finding)) = judged(cx, code, entry, letter)
                     && is_told(cx, letter)
