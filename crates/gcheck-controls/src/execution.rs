@@ -643,6 +643,9 @@ pub struct ArcRules {
     pub turns: bool,
     /// Centre words beside `R`: `R` wins, else refused.
     pub radius_wins: bool,
+    /// The centre word of the axis across the plane is passed over where other centre words stand, else refused.
+    #[serde(default)]
+    pub passes_over_across: bool,
     /// Without centre and radius the move is straight, unless this setting says `alarm`; refused where no setting is named.
     #[serde(default)]
     pub straight_setting: Option<String>,

@@ -147,7 +147,9 @@ fn in_a_subprogram_that_is_called_twice() {
 fn after_a_block_that_the_control_refuses() {
     check_branches(
         "fanuc-mill",
-        &format!("{HEAD}GOTO 999\nG2 X50. Y50. I1. J0. F100.\nIF [#500 EQ 1.] GOTO 10\nG91\nN10 G1 X5.\nM30\n"),
+        &format!(
+            "{HEAD}GOTO 999\nG2 X50. Y50. I1. J0. F100.\nIF [#500 EQ 1.] GOTO 10\nG91\nN10 G1 X5.\nM30\n"
+        ),
     );
 }
 

@@ -193,16 +193,19 @@ pub(crate) fn facts_of<'a>(
 
 fn of_code<'a>(code: Code<'a>, entry: &'a WordEntry, general: Option<&'a LetterEntry>) -> WordFacts<'a> {
     let confidence = entry.confidence.unwrap_or(code.entry().confidence);
+    // What has a number for its name has none below zero.
+    let is_name = matches!(entry.kind, WordKind::Label | WordKind::Program);
     WordFacts {
         is: &entry.is,
         kind: entry.kind,
-        min: entry.min,
+        min: entry.min.or(is_name.then_some(0.0)),
         max: entry.max,
         above: entry.above,
         values: &entry.values,
         gaps: &entry.gaps,
         whole: entry.whole,
-        negative: general.is_none_or(|g| g.negative),
+        // An argument of a macro may be any number.
+        negative: code.entry().any_words || general.is_none_or(|g| g.negative),
         code: Some(code),
         confidence,
         range_confidence: entry.range_confidence.unwrap_or(confidence),

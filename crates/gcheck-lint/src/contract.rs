@@ -5,7 +5,7 @@
 use gcheck_controls::{Code, Letter, LetterSet};
 use gcheck_program::{BlockFlags, Value, Word};
 
-use crate::BlockCx;
+use crate::{BlockCx, WordFacts};
 
 impl<'a> BlockCx<'a> {
     /// Do the block's words mean what its codes say? Not after a mistake in form, beside a code that is computed, unknown
@@ -17,6 +17,17 @@ impl<'a> BlockCx<'a> {
                     .code_at(word.code)
                     .is_some_and(|code| !code.is_user() && !code.entry().any_words)
             })
+    }
+
+    /// As [`Self::words_are_plain`], of one word: a code that takes arguments reads some words itself, as the number of the
+    /// program.
+    pub fn is_plain(&self, facts: &WordFacts<'_>) -> bool {
+        let is_own = |code: Code<'_>| code.entry().any_words && !code.is_user();
+        let is_known = |word: &Word| self.control().code_at(word.code).is_some_and(|code| !code.is_user());
+        self.words_are_plain()
+            || !self.block().flags.contains(BlockFlags::ERROR)
+                && facts.code.is_some_and(is_own)
+                && self.code_words().all(is_known)
     }
 
     /// Does a code of the block take its words as arguments of a macro? A computed code may.

@@ -6,7 +6,7 @@
 use std::cell::OnceCell;
 
 use gcheck_controls::CodeIx;
-use gcheck_engine::{Abstract, AbstractValue, Domain, Model};
+use gcheck_engine::{Abstract, AbstractValue, Domain, Model, Truth};
 use gcheck_program::{Block, Dialect, Place, Word};
 
 /// What was evaluated of a block, each part when the first rule asked for it.
@@ -35,8 +35,10 @@ impl Evaluated {
 pub(crate) struct BlockOfValues {
     /// Its addresses and flags as if the numbers were written.
     pub(crate) block: Block,
-    /// All its words; those that have no certain value are as written.
+    /// All its words; those that have no certain value are as written, those of empty variables are left out.
     pub(crate) words: Vec<Word>,
+    /// It has other codes or addresses than the block as it is written.
+    pub(crate) has_others: bool,
 }
 
 impl BlockOfValues {
@@ -47,15 +49,22 @@ impl BlockOfValues {
         model: &Model<'_>,
         dialect: &Dialect<'_>,
     ) -> Option<Self> {
-        let mut words = place.table.words(place.block()).to_vec();
-        let mut any = false;
-        for word in &mut words {
-            if let Some(value) = certain(word, values, model) {
-                *word = value;
+        let written = place.table.words(place.block());
+        let mut words = Vec::with_capacity(written.len());
+        let (mut any, mut has_others) = (false, false);
+        for word in written {
+            // The control ignores the address beside an empty variable.
+            if is_empty(word, values) {
+                (any, has_others) = (true, true);
+            } else if let Some(value) = certain(word, values, model) {
                 any = true;
+                has_others |= is_code(word);
+                words.push(value);
+            } else {
+                words.push(*word);
             }
         }
-        any.then(|| Self { block: dialect.with_words(place.block(), &words), words })
+        any.then(|| Self { block: dialect.with_words(place.block(), &words), words, has_others })
     }
 
     /// The words that hold a computed number.
@@ -77,9 +86,20 @@ pub(crate) fn with_codes(words: &[Word], values: &[(Word, AbstractValue)], model
 
 /// The word with its value, if that is the same on every path, and a code of the control where it names one.
 fn certain(word: &Word, values: &[(Word, AbstractValue)], model: &Model<'_>) -> Option<Word> {
-    let (_, value) = values.iter().find(|(computed, _)| computed.range() == word.range())?;
-    let value = Abstract::known(value)?;
-    let is_code = matches!(word.letter.ascii(), b'G' | b'M') && !word.letter.is_corner();
-    let code = if is_code { model.code_of_value(word.letter, value)? } else { CodeIx::NONE };
-    Some(word.with_value(value, code))
+    let value = Abstract::known(value_of(word, values)?)?;
+    let code = if is_code(word) { model.code_of_value(word.letter, value) } else { None };
+    Some(word.with_value(value, code.unwrap_or(CodeIx::NONE)))
+}
+
+/// Is the word computed from variables that are empty on every path?
+fn is_empty(word: &Word, values: &[(Word, AbstractValue)]) -> bool {
+    value_of(word, values).is_some_and(|value| Abstract::is_vacant(value) == Truth::True)
+}
+
+fn value_of<'v>(word: &Word, values: &'v [(Word, AbstractValue)]) -> Option<&'v AbstractValue> {
+    values.iter().find(|(computed, _)| computed.range() == word.range()).map(|(_, value)| value)
+}
+
+fn is_code(word: &Word) -> bool {
+    matches!(word.letter.ascii(), b'G' | b'M') && !word.letter.is_corner()
 }

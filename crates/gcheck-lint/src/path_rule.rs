@@ -36,9 +36,9 @@ bitflags::bitflags! {
         const ALL_BLOCKS = 1 << 10;
         /// [`PathRule::moved`]: arcs alone.
         const ARCS = 1 << 11;
-        /// [`PathRule::block`]: blocks with a computed word, before they are executed.
+        /// [`PathRule::block`]: blocks with a computed word whose value is certain, before they are executed.
         const COMPUTED = 1 << 12;
-        /// [`PathRule::block`]: blocks with a computed code, before they are executed.
+        /// [`PathRule::block`]: of those the blocks that so have other codes or addresses than as they are written.
         const COMPUTED_CODES = 1 << 13;
     }
 }

@@ -67,9 +67,10 @@ pub enum Run {
 /// What a rule judges of a block whose computed words have values.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Reads {
-    /// Its codes and its addresses: a number counts where it names a code, as in `G#1`, and nowhere else.
+    /// Its codes and its addresses: a number counts where it names a code, as in `G#1`, and an empty variable where it takes
+    /// its address out of the block.
     Codes,
-    /// Its numbers.
+    /// Its numbers too.
     Numbers,
 }
 

@@ -237,26 +237,26 @@ impl<'a, 'c> Watchers<'a, 'c> {
         Some(read)
     }
 
-    /// Reads which codes the computed words of the block under way name: `G#1`.
-    fn read_computed_codes(&mut self, flow: &FlowCx<'_>, evaluated: &Evaluated) {
-        let Some(read) = self.current.take() else { return };
-        if !read.has_computed_code {
-            self.current = Some(read);
-            return;
-        }
-        let cx = PathCx {
+    /// Asks something about the block under way before a rule does.
+    fn look<T>(&self, flow: &FlowCx<'_>, evaluated: &Evaluated, ask: impl FnOnce(&PathCx<'_>) -> T) -> T {
+        ask(&PathCx {
             environment: self.environment,
             program: self.program,
             model: self.model,
             survey: self.survey,
             flow,
-            read: Some(&read),
+            read: self.current.as_deref(),
             had_enough: &Cell::new(false),
             shared: &SharedMemories::default(),
             evaluated,
             is_called_only: self.is_called_only,
-        };
-        let known = read.with_codes(cx.computed_words(), self.model);
+        })
+    }
+
+    /// Reads which codes the computed words of the block under way name: `G#1`.
+    fn read_computed_codes(&mut self, flow: &FlowCx<'_>, evaluated: &Evaluated) {
+        let Some(read) = self.current.as_ref().filter(|read| read.has_computed_code) else { return };
+        let known = self.look(flow, evaluated, |cx| read.with_codes(cx.computed_words(), self.model));
         self.current = Some(Rc::new(known));
     }
 
@@ -357,18 +357,23 @@ impl FlowObserver for Watchers<'_, '_> {
             self.current = self.read_block(cx.origin.at);
             self.read_computed_codes(cx, &evaluated);
             let is_eventful = self.current.as_ref().is_some_and(|read| read.is_eventful);
-            let has_computed_code = self.current.as_ref().is_some_and(|read| read.has_computed_code);
+            let has_expression = cx.origin.flags.contains(BlockFlags::EXPRESSION);
+            let of_values = if has_expression && self.watches(Watch::COMPUTED) {
+                self.look(cx, &evaluated, |cx| cx.block_of_values().map(|known| known.has_others))
+            } else {
+                None
+            };
             let mut show =
                 |watch| self.show_evaluated(watch, cx, &evaluated, |rule, cx, report| rule.block(cx, report));
             if is_eventful {
                 show(Watch::BLOCKS);
             }
             show(Watch::ALL_BLOCKS);
-            if cx.origin.flags.contains(BlockFlags::EXPRESSION) {
+            if let Some(has_others) = of_values {
                 show(Watch::COMPUTED);
-            }
-            if has_computed_code {
-                show(Watch::COMPUTED_CODES);
+                if has_others {
+                    show(Watch::COMPUTED_CODES);
+                }
             }
         }
     }

@@ -4,6 +4,7 @@
 
 mod computed;
 mod edited_is_fresh;
+mod empty_words;
 mod every_rule;
 mod faults;
 mod one_condition;

@@ -51,7 +51,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         };
         let ([first, second, _], [i, j, k]) = plane_axes(plane);
         let rules = &self.model.semantics().arcs;
-        if self.words.has(k) && self.refuses_incomplete() {
+        if self.words.has(k) && self.refuses_incomplete() && !rules.passes_over_across {
             return Err(Fault::Arc(ArcFault::WrongPlane(k)));
         }
         let turns = if rules.turns { self.count_turns()? } else { 1 };

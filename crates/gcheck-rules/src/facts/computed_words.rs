@@ -29,6 +29,7 @@ enum Why {
     Large,
     Fraction,
     Unlisted,
+    Gap,
 }
 
 /// The computed words of the block that have, or may have, a value that their code does not take.
@@ -88,7 +89,14 @@ fn why(value: f64, facts: &WordFacts<'_>) -> Option<Why> {
     } else {
         let is_fraction = is_count && (value - value.round()).abs() > WHOLE_WITHIN;
         let is_listed = facts.values.is_empty() || is_among(value, facts);
-        if is_fraction { Some(Why::Fraction) } else { (!is_listed).then_some(Why::Unlisted) }
+        let is_in_gap = facts.gaps.iter().any(|[first, last]| (*first..=*last).contains(&value));
+        if is_fraction {
+            Some(Why::Fraction)
+        } else if is_in_gap {
+            Some(Why::Gap)
+        } else {
+            (!is_listed).then_some(Why::Unlisted)
+        }
     }
 }
 
@@ -108,6 +116,7 @@ pub(crate) fn finding(cx: &PathCx<'_>, rule: &'static RuleMeta, refused: &Refuse
         Why::Small => ("too small", range_of(facts), range_confidence(cx, refused)),
         Why::Large => ("too large", range_of(facts), range_confidence(cx, refused)),
         Why::Unlisted => ("not among those", range_of(facts), facts.range_confidence),
+        Why::Gap => ("not among those", without_gaps(facts), facts.range_confidence),
         Why::Fraction => ("not a whole number", "whole numbers".to_owned(), facts.confidence),
     };
     let finding = cx
@@ -160,6 +169,12 @@ pub(crate) fn range_of(facts: &WordFacts<'_>) -> String {
     bounds_of(facts.min, facts.above, facts.max).unwrap_or_else(|| {
         if facts.negative { "any number".to_owned() } else { "no negative number".to_owned() }
     })
+}
+
+/// "1 to 1000, but not 201 to 999".
+fn without_gaps(facts: &WordFacts<'_>) -> String {
+    let gaps: Vec<String> = facts.gaps.iter().map(|[first, last]| format!("{first} to {last}")).collect();
+    format!("{}, but not {}", range_of(facts), gaps.join(", "))
 }
 
 /// Bounds in words; `None` where there are none.

@@ -195,6 +195,11 @@ mod tests {
     use crate::testing::{World, check_rule, check_rule_in, findings, only};
 
     #[test]
+    fn a_control_that_passes_it_over_is_not_stopped() {
+        check_rule(&RULE, "grbl", "G17 G21 G90 G94\nG1 X20 F800\nG2 X30 Y0 I5 J0 K0\nM2\n", &expect![[""]]);
+    }
+
+    #[test]
     fn arcs_of_the_xy_plane_in_another_one() {
         check_rule(
             &RULE,

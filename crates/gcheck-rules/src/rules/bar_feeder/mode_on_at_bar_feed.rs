@@ -62,7 +62,7 @@ impl PathRule for ModeOnAtBarFeed {
                     format!("{what} is still on while the bar is fed (`{name}`)"),
                 )
                 .label("the next part begins with it")
-                .help(format!("end it with `{off}` before this the bar is fed"));
+                .help(format!("end it with `{off}` before the bar is fed"));
             report.add(cx.resting_on(finding, Fact::Mode(role), &format!("`{name}`")));
         }
         if cx.state().live_tool() == Truth::True {

@@ -103,7 +103,7 @@ impl CycleLeftOn {
         let finding = cx
             .finding(&META, harm.range(cx), format!("canned cycle is still on {} (`{name}`)", harm.words()))
             .label("the next block with a position drills a hole")
-            .help("end the cycle with `G80` before this this")
+            .help("end the cycle with `G80` before this")
             .fix_if(cx.block_before(cx.name_of_effect(Effect::CycleCancel).as_deref()))
             .at_most(if harm == CycleBoundary::ProgramEnd { Severity::Info } else { Severity::Warning });
         report.add(cx.resting_on(finding, fact, &format!("`{name}`")));
@@ -161,7 +161,7 @@ mod tests {
             canned cycle is still on at the reference return (`G81`)
               here: the next block with a position drills a hole
               there: `G81` set here
-              help: end the cycle with `G80` before this this
+              help: end the cycle with `G80` before this
               fix (unsafe): put `G80` in a block before this one
         "#]]
         .assert_eq(&found.iter().map(words).collect::<String>());

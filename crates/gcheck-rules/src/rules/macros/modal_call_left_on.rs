@@ -107,7 +107,7 @@ impl ModalCallLeftOn {
                 format!("the modal macro call is still on {} (`{name}`)", place.words()),
             )
             .label("the next block that moves calls the macro")
-            .help(format!("end it with `{off}` before this this"))
+            .help(format!("end it with `{off}` before this"))
             .fix_if(cx.block_before(Some(&off)));
         report.add(cx.resting_on(finding, fact, &format!("`{name}`")));
     }

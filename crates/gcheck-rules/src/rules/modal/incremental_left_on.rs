@@ -245,7 +245,7 @@ fn tell(cx: &PathCx<'_>, range: Range<u32>, what: &str) -> Finding {
     let incremental = cx.name_of_effect(Effect::Incremental).unwrap_or_default();
     let absolute = cx.name_of_effect(Effect::Absolute).unwrap_or_default();
     cx.finding(&META, range, format!("{what} (`{incremental}`)"))
-        .help(format!("state `{absolute}` before this the move"))
+        .help(format!("state `{absolute}` before this move"))
         .fix_if(cx.block_before(Some(&absolute)))
 }
 
@@ -372,7 +372,7 @@ mod tests {
               here: by this much, not to this point
               there: tool changed here
               there: increments set here
-              help: state `G90` before this the move
+              help: state `G90` before this move
               fix (unsafe): put `G90` in a block before this one
         "#]]
         .assert_eq(&found.iter().map(words).collect::<String>());

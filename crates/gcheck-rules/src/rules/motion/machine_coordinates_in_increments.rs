@@ -61,7 +61,7 @@ impl PathRule for MachineCoordinatesInIncrements {
                 format!("machine coordinates under increments (`{name}` under `{incremental}`)"),
             )
             .label("the control refuses the block")
-            .help(format!("state `{absolute}` before this this"))
+            .help(format!("state `{absolute}` before this block"))
             .fix_if(cx.block_before(Some(&absolute)))
             .at_most(limit(cx.model.semantics().confidence));
         report.add(cx.resting_on(finding, Fact::Mode(Role::Distance), &format!("`{incremental}`")));

@@ -2,6 +2,7 @@
 
 use gcheck_controls::{Effect, Letter};
 use gcheck_engine::{Abstract, At, Domain, Event, Fact, Spindle};
+use gcheck_program::Place;
 
 use crate::declare::declare_rule;
 use crate::facts::cutting::is_cut;
@@ -63,9 +64,14 @@ impl PathRule for SpeedMissing {
         if started_by.is_none() || self.told == started_by || !has_any && self.told.is_some() {
             return;
         }
+        let set_by = cx.trace().set_by(Fact::Speed);
+        // A laser is off at `S0`, and its blocks that move say so.
+        if set_by.and_then(|at| cx.place_of(at)).is_some_and(|place| names_axes(cx, &place)) {
+            return;
+        }
         self.told = started_by;
         let code = started_by.and_then(|at| start_code(cx, at)).unwrap_or_else(|| "M3".to_owned());
-        let is_zero = cx.trace().set_by(Fact::Speed).is_some();
+        let is_zero = set_by.is_some();
         let message = if is_zero {
             format!("the spindle turns with speed zero (`S0`, `{code}`)")
         } else {
@@ -100,6 +106,11 @@ fn start_code(cx: &PathCx<'_>, at: At) -> Option<String> {
     let words = place.table.words(place.block()).iter();
     let code = words.map(|word| word.code).find(|code| code.is_some() && is_start(cx.model.effect(*code)))?;
     Some(cx.name_of(code))
+}
+
+fn names_axes(cx: &PathCx<'_>, place: &Place) -> bool {
+    let is_axis = |letter| cx.control().letter(letter).is_some_and(|entry| entry.axis);
+    place.block().letters.iter().any(is_axis)
 }
 
 #[cfg(test)]
@@ -146,6 +157,11 @@ mod tests {
               | ^^^^^^^^^^^ warning[speed-missing] the spindle turns with speed zero (`S0`, `M3`)
         "#]],
         );
+    }
+
+    #[test]
+    fn a_laser_is_off_at_speed_zero() {
+        check_rule(&RULE, "grbl", "M4\nG1 X-2 F6000 S0\nG1 X-10 S300\nG1 X-2 S0\nM5\nM2\n", &expect![[""]]);
     }
 
     #[test]

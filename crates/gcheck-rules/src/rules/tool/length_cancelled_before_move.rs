@@ -1,14 +1,14 @@
 //! A tool that comes down because its length was cancelled.
 
 use gcheck_controls::{Effect, Letter};
-use gcheck_engine::{At, Axis, Event, Fact, Role};
+use gcheck_engine::{At, Axis, Event, Fact, Role, TravelKind};
 
 use crate::declare::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// The length of a tool is cancelled (`G49`), and a rapid move in Z follows that does not rise by the length of a tool.
+    /// The length of a tool is cancelled (`G49`), and the block moves in Z, or a rapid move in Z follows, that does not rise by the length of a tool.
     ///
     /// ## Why it matters
     /// From there Z is the position of the spindle nose: the tool comes down by its own length, at rapid.
@@ -34,7 +34,7 @@ declare_rule! {
         tier: Path,
         since: "0.1.0",
         run: Run::Path {
-            watch: Watch::BLOCKS.union(Watch::RAPIDS),
+            watch: Watch::BLOCKS.union(Watch::MOVES),
             make: || Box::new(LengthCancelledBeforeMove { cancelled: None }),
         },
     }
@@ -81,13 +81,16 @@ impl PathRule for LengthCancelledBeforeMove {
         }
     }
 
-    fn rapid(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
+    fn moved(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
         let Event::Travel(travel) = event else { return };
         if travel.expanded || !cx.origin().letters.contains(Letter::of('Z')) {
             return;
         }
         let Some((at, before)) = self.cancelled.take() else { return };
-        if cx.state().is_incremental(cx.model) != Some(false) {
+        // A later cut is another rule's; in the block that cancels the length a feed goes the same way.
+        if travel.kind != TravelKind::Rapid && at != cx.origin().at
+            || cx.state().is_incremental(cx.model) != Some(false)
+        {
             return;
         }
         let Some(to) = travel.programmed.get(Axis::Z) else { return };
@@ -123,6 +126,16 @@ mod tests {
 
     use super::RULE;
     use crate::testing::check_rule;
+
+    #[test]
+    fn a_feed_in_the_block_that_cancels_goes_down_too() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G20 G90 G54 G0 X0. Y0.\nG43 H1 Z.1\nG1 Z-.5 F10.\nX2.\nG49 Z1.\nG80 G0 Z1.\nM30\n",
+            &expect![[""]],
+        );
+    }
 
     #[test]
     fn the_next_move_in_z_decides() {

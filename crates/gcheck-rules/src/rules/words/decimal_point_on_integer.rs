@@ -35,13 +35,11 @@ declare_rule! {
 }
 
 fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
-    if !cx.words_are_plain() {
-        return;
-    }
     for word in cx.words().iter().filter(|w| w.shape.point) {
         let general = cx.control().letter(word.letter);
         if let Some(facts) = cx.facts(word)
             && is_whole(facts.kind)
+            && cx.is_plain(&facts)
             // The meaning of a word that no code of the block reads is unknown here.
             && (facts.code.is_some() || general.is_some_and(|entry| entry.free))
         {

@@ -61,17 +61,17 @@ fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
         let high = facts.max.is_some_and(|max| value > max);
         // Another rule reports a minus sign that is not accepted.
         let is_sign = word.shape.minus && !facts.negative;
-        if (low || high) && !is_sign && facts.kind != WordKind::Flag && cx.words_are_plain() {
+        if (low || high) && !is_sign && facts.kind != WordKind::Flag && cx.is_plain(&facts) {
             report.add(finding(cx, word, &facts, high));
-        } else if is_no_spindle(cx, word.letter, value) && cx.words_are_plain() {
+        } else if is_no_spindle(cx, word.letter, value) && cx.is_plain(&facts) {
             report.add(no_spindle(cx, word, &facts));
-        } else if is_in_gap(value, &facts) && !is_sign && cx.words_are_plain() {
+        } else if is_in_gap(value, &facts) && !is_sign && cx.is_plain(&facts) {
             report.add(in_gap(cx, word, &facts));
         } else if is_count(facts.kind) && value.fract() != 0.0 {
-            if !told && cx.words_are_plain() && has_meaning(cx, word, &facts) {
+            if !told && cx.is_plain(&facts) && has_meaning(cx, word, &facts) {
                 report.add(fraction(cx, word, &facts, value));
             }
-        } else if !facts.values.is_empty() && !is_among(value, &facts) && !is_sign && cx.words_are_plain() {
+        } else if !facts.values.is_empty() && !is_among(value, &facts) && !is_sign && cx.is_plain(&facts) {
             report.add(unlisted(cx, word, &facts));
         }
     }

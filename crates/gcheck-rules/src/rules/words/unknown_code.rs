@@ -4,7 +4,7 @@ use gcheck_controls::{CodeNumber, Confidence, Letter, load, names};
 use gcheck_program::{BlockFlags, Value, Word};
 
 use crate::declare::declare_rule;
-use crate::{BlockCx, Finding, Report, Run, Severity, limit};
+use crate::{BlockCx, Finding, Reads, Report, Run, Severity, limit};
 
 declare_rule! {
     /// A G or M code is not in the control's list.
@@ -34,7 +34,7 @@ declare_rule! {
         severity: Error,
         tier: Block,
         since: "0.1.0",
-        run: Run::Block { trigger: BlockFlags::UNKNOWN_CODE, check },
+        run: Run::BlockAndValues { trigger: BlockFlags::UNKNOWN_CODE, reads: Reads::Codes, check },
     }
 }
 
