@@ -43,6 +43,8 @@ pub struct PathCx<'a> {
     pub(crate) evaluated: &'a Evaluated,
     /// See [`PathCx::is_called_only`].
     pub(crate) is_called_only: bool,
+    /// The addresses of the block without those beside empty variables, where there are such.
+    pub(crate) letters: Option<LetterSet>,
 }
 
 /// A block as rules read it, kept because loops come by again.
@@ -148,7 +150,8 @@ impl<'a> PathCx<'a> {
 
     /// The block.
     pub fn origin(&self) -> Origin {
-        self.flow.origin
+        let origin = self.flow.origin;
+        Origin { letters: self.letters.unwrap_or(origin.letters), ..origin }
     }
 
     /// Every path comes here in this state. Otherwise a fact of the state holds on every path that comes here.

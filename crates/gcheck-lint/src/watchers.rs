@@ -61,6 +61,8 @@ pub(crate) struct Watchers<'a, 'c> {
     read: FxHashMap<u32, Rc<ReadBlock>>,
     /// The block that is being executed, if it was read.
     current: Option<Rc<ReadBlock>>,
+    /// The addresses of the block under way where some stand beside empty variables: those that are left.
+    letters: Option<(At, LetterSet)>,
     /// The file holds what others call, and no main program.
     is_called_only: bool,
 }
@@ -128,6 +130,7 @@ impl<'a, 'c> Watchers<'a, 'c> {
             scope: Scope::All,
             read: FxHashMap::default(),
             current: None,
+            letters: None,
             is_called_only: uses.is_called_only(),
         }
     }
@@ -237,6 +240,11 @@ impl<'a, 'c> Watchers<'a, 'c> {
         Some(read)
     }
 
+    /// The addresses that a block has left, if that is the block under way.
+    fn letters_of(&self, flow: &FlowCx<'_>) -> Option<LetterSet> {
+        self.letters.filter(|(at, _)| *at == flow.origin.at).map(|(_, letters)| letters)
+    }
+
     /// Asks something about the block under way before a rule does.
     fn look<T>(&self, flow: &FlowCx<'_>, evaluated: &Evaluated, ask: impl FnOnce(&PathCx<'_>) -> T) -> T {
         ask(&PathCx {
@@ -250,6 +258,7 @@ impl<'a, 'c> Watchers<'a, 'c> {
             shared: &SharedMemories::default(),
             evaluated,
             is_called_only: self.is_called_only,
+            letters: self.letters_of(flow),
         })
     }
 
@@ -301,6 +310,7 @@ impl<'a, 'c> Watchers<'a, 'c> {
             shared: &shared,
             evaluated,
             is_called_only: self.is_called_only,
+            letters: self.letters_of(flow),
         };
         self.each(watch, flow.origin.flags, &had_enough, |rule, report| call(rule, &cx, report));
         self.current = read;
@@ -324,6 +334,7 @@ impl<'a, 'c> Watchers<'a, 'c> {
             shared: &none,
             evaluated: &Evaluated::default(),
             is_called_only: self.is_called_only,
+            letters: self.letters_of(flow),
         };
         let cx = PathCx { shared: &shared, ..alone };
         for kind in kinds {
@@ -352,24 +363,29 @@ fn is_read(origin: Origin) -> bool {
 impl FlowObserver for Watchers<'_, '_> {
     fn before(&mut self, cx: &FlowCx<'_>) {
         self.current = None;
+        self.letters = None;
         if cx.origin.at.file == 0 && is_read(cx.origin) {
             let evaluated = Evaluated::default();
             self.current = self.read_block(cx.origin.at);
             self.read_computed_codes(cx, &evaluated);
             let is_eventful = self.current.as_ref().is_some_and(|read| read.is_eventful);
             let has_expression = cx.origin.flags.contains(BlockFlags::EXPRESSION);
-            let of_values = if has_expression && self.watches(Watch::COMPUTED) {
-                self.look(cx, &evaluated, |cx| cx.block_of_values().map(|known| known.has_others))
+            let of_values = if has_expression {
+                self.look(cx, &evaluated, |cx| {
+                    cx.block_of_values().map(|known| (known.has_others, known.block.letters))
+                })
             } else {
                 None
             };
+            self.letters =
+                of_values.filter(|(has_others, _)| *has_others).map(|(_, letters)| (cx.origin.at, letters));
             let mut show =
                 |watch| self.show_evaluated(watch, cx, &evaluated, |rule, cx, report| rule.block(cx, report));
             if is_eventful {
                 show(Watch::BLOCKS);
             }
             show(Watch::ALL_BLOCKS);
-            if let Some(has_others) = of_values {
+            if let Some((has_others, _)) = of_values {
                 show(Watch::COMPUTED);
                 if has_others {
                     show(Watch::COMPUTED_CODES);

@@ -25,17 +25,31 @@ const HEAD: &str = "O1 (A)\nG20 G90 G17 G40 G49 G80 G54 G94\nT1 M6\nS1000 M3\nG0
 
 #[test]
 fn a_dwell_without_its_time() {
-    check_told("haas-mill", &format!("{HEAD}G4 P#0\nM30\n"), expect![[""]]);
+    check_told(
+        "haas-mill",
+        &format!("{HEAD}G4 P#0\nM30\n"),
+        expect![[r#"
+        6 warning required-word-missing: `G4` without `P`
+    "#]],
+    );
     check_told("fanuc-mill", &format!("{HEAD}G4 X#0\nM30\n"), expect![[""]]);
 }
 
 #[test]
 fn a_mapping_without_its_axes() {
-    check_told("haas-mill", &format!("{HEAD}G107 Y0 A#0 Q4.\nM30\n"), expect![[""]]);
+    check_told(
+        "haas-mill",
+        &format!("{HEAD}G107 Y0 A#0 Q4.\nM30\n"),
+        expect![[r#"
+        7 error cylinder-without-rotary-axis: the cylinder has no rotary axis (`G107`)
+    "#]],
+    );
     check_told(
         "haas-mill",
         &format!("{HEAD}G65 P2 Q4.\nM30\nO2 (B)\nG107 Y0 A#1 Q#17\nM99\n"),
-        expect![[""]],
+        expect![[r#"
+            10 error cylinder-without-rotary-axis: the cylinder has no rotary axis (`G107`)
+        "#]],
     );
 }
 
@@ -47,7 +61,13 @@ fn a_cycle_without_its_depth() {
 
 #[test]
 fn a_call_without_its_program() {
-    check_told("haas-mill", &format!("{HEAD}M98 P#0\nM30\n"), expect![[""]]);
+    check_told(
+        "haas-mill",
+        &format!("{HEAD}M98 P#0\nM30\n"),
+        expect![[r#"
+        6 error required-word-missing: `M98` without `P`
+    "#]],
+    );
     check_told("fanuc-mill", &format!("{HEAD}G54.1 P#0\nM30\n"), expect![[""]]);
 }
 
@@ -62,22 +82,71 @@ fn an_address_that_may_be_left_out_is_not_missed() {
 
 #[test]
 fn a_computed_code_that_the_control_does_not_have() {
-    check_told("haas-mill", &format!("{HEAD}#1=41.5\nG#1 X1.\nM30\n"), expect![[""]]);
-    check_told("haas-mill", &format!("{HEAD}#1=500\nM#1\nM30\n"), expect![[""]]);
-    check_told("fanuc-mill", &format!("{HEAD}#1=6\nG#1\nM30\n"), expect![[""]]);
+    check_told(
+        "haas-mill",
+        &format!("{HEAD}#1=41.5\nG#1 X1.\nM30\n"),
+        expect![[r#"
+        7 error unknown-code: unknown code `G#1`
+    "#]],
+    );
+    check_told(
+        "haas-mill",
+        &format!("{HEAD}#1=500\nM#1\nM30\n"),
+        expect![[r#"
+        7 warning unknown-code: unknown code `M#1`
+    "#]],
+    );
+    check_told(
+        "fanuc-mill",
+        &format!("{HEAD}#1=6\nG#1\nM30\n"),
+        expect![[r#"
+        7 warning unknown-code: unknown code `G#1`
+    "#]],
+    );
 }
 
 #[test]
 fn a_computed_number_in_a_gap() {
-    check_told("haas-mill", &format!("{HEAD}#1=250\nT#1 M6\nM30\n"), expect![[""]]);
-    check_told("haas-mill", &format!("{HEAD}#1=250\nG1 G41 D#1 X1. F10.\nG40 X0.\nM30\n"), expect![[""]]);
-    check_told("haas-mill", &format!("{HEAD}G1 G41 D250 X1. F10.\nG40 X0.\nM30\n"), expect![[""]]);
+    check_told(
+        "haas-mill",
+        &format!("{HEAD}#1=250\nT#1 M6\nM30\n"),
+        expect![[r#"
+        7 error computed-value-out-of-range: computed value is not among those for `M6`: `T250`
+    "#]],
+    );
+    check_told(
+        "haas-mill",
+        &format!("{HEAD}#1=250\nG1 G41 D#1 X1. F10.\nG40 X0.\nM30\n"),
+        expect![[r#"
+        8 error computed-value-out-of-range: computed value is not among those for `G41`: `D250`
+    "#]],
+    );
+    check_told(
+        "haas-mill",
+        &format!("{HEAD}G1 G41 D250 X1. F10.\nG40 X0.\nM30\n"),
+        expect![[r#"
+        7 error number-out-of-range: value names nothing for `G41`: `D250`
+    "#]],
+    );
 }
 
 #[test]
 fn a_number_of_a_program_or_a_block_is_whole_and_not_negative() {
-    check_told("haas-mill", &format!("{HEAD}G65 P2.5\nM97 P-1\nM30\n"), expect![[""]]);
-    check_told("fanuc-mill", &format!("{HEAD}G65 P-2\nM30\n"), expect![[""]]);
+    check_told(
+        "haas-mill",
+        &format!("{HEAD}G65 P2.5\nM97 P-1\nM30\n"),
+        expect![[r#"
+        7 error decimal-point-on-integer: decimal point on a whole number: `P2.5`
+        8 error number-out-of-range: value too small for `M97`: `P-1`
+    "#]],
+    );
+    check_told(
+        "fanuc-mill",
+        &format!("{HEAD}G65 P-2\nM30\n"),
+        expect![[r#"
+        7 error number-out-of-range: value too small for `G65`: `P-2`
+    "#]],
+    );
 }
 
 #[test]

@@ -133,7 +133,10 @@ mod tests {
             &RULE,
             "haas-mill",
             "G20 G90 G54 G0 X0. Y0.\nG43 H1 Z.1\nG1 Z-.5 F10.\nX2.\nG49 Z1.\nG80 G0 Z1.\nM30\n",
-            &expect![[""]],
+            &expect![[r#"
+                5 | G49 Z1.
+                  |     ^^^ warning[length-cancelled-before-move] the tool comes down: its length was cancelled before this move (`G49`)
+            "#]],
         );
     }
 
