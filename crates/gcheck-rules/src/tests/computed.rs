@@ -103,7 +103,6 @@ fn a_mistake_is_found_whether_its_words_are_written_or_computed() {
         turning-start-inside-profile: F G X Z
         undefined-code: G
         unknown-address: @ G ^
-        unknown-code: G
         unreachable-block: G M
         unwanted-word: G
         word-of-newer-version: $ M

@@ -22,8 +22,18 @@ use case::{Case, Kind};
 use judge::{Answer, Judge};
 
 /// The controls whose codes are tried.
-const CONTROLS: [&str; 7] =
-    ["haas-mill", "haas-lathe", "fanuc-mill", "fanuc-lathe", "linuxcnc", "generic-mill", "tsnc-yh-a1m"];
+const CONTROLS: [&str; 10] = [
+    "haas-mill",
+    "haas-lathe",
+    "fanuc-mill",
+    "fanuc-lathe",
+    "fanuc-lathe-b",
+    "fanuc-lathe-c",
+    "linuxcnc",
+    "grbl",
+    "generic-mill",
+    "tsnc-yh-a1m",
+];
 
 /// Cases that may be open without a reason.
 const UNJUSTIFIED: usize = 0;

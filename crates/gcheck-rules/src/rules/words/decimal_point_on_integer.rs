@@ -74,8 +74,10 @@ fn finding(cx: &BlockCx<'_>, word: &Word, facts: &WordFacts<'_>) -> Finding {
         .note(format!("`{}` takes a whole number here  [{}]", word.letter, facts.source))
         .help(help)
         .at_most(limit(confidence));
+    // Two codes that read one word may each take its point another way.
+    let is_shared = cx.codes().filter(|(_, code)| code.reads().contains(word.letter)).count() > 1;
     match whole(text) {
-        Some(whole) if facts.kind != WordKind::Milliseconds => {
+        Some(whole) if facts.kind != WordKind::Milliseconds && !is_shared => {
             finding.fix(Fix::safe(format!("write `{text}` as `{whole}`"), cx.range(word), whole))
         }
         _ => finding,

@@ -95,7 +95,7 @@ fn is_told_by_text(code: Code<'_>, letter: Letter, present: LetterSet) -> bool {
         letters.contains(letter) && !letters.intersects(present)
     };
     let is_required = |word: &gcheck_controls::WordEntry| {
-        word.need == Need::Required && Letter::parse(&word.letter) == Some(letter)
+        (word.need == Need::Required || word.unless_comment) && Letter::parse(&word.letter) == Some(letter)
     };
     entry.words.iter().any(is_required) || entry.one_of.iter().any(is_own)
 }
