@@ -18,6 +18,7 @@ mod fault_words;
 mod in_force;
 mod lsp;
 mod nearest;
+mod neighbours;
 mod output;
 mod paths;
 mod problem;
