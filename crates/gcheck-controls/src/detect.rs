@@ -31,8 +31,10 @@ pub struct Guess {
     pub control: String,
     /// The piece of the program that counted most, as written: a comment's text, a code, a form, or the end of its name.
     pub because: String,
-    /// Another control that the program speaks for nearly as much; `None` when the guess is clear.
+    /// Another control that the program speaks for nearly as much.
     pub rival: Option<String>,
+    /// The program says enough, and much more of this control than of another: what is beside it cannot outweigh that.
+    pub is_clear: bool,
 }
 
 /// A control or builder that no control here is for, as a program names it.
@@ -87,15 +89,18 @@ fn score(control: &str, hints: &[Hint], evidence: &Evidence) -> Option<Score> {
             }
         }
     }
-    let guess = Guess { control: control.to_owned(), because: best.1?, rival: None };
+    let guess = Guess { control: control.to_owned(), because: best.1?, rival: None, is_clear: false };
     Some(Score { guess, points, against })
 }
 
 /// Fewer points than these are too little to name a control: comments after `;` or words in lower case alone.
 const ENOUGH_POINTS: i32 = 3;
 
-/// A guess is clear when it leads by so many points: one more hint for the other would not turn it.
-const CLEAR_LEAD: i32 = 2;
+/// With a lead of fewer points another control fits nearly as well.
+const LEAD: i32 = 2;
+
+/// With so many points a guess is clear: more than one weak hint.
+const CLEAR_POINTS: i32 = 5;
 
 /// The control that the evidence speaks for, or `None` when it says too little, or the same of two, or when the program is
 /// for something that no control here reads.
@@ -110,8 +115,9 @@ pub fn guess(evidence: &Evidence) -> Option<Guess> {
     if lead == 0 || foreign_unlike(evidence, &first.guess.control).is_some() {
         return None;
     }
-    let rival = second.filter(|_| lead < CLEAR_LEAD).map(|second| second.guess.control.clone());
-    Some(Guess { rival, ..first.guess.clone() })
+    let rival = second.filter(|_| lead < LEAD).map(|second| second.guess.control.clone());
+    let is_clear = rival.is_none() && first.points >= CLEAR_POINTS;
+    Some(Guess { rival, is_clear, ..first.guess.clone() })
 }
 
 /// The control or builder that a comment names and that no control here is for.
@@ -164,7 +170,9 @@ mod tests {
     fn a_guess_names_the_control_that_fits_nearly_as_well() {
         let lathe = with_comment("", &["packed-tool"]);
         assert_eq!(guess(&lathe).and_then(|guess| guess.rival).as_deref(), Some("haas-lathe"));
-        assert_eq!(guess(&with_comment("VF-2", &[])).map(|guess| guess.rival), Some(None));
+        assert_eq!(guess(&with_comment("VF-2", &[])).map(|guess| guess.is_clear), Some(true));
+        let weak = guess(&with_comment("", &["five-digit-program"]));
+        assert_eq!(weak.map(|guess| (guess.rival, guess.is_clear)), Some((None, false)));
     }
 
     #[test]

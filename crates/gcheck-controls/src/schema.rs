@@ -386,7 +386,8 @@ pub struct Hint {
     /// (several blocks with `X` and with `Z`, none with `Y`, and `G50`, `G96` or `G97`), `system-command` (`$H`, `$110=500`),
     /// `turning-system-b` and `turning-system-c` (turning words and `G95`, without codes that only system A of lathes has),
     /// `milling-words` (several blocks with `Y`, at least half as many as with `X`), `tool-with-d` (`T1 D1` without a tool
-    /// change code), `tape-mark-with-number` (`%1234`).
+    /// change code), `tape-mark-with-number` (`%1234`), `long-program-number` (`O` and six to
+    /// eight digits).
     #[serde(default)]
     pub form: Option<String>,
     /// How the name of the file ends, without the dot, in lower case: `ngc`.

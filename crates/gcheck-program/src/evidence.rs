@@ -310,8 +310,10 @@ impl Scan {
         }
         if digits > 0 {
             self.form("program-number");
-            if digits == 5 {
-                self.form("five-digit-program");
+            match digits {
+                5 => self.form("five-digit-program"),
+                6..=8 => self.form("long-program-number"),
+                _ => {}
             }
         }
         after

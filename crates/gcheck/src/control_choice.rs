@@ -46,21 +46,25 @@ fn guessed(evidence: &Evidence, path: &Path, neighbours: &Neighbours) -> Control
         because: Some(because),
     };
     let guess = gcheck_controls::guess(evidence);
-    if let Some(guess) = guess.as_ref().filter(|guess| guess.rival.is_none()) {
+    if let Some(guess) = guess.as_ref().filter(|guess| guess.is_clear) {
         return detected(guess.control.clone(), guess.because.clone());
     }
-    let may_be_for = |control: &String| match &guess {
-        Some(guess) => *control == guess.control || guess.rival.as_ref() == Some(control),
-        None => gcheck_controls::may_be_for(evidence, control),
-    };
     // Only a program that leaves a choice is worth the reading of its neighbours.
     let is_open = evidence.unsupported.is_none();
     let majority = is_open.then(|| neighbours.majority(path)).flatten();
-    if let Some(majority) = majority.filter(|majority| may_be_for(&majority.control)) {
+    let is_possible = |control: &String| {
+        guess.as_ref().is_some_and(|guess| [Some(&guess.control), guess.rival.as_ref()].contains(&Some(control)))
+            || gcheck_controls::may_be_for(evidence, control)
+    };
+    if let Some(majority) = majority.filter(|majority| is_possible(&majority.control)) {
         return detected(majority.control.clone(), majority.words());
     }
-    if let Some(Guess { control, because, rival: Some(rival) }) = guess {
-        return detected(control, format!("{because}; {rival} fits nearly as well"));
+    match guess {
+        Some(Guess { control, because, rival: None, .. }) => return detected(control, because),
+        Some(Guess { control, because, rival: Some(rival), .. }) => {
+            return detected(control, format!("{because}; {rival} fits nearly as well"));
+        }
+        None => {}
     }
     let named = || gcheck_controls::foreign(evidence);
     let because = match evidence.unsupported {
@@ -73,7 +77,7 @@ fn guessed(evidence: &Evidence, path: &Path, neighbours: &Neighbours) -> Control
 /// Does the choice of a control depend on the programs beside the one that it is for?
 pub(crate) fn may_depend_on_neighbours(choice: &ControlChoice, path: &Path, text: &str) -> bool {
     let is_guessed = matches!(choice.source, ControlSource::Detected | ControlSource::Default);
-    is_guessed && detected(path, text).is_none_or(|guess| guess.rival.is_some())
+    is_guessed && detected(path, text).is_none_or(|guess| !guess.is_clear)
 }
 
 /// The control that a program and the end of its name speak for.

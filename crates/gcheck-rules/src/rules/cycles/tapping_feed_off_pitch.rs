@@ -1,7 +1,7 @@
 //! A tap that is not fed by its pitch each turn.
 
 use gcheck_controls::{Effect, Letter};
-use gcheck_engine::{Abstract, At, Domain, Fact, FeedMode, Role};
+use gcheck_engine::{Abstract, At, Domain, Fact, FeedMode, Role, Units};
 use gcheck_program::BlockFlags;
 
 use crate::declare::declare_rule;
@@ -140,8 +140,8 @@ fn is_tapping(effect: Effect) -> bool {
 /// Inches for millimetres, and millimetres for inches.
 fn other(units: Units) -> Units {
     match units {
-        Units::Inch => Units::Millimetre,
-        Units::Millimetre => Units::Inch,
+        Units::Inch => Units::Mm,
+        Units::Mm => Units::Inch,
     }
 }
 
