@@ -434,8 +434,8 @@ mod tests {
               here: the nearest hole that is drilled before, and so deep, is 30 mm away
               there: the nearest hole that is drilled
               note: the program drills 1 of the 2 holes that this tool taps
-              help: give the point of the drilled hole, or drill a hole here first
               assuming: the part has no holes there before the program starts
+              help: give the point of the drilled hole, or drill a hole here first
         "#]]
         .assert_eq(&found.iter().map(words).collect::<String>());
     }

@@ -41,7 +41,7 @@ fn check(cx: &BlockCx<'_>, error: &SyntaxError, report: &mut Report<'_>) {
 
 fn finding(cx: &BlockCx<'_>, error: &SyntaxError) -> Finding {
     let keyword = cx.slice(error.range.clone());
-    let text = letters_around(cx.block_text(), error);
+    let text = letters_around(cx, error);
     if text.len() > keyword.len() {
         return part_of_text(cx, error, text);
     }
@@ -62,9 +62,11 @@ fn finding(cx: &BlockCx<'_>, error: &SyntaxError) -> Finding {
     }
 }
 
-/// The letters in one piece that the keyword is in; the text is that of the block.
-fn letters_around<'t>(block: &'t str, error: &SyntaxError) -> &'t str {
-    let (start, end) = (error.range.start as usize, error.range.end as usize);
+/// The letters in one piece that the keyword is in.
+fn letters_around<'t>(cx: &BlockCx<'t>, error: &SyntaxError) -> &'t str {
+    let block = cx.block_text();
+    let inside = |at: u32| at.saturating_sub(cx.block().range.start) as usize;
+    let (start, end) = (inside(error.range.start), inside(error.range.end));
     let (Some(before), Some(after)) = (block.get(..start), block.get(end..)) else { return "" };
     let is_letter = |c: char| c.is_ascii_alphabetic();
     let from = before.trim_end_matches(is_letter).len();
@@ -112,11 +114,11 @@ mod tests {
         check_rule(
             &RULE,
             "fanuc-mill",
-            "ORECTANGLE (SQUARE)\nG0 X1. OR\n",
+            "G0\nORECTANGLE (SQUARE)\nG0 X1. OR\n",
             &expect![[r#"
-                1 | ORECTANGLE (SQUARE)
+                2 | ORECTANGLE (SQUARE)
                   | ^^ error[stray-keyword] text `ORECTANGLE` is not code
-                2 | G0 X1. OR
+                3 | G0 X1. OR
                   |        ^^ error[stray-keyword] keyword `OR` cannot be here
             "#]],
         );
