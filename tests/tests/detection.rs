@@ -100,8 +100,7 @@ fn dialect(message: &str) -> Option<&str> {
 fn said_alone(program: &CorpusProgram) -> String {
     let text = fs::read(&program.path).unwrap();
     let extension = program.path.extension().map(|extension| extension.to_string_lossy());
-    let evidence =
-        gcheck_program::evidence_of_file(&String::from_utf8_lossy(&text), extension.as_deref());
+    let evidence = gcheck_program::evidence_of_file(&String::from_utf8_lossy(&text), extension.as_deref());
     match evidence.unsupported {
         Some(dialect) => dialect.name.clone(),
         None => gcheck_controls::guess(&evidence).map_or_else(|| UNKNOWN.to_owned(), |guess| guess.control),
@@ -118,7 +117,8 @@ fn programs_are_told_rightly_or_left_open() {
     for program in &programs {
         let truth = of(&truths, &program.name).unwrap_or_else(|| panic!("no truth for {}", program.name));
         used.insert(&truth.path);
-        let said = with_neighbours.get(&program.name).unwrap_or_else(|| panic!("not checked: {}", program.name));
+        let said =
+            with_neighbours.get(&program.name).unwrap_or_else(|| panic!("not checked: {}", program.name));
         rows.push(Row { name: &program.name, truth, alone: said_alone(program), said: said.clone() });
     }
     let idle: Vec<&str> =

@@ -152,7 +152,11 @@ mod tests {
     }
 
     fn check_named(head: &str, extension: Option<&str>, expected: Option<&str>) {
-        assert_eq!(unsupported_dialect(head, extension).map(|dialect| dialect.name.as_str()), expected, "{head}");
+        assert_eq!(
+            unsupported_dialect(head, extension).map(|dialect| dialect.name.as_str()),
+            expected,
+            "{head}"
+        );
     }
 
     #[test]

@@ -53,7 +53,9 @@ fn guessed(evidence: &Evidence, path: &Path, neighbours: &Neighbours) -> Control
     let is_open = evidence.unsupported.is_none();
     let majority = is_open.then(|| neighbours.majority(path)).flatten();
     let is_possible = |control: &String| {
-        guess.as_ref().is_some_and(|guess| [Some(&guess.control), guess.rival.as_ref()].contains(&Some(control)))
+        guess
+            .as_ref()
+            .is_some_and(|guess| [Some(&guess.control), guess.rival.as_ref()].contains(&Some(control)))
             || gcheck_controls::may_be_for(evidence, control)
     };
     if let Some(majority) = majority.filter(|majority| is_possible(&majority.control)) {
@@ -69,7 +71,9 @@ fn guessed(evidence: &Evidence, path: &Path, neighbours: &Neighbours) -> Control
     let named = || gcheck_controls::foreign(evidence);
     let because = match evidence.unsupported {
         Some(dialect) => Some(format!("the file is for {}", dialect.name)),
-        None => named().map(|other| format!("{} names {}, which gcheck does not have", other.comment, other.name)),
+        None => {
+            named().map(|other| format!("{} names {}, which gcheck does not have", other.comment, other.name))
+        }
     };
     ControlChoice { name: gcheck_controls::fallback().to_owned(), source: ControlSource::Default, because }
 }
@@ -153,8 +157,7 @@ mod tests {
     ) -> (String, ControlSource, Option<String>) {
         let source = SourceText::from(text);
         let configured = configured.map(|name| (name, None));
-        let choice =
-            choose(Path::new("a.nc"), &source, option, configured, &Neighbours::default()).unwrap();
+        let choice = choose(Path::new("a.nc"), &source, option, configured, &Neighbours::default()).unwrap();
         (choice.name, choice.source, choice.because)
     }
 
@@ -219,12 +222,12 @@ mod tests {
         write("printed.nc", "G92 E0\nG1 X1 E1.1\nG1 X2 E1.2\nG1 Y2 E1.3\n");
         write("named.nc", "(MAZAK VTC)\nG0 X1.\n");
         let printed = of("printed.nc", &neighbours);
-        assert_eq!((printed.1, printed.2.as_str()), (ControlSource::Default, "the file is for a 3-D printer"));
-        let named = of("named.nc", &neighbours);
         assert_eq!(
-            named.2,
-            "(MAZAK VTC) names a Mazak control, which gcheck does not have"
+            (printed.1, printed.2.as_str()),
+            (ControlSource::Default, "the file is for a 3-D printer")
         );
+        let named = of("named.nc", &neighbours);
+        assert_eq!(named.2, "(MAZAK VTC) names a Mazak control, which gcheck does not have");
     }
 
     #[test]

@@ -88,9 +88,8 @@ fn agreed<'s>(shown: impl Iterator<Item = Option<&'s str>>) -> Option<Majority> 
 
 fn read(folder: &Path) -> Vec<Neighbour> {
     let Ok(entries) = fs::read_dir(folder) else { return Vec::new() };
-    let is_small = |path: &PathBuf| {
-        fs::metadata(path).is_ok_and(|data| data.is_file() && data.len() <= MAX_FILE)
-    };
+    let is_small =
+        |path: &PathBuf| fs::metadata(path).is_ok_and(|data| data.is_file() && data.len() <= MAX_FILE);
     let mut paths: Vec<PathBuf> =
         entries.flatten().map(|entry| entry.path()).filter(|path| is_program_name(path)).collect();
     paths.sort();

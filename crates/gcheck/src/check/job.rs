@@ -154,10 +154,13 @@ fn check_file(bench: &Bench<'_>, target: &Target) -> Result<Checked, Problem> {
     // What is fixed is checked over and over, and what comes in by a pipe has no place.
     let cache = bench.cache.as_ref().filter(|_| bench.fixes.is_none() && !target.is_standard_input);
     let slot = cache.and_then(|(cache, run)| Some((cache, run.key(&target.shown, &source, &settings)?)));
-    if let Some(verdict) = slot.and_then(|(cache, key)| known(bench, target, &source, &settings, (cache, key))) {
+    if let Some(verdict) =
+        slot.and_then(|(cache, key)| known(bench, target, &source, &settings, (cache, key)))
+    {
         return Ok(Checked { report: report(target, source, verdict, 0), change: None });
     }
-    let Prepared { source, settings, choice, selection, unsupported } = decide(bench, target, source, settings)?;
+    let Prepared { source, settings, choice, selection, unsupported } =
+        decide(bench, target, source, settings)?;
     let control = bench.controls.get(&choice.name, &settings.codes)?;
     let dialect = Dialect::new(&control);
     let programs = Reachable::new(Arc::clone(&bench.folders), &target.path, &settings.search);

@@ -18,8 +18,8 @@ use crate::args::{FmtOptions, Global};
 use crate::config::{Config, Configs, validate_control};
 use crate::console::{finish, say};
 use crate::control_choice::choose;
-use crate::neighbours::Neighbours;
 use crate::discovery::{self, Found};
+use crate::neighbours::Neighbours;
 use crate::{Problem, output, paths, reading, rewriting, threads};
 
 /// Standard input among the paths.

@@ -106,8 +106,8 @@ impl PathRule for TappingFeedOffPitch {
             return;
         }
         // Whoever gave no units gave the feed in those that fit the pitch.
-        let are_written = cx.trace().set_by(Fact::Mode(Role::Units)).is_some()
-            || cx.environment.machine.units_are_told;
+        let are_written =
+            cx.trace().set_by(Fact::Mode(Role::Units)).is_some() || cx.environment.machine.units_are_told;
         let in_others = a_turn / units.in_mm() * other(units).in_mm() / thread.pitch;
         if !are_written && (SHORT..=LONG).contains(&in_others) {
             return;
@@ -397,7 +397,9 @@ mod tests {
     #[test]
     fn without_units_the_feed_is_in_those_that_fit_the_pitch() {
         let program = |units: &str, feed: &str| {
-            format!("(M3X0.5 FORM TAP)\nM6 T15\nG90 G54 {units}G0 X0. Y0.\nG95 S300 M3\nG84 Z-1. R.1 {feed}\nG80\nM30\n")
+            format!(
+                "(M3X0.5 FORM TAP)\nM6 T15\nG90 G54 {units}G0 X0. Y0.\nG95 S300 M3\nG84 Z-1. R.1 {feed}\nG80\nM30\n"
+            )
         };
         check_rule(&RULE, "fanuc-mill", &program("", "F0.019685"), &expect![[""]]);
         check_rule(&RULE, "fanuc-mill", &program("", "F0.5"), &expect![[""]]);

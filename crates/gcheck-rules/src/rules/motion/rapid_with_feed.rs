@@ -66,7 +66,13 @@ impl PathRule for RapidWithFeed {
         // An unknown height is NaN, and not below anything. A move up and out of the part is not a cut.
         let is_below = to < -LEVEL && to < from + LEVEL;
         let is_still = [Axis::X, Axis::Y, Axis::Z].iter().all(|axis| stays(travel, *axis));
-        if !cx.is_mill() || !is_plain || !is_below || is_still || cx.has_effect(is_elsewhere) || has_unknown_code(cx) {
+        if !cx.is_mill()
+            || !is_plain
+            || !is_below
+            || is_still
+            || cx.has_effect(is_elsewhere)
+            || has_unknown_code(cx)
+        {
             return;
         }
         if Abstract::known(cx.state().feed()).is_some_and(|feed| feed >= NO_CUT) {
@@ -123,7 +129,9 @@ mod tests {
     #[test]
     fn a_block_that_moves_nothing_gives_the_feed_of_the_next_cut() {
         let program = |again: &str| {
-            format!("G21 G90 G54 G0 X0. Y0. Z5.\nG1 Z-2. F90.\nX20.\nG0 X30. Y-5.\n{again} F60.\nG1 Y5.\nG0 Z5.\nM30\n")
+            format!(
+                "G21 G90 G54 G0 X0. Y0. Z5.\nG1 Z-2. F90.\nX20.\nG0 X30. Y-5.\n{again} F60.\nG1 Y5.\nG0 Z5.\nM30\n"
+            )
         };
         check_rule(&RULE, "fanuc-mill", &program("Z-2."), &expect![[""]]);
         check_rule(&RULE, "fanuc-mill", &program("X30. Z-2."), &expect![[""]]);
