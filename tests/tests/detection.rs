@@ -4,7 +4,11 @@
 //! hint, how a control is chosen. The page `docs/dev/detection.md` is written from what is found
 //! (`UPDATE_EXPECT=1 cargo test -p gcheck-tests --test detection`).
 
-#![expect(clippy::unwrap_used, reason = "a test that meets the unexpected is to fail")]
+#![expect(
+    clippy::unwrap_used,
+    clippy::indexing_slicing,
+    reason = "a test that meets the unexpected is to fail"
+)]
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
@@ -30,7 +34,7 @@ struct Truth {
     /// The beginning of the paths that it holds for; of several, the longest counts.
     path: String,
     /// A control, a dialect that no control here reads, or [`UNKNOWN`].
-    truth: String,
+    answer: String,
     reason: String,
 }
 
@@ -38,8 +42,8 @@ fn truths() -> Vec<Truth> {
     let text = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("detection.tsv")).unwrap();
     let truth = |line: &str| {
         let fields: Vec<&str> = line.split('\t').collect();
-        let [path, truth, reason] = fields.as_slice() else { panic!("three columns: {line}") };
-        Truth { path: (*path).to_owned(), truth: (*truth).to_owned(), reason: (*reason).to_owned() }
+        let [path, answer, reason] = fields.as_slice() else { panic!("three columns: {line}") };
+        Truth { path: (*path).to_owned(), answer: (*answer).to_owned(), reason: (*reason).to_owned() }
     };
     text.lines().skip(1).map(truth).collect()
 }
@@ -141,7 +145,7 @@ struct Row<'t> {
 
 impl Row<'_> {
     fn told(&self) -> Told {
-        told(&self.truth.truth, &self.said)
+        told(&self.truth.answer, &self.said)
     }
 }
 
@@ -162,11 +166,11 @@ fn page(rows: &[Row<'_>]) -> String {
     let count = |rows: &[&Row<'_>], told| rows.iter().filter(|row| row.told() == told).count();
     let mut by_truth: BTreeMap<&str, Vec<&Row<'_>>> = BTreeMap::new();
     for row in rows {
-        by_truth.entry(&row.truth.truth).or_default().push(row);
+        by_truth.entry(&row.truth.answer).or_default().push(row);
     }
     page.push_str("| truth | programs | right | open | wrong | right alone |\n|---|---|---|---|---|---|\n");
     let mut line = |name: &str, rows: &[&Row<'_>]| {
-        let alone = rows.iter().filter(|row| row.alone == row.truth.truth).count();
+        let alone = rows.iter().filter(|row| row.alone == row.truth.answer).count();
         let [right, open, wrong] = [Told::Right, Told::Open, Told::Wrong].map(|told| count(rows, told));
         writeln!(page, "| {name} | {} | {right} | {open} | {wrong} | {alone} |", rows.len()).unwrap();
     };
@@ -177,23 +181,23 @@ fn page(rows: &[Row<'_>]) -> String {
     page.push_str("\n*Right alone*: without the programs beside it.\n\n## Wrong\n\n");
     page.push_str("| program | truth | told | why the truth is that |\n|---|---|---|---|\n");
     for row in rows.iter().filter(|row| row.told() == Told::Wrong) {
-        let Truth { truth, reason, .. } = row.truth;
+        let Truth { answer: truth, reason, .. } = row.truth;
         writeln!(page, "| {} | {truth} | {} | {reason} |", row.name, row.said).unwrap();
     }
     page.push_str("\n## Dialects that gcheck does not read, left open\n\n");
     page.push_str("The fallback checks them, so what it says of them may be false.\n\n");
     page.push_str("| program | truth |\n|---|---|\n");
     let is_foreign = |row: &&Row<'_>| {
-        row.told() == Told::Open && !gcheck_controls::names().contains(&row.truth.truth.as_str())
+        row.told() == Told::Open && !gcheck_controls::names().contains(&row.truth.answer.as_str())
     };
     for row in rows.iter().filter(is_foreign) {
-        writeln!(page, "| {} | {} |", row.name, row.truth.truth).unwrap();
+        writeln!(page, "| {} | {} |", row.name, row.truth.answer).unwrap();
     }
     page.push_str("\n## Controls of gcheck, left open\n\n| folder | truth | programs |\n|---|---|---|\n");
     let mut open: BTreeMap<(&str, &str), usize> = BTreeMap::new();
     for row in rows.iter().filter(|row| row.told() == Told::Open && !is_foreign(row)) {
         let folder = row.name.rsplit_once('/').map_or("", |(folder, _)| folder);
-        *open.entry((folder, &row.truth.truth)).or_default() += 1;
+        *open.entry((folder, &row.truth.answer)).or_default() += 1;
     }
     for ((folder, truth), count) in open {
         writeln!(page, "| {folder} | {truth} | {count} |").unwrap();
@@ -204,7 +208,7 @@ fn page(rows: &[Row<'_>]) -> String {
 #[test]
 fn the_longest_beginning_of_a_path_counts() {
     let truths = truths();
-    let truth = |name| of(&truths, name).map(|truth| truth.truth.as_str());
+    let truth = |name| of(&truths, name).map(|truth| truth.answer.as_str());
     assert_eq!(truth("LinuxCNC__linuxcnc/tests/halui/shared-test.sh"), Some("a script interpreter"));
     assert_eq!(truth("LinuxCNC__linuxcnc/nc_files/x.ngc"), Some("linuxcnc"));
     assert_eq!(truth("nobody/x.ngc"), None);

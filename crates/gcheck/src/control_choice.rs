@@ -10,6 +10,7 @@ use gcheck_report::{ControlChoice, ControlSource};
 use gcheck_syntax::SourceText;
 
 use crate::config::validate_control;
+use crate::detection::{detected, evidence};
 use crate::neighbours::Neighbours;
 use crate::{Problem, paths};
 
@@ -82,16 +83,6 @@ fn guessed(evidence: &Evidence, path: &Path, neighbours: &Neighbours) -> Control
 pub(crate) fn may_depend_on_neighbours(choice: &ControlChoice, path: &Path, text: &str) -> bool {
     let is_guessed = matches!(choice.source, ControlSource::Detected | ControlSource::Default);
     is_guessed && detected(path, text).is_none_or(|guess| !guess.is_clear)
-}
-
-/// The control that a program and the end of its name speak for.
-pub(crate) fn detected(path: &Path, text: &str) -> Option<Guess> {
-    gcheck_controls::guess(&evidence(path, text))
-}
-
-fn evidence(path: &Path, text: &str) -> Evidence {
-    let extension = path.extension().map(|extension| extension.to_string_lossy());
-    gcheck_program::evidence_of_file(text, extension.as_deref())
 }
 
 /// Of a program whose control nobody chose, and whose dialect no control here reads, only the rule that says so is run.

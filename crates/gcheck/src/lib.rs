@@ -12,6 +12,7 @@ mod commands;
 pub mod config;
 mod console;
 mod control_choice;
+mod detection;
 mod discovery;
 mod execution;
 mod fault_words;

@@ -8,7 +8,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
-use crate::control_choice::detected;
+use crate::detection::detected;
 use crate::discovery::is_program_name;
 use crate::{paths, reading};
 

@@ -228,7 +228,7 @@ impl TappedHoleNotDrilled {
         let tool = cx.trace().set_by(Fact::Tool);
         let missed = match nearest {
             Some(hole) if distance(hole.at, at) <= NEAR => None,
-            // Where a cutter went down to mill is no hole that was meant for this tap.
+            // A place where a cutter went down to mill was not meant for this tap.
             _ => {
                 let drilled = self.holes.iter().filter(near).filter(|hole| hole.is_cycle);
                 let away = |hole: &&Hole| distance(hole.at, at);

@@ -105,7 +105,7 @@ impl PathRule for TappingFeedOffPitch {
         if is_rounded || (SHORT..=LONG).contains(&(a_turn / thread.pitch)) {
             return;
         }
-        // Whoever gave no units gave the feed in those that fit the pitch.
+        // A program without units has its feed in those that fit the pitch.
         let are_written =
             cx.trace().set_by(Fact::Mode(Role::Units)).is_some() || cx.environment.machine.units_are_told;
         let in_others = a_turn / units.in_mm() * other(units).in_mm() / thread.pitch;

@@ -12,7 +12,7 @@ declare_rule! {
     /// A block with a feed (`F`) moves at rapid down to below the zero of the part, or sideways there.
     ///
     /// A feed in the block shows that the tool should cut. Above the part there is no finding: some programs give the
-    /// feed of the next cut early. A block whose end is where the tool already is moves nothing, and is no finding.
+    /// feed of the next cut early. A block whose end is where the tool already is moves nothing, and is not reported.
     ///
     /// ## Why it matters
     /// At rapid the feed has no effect, and the tool runs into the part at full speed. `G0` was written instead of
