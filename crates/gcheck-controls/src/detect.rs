@@ -171,7 +171,7 @@ mod tests {
         let lathe = with_comment("", &["packed-tool"]);
         assert_eq!(guess(&lathe).and_then(|guess| guess.rival).as_deref(), Some("haas-lathe"));
         assert_eq!(guess(&with_comment("VF-2", &[])).map(|guess| guess.is_clear), Some(true));
-        let weak = guess(&with_comment("", &["five-digit-program"]));
+        let weak = guess(&Evidence { codes: vec!["M29".to_owned()], ..Evidence::default() });
         assert_eq!(weak.map(|guess| (guess.rival, guess.is_clear)), Some((None, false)));
     }
 
