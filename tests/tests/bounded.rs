@@ -21,6 +21,7 @@ fn check_everywhere(bytes: Vec<u8>) {
             machine: &machine,
             programs: &NoPrograms,
             control_is_guessed: true,
+            unsupported: None,
         };
         let outcome = check(&Job {
             source: &source,

@@ -32,6 +32,7 @@ fn mended(program: &[u8], control: &str, kinds: FixKinds) -> Option<Vec<u8>> {
             machine: &machine,
             programs: &NoPrograms,
             control_is_guessed: false,
+            unsupported: None,
         };
         check(&Job {
             source,

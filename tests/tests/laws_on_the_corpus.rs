@@ -102,6 +102,7 @@ fn findings(control: &Control, source: &SourceText) -> Vec<Finding> {
         machine: &machine,
         programs: &NoPrograms,
         control_is_guessed: false,
+        unsupported: None,
     };
     let mut selection = Selection::recommended(RULES);
     selection.enable("all").unwrap();

@@ -6,6 +6,7 @@
 use crate::Hint;
 use crate::UnsupportedDialect;
 use crate::loader::all_control_files;
+use crate::unsupported::{OtherControl, other_controls};
 use crate::whole_word::contains_word;
 
 /// What a program shows of itself.
@@ -30,6 +31,19 @@ pub struct Guess {
     pub control: String,
     /// The piece of the program that counted most, as written: a comment's text, a code, a form, or the end of its name.
     pub because: String,
+    /// Another control that the program speaks for nearly as much.
+    pub rival: Option<String>,
+    /// The program says enough, and much more of this control than of another: what is beside it cannot outweigh that.
+    pub is_clear: bool,
+}
+
+/// A control or builder that no control here is for, as a program names it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Foreign {
+    /// What it is, in words: "a Mazak control".
+    pub name: String,
+    /// The comment, as written.
+    pub comment: String,
 }
 
 /// What the evidence is worth for one control.
@@ -75,18 +89,97 @@ fn score(control: &str, hints: &[Hint], evidence: &Evidence) -> Option<Score> {
             }
         }
     }
-    Some(Score { guess: Guess { control: control.to_owned(), because: best.1? }, points, against })
+    let guess = Guess { control: control.to_owned(), because: best.1?, rival: None, is_clear: false };
+    Some(Score { guess, points, against })
 }
 
 /// Fewer points than these are too little to name a control: comments after `;` or words in lower case alone.
 const ENOUGH_POINTS: i32 = 3;
 
-/// The control that the evidence speaks for, or `None` when it says too little, or the same of two.
+/// With a lead of fewer points another control fits nearly as well.
+const LEAD: i32 = 2;
+
+/// With so many points a guess is clear: more than one weak hint.
+const CLEAR_POINTS: i32 = 5;
+
+/// The control that the evidence speaks for, or `None` when it says too little, or the same of two, or when the program is
+/// for something that no control here reads.
 pub fn guess(evidence: &Evidence) -> Option<Guess> {
+    if evidence.unsupported.is_some() {
+        return None;
+    }
     let scores = scores(evidence);
-    match scores.as_slice() {
-        [first, second, ..] if first.points == second.points => None,
-        [first, ..] if first.points >= ENOUGH_POINTS => Some(first.guess.clone()),
-        _ => None,
+    let first = scores.first().filter(|first| first.points >= ENOUGH_POINTS)?;
+    let second = scores.get(1);
+    let lead = second.map_or(i32::MAX, |second| first.points - second.points);
+    if lead == 0 || foreign_unlike(evidence, &first.guess.control).is_some() {
+        return None;
+    }
+    let rival = second.filter(|_| lead < LEAD).map(|second| second.guess.control.clone());
+    let is_clear = rival.is_none() && first.points >= CLEAR_POINTS;
+    Some(Guess { rival, is_clear, ..first.guess.clone() })
+}
+
+/// The control or builder that a comment names and that no control here is for.
+pub fn foreign(evidence: &Evidence) -> Option<Foreign> {
+    foreign_unlike(evidence, "")
+}
+
+/// The foreign control that a comment names, unless its programs are read as those of `control`.
+fn foreign_unlike(evidence: &Evidence, control: &str) -> Option<Foreign> {
+    let named = |word: &String| evidence.comments.iter().find(|comment| contains_word(comment, word));
+    let mut others = other_controls().iter().filter(|other| !other.like.iter().any(|like| like == control));
+    let told = |other: &OtherControl| {
+        let comment = other.comments.iter().find_map(named)?;
+        Some(Foreign { name: other.name.clone(), comment: format!("({comment})") })
+    };
+    others.find_map(told)
+}
+
+/// May a program be for a control that its neighbours are for? Not where anything in it speaks against that.
+pub fn may_be_for(evidence: &Evidence, control: &str) -> bool {
+    let speaks_against = |score: &Score| score.guess.control == control && score.against > 0;
+    evidence.unsupported.is_none()
+        && foreign_unlike(evidence, control).is_none()
+        && !scores(evidence).iter().any(speaks_against)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Evidence, foreign, guess, may_be_for};
+
+    fn with_comment(text: &str, forms: &[&str]) -> Evidence {
+        Evidence {
+            comments: vec![text.to_owned()],
+            forms: forms.iter().map(|form| (*form).to_owned()).collect(),
+            ..Evidence::default()
+        }
+    }
+
+    #[test]
+    fn a_builder_that_no_control_here_is_for_is_not_guessed_over() {
+        let mill = with_comment("MAZAK VTC-20", &["semicolon-comment", "lower-case"]);
+        assert_eq!(guess(&mill), None);
+        assert_eq!(foreign(&mill).map(|foreign| foreign.comment).as_deref(), Some("(MAZAK VTC-20)"));
+        let lathe = with_comment("MAZAK QT-15", &["packed-tool", "turning-words"]);
+        assert_eq!(guess(&lathe).map(|guess| guess.control).as_deref(), Some("fanuc-lathe"));
+        assert!(foreign(&with_comment("HAAS VF-2", &[])).is_none());
+    }
+
+    #[test]
+    fn a_guess_names_the_control_that_fits_nearly_as_well() {
+        let lathe = with_comment("", &["packed-tool"]);
+        assert_eq!(guess(&lathe).and_then(|guess| guess.rival).as_deref(), Some("haas-lathe"));
+        assert_eq!(guess(&with_comment("VF-2", &[])).map(|guess| guess.is_clear), Some(true));
+        let weak = guess(&Evidence { codes: vec!["M29".to_owned()], ..Evidence::default() });
+        assert_eq!(weak.map(|guess| (guess.rival, guess.is_clear)), Some((None, false)));
+    }
+
+    #[test]
+    fn what_speaks_against_a_control_outweighs_its_neighbours() {
+        let named = with_comment("", &["named-parameter"]);
+        assert!(!may_be_for(&named, "fanuc-mill"));
+        assert!(may_be_for(&named, "linuxcnc"));
+        assert!(may_be_for(&Evidence::default(), "fanuc-mill"));
     }
 }

@@ -381,10 +381,13 @@ pub struct Hint {
     pub code: Option<String>,
     /// A form of syntax: `o-word`, `named-parameter`, `macro-statement`, `semicolon-comment`, `program-number`, `tape-mark`,
     /// `packed-tool` (`T0101` or `T101` without a tool change code), `packed-tool-short` (`T101`), `incremental-words` (`U`, `W`),
-    /// `turning-cycle-one-block` (`G71 P Q D`), `turning-cycle-two-blocks` (`G71 U R`), `lower-case` (words in lower case),
+    /// `turning-cycle-one-block` (`G71 P Q D`, `G76 K D`), `turning-cycle-two-blocks` (`G71 U R`), `lower-case` (words in lower case),
     /// `five-digit-program` (`O00123`), `packed-tool-with-change` (`T0707 M06`: station and offset alike), `turning-words`
     /// (several blocks with `X` and with `Z`, none with `Y`, and `G50`, `G96` or `G97`), `system-command` (`$H`, `$110=500`),
-    /// `turning-system-b` and `turning-system-c` (turning words and `G95`, without codes that only system A of lathes has).
+    /// `turning-system-b` and `turning-system-c` (turning words and `G95`, without codes that only system A of lathes has),
+    /// `milling-words` (several blocks with `Y`, at least half as many as with `X`), `tool-with-d` (`T1 D1` without a tool
+    /// change code), `tape-mark-with-number` (`%1234`), `long-program-number` (`O` and six to
+    /// eight digits).
     #[serde(default)]
     pub form: Option<String>,
     /// How the name of the file ends, without the dot, in lower case: `ngc`.

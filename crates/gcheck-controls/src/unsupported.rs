@@ -1,8 +1,8 @@
 //! Dialects that look like G-code and that no control of the data reads: printers, conversational languages, other builders'
-//! own.
+//! own; and controls that read much of what the controls of the data read, and are none of them.
 //!
-//! Knows: how the hints of `data/unsupported.toml` match the first part of a file. Must not know: controls that are supported,
-//! what follows from a match.
+//! Knows: how the hints of `data/unsupported.toml` match the first part of a file and the end of its name. Must not know: what
+//! follows from a match.
 
 use std::sync::LazyLock;
 
@@ -14,6 +14,23 @@ use crate::whole_word::contains_word;
 #[serde(deny_unknown_fields)]
 struct File {
     dialect: Vec<UnsupportedDialect>,
+    other: Vec<OtherControl>,
+}
+
+/// A control, or a builder's controls, that no control here is for, though its programs look like those of one.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct OtherControl {
+    /// In words: "a Mazak control".
+    pub(crate) name: String,
+    /// Whole words of comments that name it.
+    pub(crate) comments: Vec<String>,
+    /// Controls as which its programs may still be read: the nearest there is.
+    #[serde(default)]
+    pub(crate) like: Vec<String>,
+    /// The source of the words.
+    #[cfg_attr(not(test), expect(dead_code, reason = "for the reader of the data"))]
+    source: String,
 }
 
 /// A dialect that no control here reads.
@@ -37,13 +54,19 @@ struct Hint {
     line: Option<String>,
     text: Option<String>,
     word: Option<char>,
+    extension: Option<String>,
 }
 
-static DIALECTS: LazyLock<Vec<UnsupportedDialect>> = LazyLock::new(|| {
+static DATA: LazyLock<File> = LazyLock::new(|| {
     let file = serde_json::from_str::<File>(include_str!(concat!(env!("OUT_DIR"), "/unsupported.json")));
     #[expect(clippy::expect_used, reason = "embedded data; a test reads it")]
-    file.expect("data/unsupported.toml has the shape of `File`").dialect
+    file.expect("data/unsupported.toml has the shape of `File`")
 });
+
+/// The controls that comments may name and that no control here is for.
+pub(crate) fn other_controls() -> &'static [OtherControl] {
+    &DATA.other
+}
 
 /// The first part of a file that is looked at.
 const HEAD_BYTES: usize = 16 << 10;
@@ -51,14 +74,18 @@ const HEAD_BYTES: usize = 16 << 10;
 /// Lines that must have a hint's word.
 const ENOUGH_LINES: usize = 3;
 
-/// The dialect that the first part of a file shows, if it is one that no control here reads.
-pub fn unsupported_dialect(head: &str) -> Option<&'static UnsupportedDialect> {
+/// The dialect that the first part of a file and the end of its name show, if it is one that no control here reads.
+/// `extension` is without the dot, in lower case.
+pub fn unsupported_dialect(head: &str, extension: Option<&str>) -> Option<&'static UnsupportedDialect> {
     let head = head.get(..head.floor_char_boundary(HEAD_BYTES)).unwrap_or(head);
     let lines: Vec<&str> = head.split(['\n', '\r']).map(without_number).collect();
-    let points = |dialect: &UnsupportedDialect| -> u32 {
-        dialect.hints.iter().filter(|hint| hint.is_in(head, &lines)).map(|hint| hint.points).sum()
+    let is_met = |hint: &&Hint| {
+        hint.extension.as_deref().is_some_and(|end| Some(end) == extension) || hint.is_in(head, &lines)
     };
-    let scored = DIALECTS.iter().map(|dialect| (points(dialect), dialect));
+    let points = |dialect: &UnsupportedDialect| -> u32 {
+        dialect.hints.iter().filter(is_met).map(|hint| hint.points).sum()
+    };
+    let scored = DATA.dialect.iter().map(|dialect| (points(dialect), dialect));
     let enough = scored.filter(|(points, dialect)| *points >= dialect.needs);
     enough.max_by_key(|(points, _)| *points).map(|(_, dialect)| dialect)
 }
@@ -121,7 +148,15 @@ mod tests {
     use super::{begins, unsupported_dialect, without_number};
 
     fn check(head: &str, expected: Option<&str>) {
-        assert_eq!(unsupported_dialect(head).map(|dialect| dialect.name.as_str()), expected, "{head}");
+        check_named(head, None, expected);
+    }
+
+    fn check_named(head: &str, extension: Option<&str>, expected: Option<&str>) {
+        assert_eq!(
+            unsupported_dialect(head, extension).map(|dialect| dialect.name.as_str()),
+            expected,
+            "{head}"
+        );
     }
 
     #[test]
@@ -135,6 +170,46 @@ mod tests {
         check("%PM\nN9001\n", Some("a MAHO control"));
         check("//WEDM\nE001=10 17\n", Some("a wire erosion machine"));
         check("M48\nMETRIC,TZ\nT01C0.8\n%\nX10Y10\n", Some("a drilling machine for circuit boards"));
+    }
+
+    #[test]
+    fn the_end_of_the_name_counts_where_one_builder_uses_it() {
+        check_named("G1 X1 Y1 F1000\n", Some("mpf"), Some("a SINUMERIK control"));
+        check_named("G1 X1 Y1 F1000\n", Some("min"), Some("an OSP control"));
+        check_named("G1 X1 Y1 F1000\n", Some("nc"), None);
+        check_named("int main(void);\n", Some("h"), None);
+        check_named("0 BEGIN PGM PLATE MM\n", Some("h"), Some("a Heidenhain control"));
+    }
+
+    #[test]
+    fn heads_and_tool_words_that_only_one_builder_writes() {
+        check("%MPF 90\nN1 G0 X1\n", Some("a SINUMERIK control"));
+        check("(FOR SIEMENS)\nN70 M1=5\n", Some("a SINUMERIK control"));
+        check("(POSTED BY SIEMENS NX)\nG0 X1.\n", None);
+        check("$FLANGE.MIN%\nG50 S2000\n", Some("an OSP control"));
+        check("%4100 G71 *\nN20 G30 G17 X+0 Y+0 Z-20*\n", Some("a Heidenhain control"));
+        check("%00214\nN0 T1.1\nN10 M6\n", Some("a Fagor control"));
+        check("%\nO0001\nN10 T1 M6\n", None);
+        check("; end of print\nM104 S0\nM140 S0\nM106 S0\nM84\n", Some("a 3-D printer"));
+        check("M92 E415\nM500\n", Some("a 3-D printer"));
+        check("G0 X1.\nM84\n", None);
+    }
+
+    #[test]
+    fn scripts_are_no_programs() {
+        check("#!/bin/sh\necho G0 X1\n", Some("a script interpreter"));
+        check("feed(400);\nrapid({z: 5});\ncut({z: -3});\n", Some("a script interpreter"));
+        check("G0 X1. (feed(400) is too much, rapid(5) too)\n", None);
+    }
+
+    #[test]
+    fn other_controls_are_like_controls_that_there_are() {
+        for other in super::other_controls() {
+            assert!(!other.comments.is_empty() && !other.source.is_empty(), "{other:?}");
+            for like in &other.like {
+                assert!(crate::names().contains(&like.as_str()), "{like}");
+            }
+        }
     }
 
     #[test]

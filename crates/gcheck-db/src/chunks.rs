@@ -184,6 +184,7 @@ pub(crate) fn environment<'s>(settings: &'s Settings, dialect: &'s Dialect<'s>) 
         machine: &settings.machine,
         programs: &*settings.programs,
         control_is_guessed: settings.control_is_guessed,
+        unsupported: settings.unsupported,
     }
 }
 

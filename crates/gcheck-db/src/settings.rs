@@ -5,7 +5,7 @@
 use std::fmt;
 use std::sync::Arc;
 
-use gcheck_controls::Control;
+use gcheck_controls::{Control, UnsupportedDialect};
 use gcheck_lint::{Execution, MachineFacts, NoPrograms, Programs, RuleTable, Selection};
 
 /// Programs that calls may bring in, as several threads ask for them.
@@ -18,6 +18,8 @@ pub struct Settings {
     pub control: Arc<Control>,
     /// The user did not choose the control: it was guessed from the program, or is the default.
     pub control_is_guessed: bool,
+    /// The dialect, where no control here reads it and the user did not choose one.
+    pub unsupported: Option<&'static UnsupportedDialect>,
     /// The user's machine.
     pub machine: Arc<MachineFacts>,
     /// The rules that run.
@@ -36,6 +38,7 @@ impl Settings {
         Self {
             control,
             control_is_guessed: false,
+            unsupported: None,
             machine: Arc::default(),
             selection: Arc::new(Selection::recommended(rules)),
             suppressions: true,

@@ -41,6 +41,7 @@ fn assert_fresh(
             machine: &settings.machine,
             programs: &NoPrograms,
             control_is_guessed: settings.control_is_guessed,
+            unsupported: settings.unsupported,
         },
         selection: &settings.selection,
         suppressions: settings.suppressions,

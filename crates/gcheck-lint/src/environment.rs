@@ -4,7 +4,7 @@
 
 use std::collections::BTreeMap;
 
-use gcheck_controls::{Control, LetterSet};
+use gcheck_controls::{Control, LetterSet, UnsupportedDialect};
 use gcheck_engine::{Library, SourceFile};
 use gcheck_program::Dialect;
 
@@ -64,6 +64,9 @@ pub struct Environment<'a> {
     pub programs: &'a dyn Programs,
     /// The user did not choose the control: it was guessed from the program, or is the default.
     pub control_is_guessed: bool,
+    /// The dialect, where no control here reads it and the user did not choose one: the end of the file's name may show it,
+    /// which rules do not see.
+    pub unsupported: Option<&'static UnsupportedDialect>,
 }
 
 impl<'a> Environment<'a> {

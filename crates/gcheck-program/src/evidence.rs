@@ -17,6 +17,12 @@ const MAX_LINE: usize = 1_024;
 /// Collects the evidence of a program for [`gcheck_controls::guess`]. Of a long text its head is enough: [`EVIDENCE_BYTES`]
 /// bytes and the rest of their last line.
 pub fn collect_evidence(text: &str) -> Evidence {
+    evidence_of_file(text, None)
+}
+
+/// [Collects the evidence](collect_evidence) of a program in a file whose name ends in `extension`, without the dot.
+pub fn evidence_of_file(text: &str, extension: Option<&str>) -> Evidence {
+    let extension = extension.map(str::to_ascii_lowercase);
     let mut scan = Scan::default();
     for (number, line) in text.split(['\n', '\r']).enumerate() {
         let offset = line.as_ptr() as usize - text.as_ptr() as usize;
@@ -27,6 +33,12 @@ pub fn collect_evidence(text: &str) -> Evidence {
         scan.line(line);
     }
     let [with_x, with_z, with_y] = scan.blocks_with;
+    if scan.twin_tool_with_change && with_y * 2 <= with_x {
+        scan.form("packed-tool-with-change");
+    }
+    if with_y >= ENOUGH_BLOCKS && with_y * 2 >= with_x {
+        scan.form("milling-words");
+    }
     let turns = [50, 96, 97].map(CodeNumber::g).iter().any(|code| scan.codes.contains(code));
     if with_x.min(with_z) >= ENOUGH_BLOCKS && with_y == 0 && turns {
         scan.form("turning-words");
@@ -38,8 +50,8 @@ pub fn collect_evidence(text: &str) -> Evidence {
         comments: scan.comments,
         codes: scan.codes.iter().map(ToString::to_string).collect(),
         forms: scan.forms.iter().map(|form| (*form).to_owned()).collect(),
-        extension: None,
-        unsupported: gcheck_controls::unsupported_dialect(text),
+        unsupported: gcheck_controls::unsupported_dialect(text, extension.as_deref()),
+        extension,
     }
 }
 
@@ -53,6 +65,8 @@ struct Scan {
     blocks_with: [usize; 3],
     /// A block with `G70` or `G71` and nothing that a turning cycle needs: the code chooses units.
     units_by_cycle_number: bool,
+    /// `T0707 M06`: a lathe writes it, and so do some posts for mills.
+    twin_tool_with_change: bool,
 }
 
 /// Blocks with `X` and blocks with `Z` that a program needs before it means something that none has a `Y`.
@@ -67,6 +81,9 @@ struct Seen {
     /// `T0707`: the station and its offset are one number written twice.
     twin_tool: bool,
     turning_cycle: bool,
+    threading_cycle: bool,
+    /// `T1` to `T99`.
+    plain_tool: bool,
     /// `G70` or `G71`: a turning cycle in some sets of codes, units in another.
     unit_or_cycle: bool,
     letters: LetterSet,
@@ -108,8 +125,11 @@ impl Scan {
     fn line(&mut self, line: &str) {
         let line = line.get(..line.floor_char_boundary(MAX_LINE)).unwrap_or(line);
         let mut rest = line.trim_matches([' ', '\t', '\u{FEFF}', '\0']);
-        if rest.starts_with('%') {
+        if let Some(after) = rest.strip_prefix('%') {
             self.form("tape-mark");
+            if after.starts_with(|c: char| c.is_ascii_digit()) {
+                self.form("tape-mark-with-number");
+            }
             return;
         }
         if is_system_command(rest) {
@@ -155,17 +175,19 @@ impl Scan {
                 self.form("packed-tool-short");
             }
         }
-        if seen.twin_tool && seen.tool_change {
-            self.form("packed-tool-with-change");
-        }
+        self.twin_tool_with_change |= seen.twin_tool && seen.tool_change;
         for (count, letter) in self.blocks_with.iter_mut().zip(['X', 'Z', 'Y']) {
             *count += usize::from(seen.valued.contains(Letter::of(letter)));
         }
         let has = |letter| seen.letters.contains(Letter::of(letter));
         self.units_by_cycle_number |=
             seen.unit_or_cycle && !seen.letters.intersects(LetterSet::of("DPQRUWXZ"));
-        if seen.turning_cycle && has('P') && has('Q') && has('D') {
+        let is_one_block = seen.turning_cycle && has('P') && has('Q') || seen.threading_cycle && has('K');
+        if is_one_block && has('D') {
             self.form("turning-cycle-one-block");
+        }
+        if seen.plain_tool && seen.valued.contains(Letter::of('D')) && !seen.tool_change {
+            self.form("tool-with-d");
         }
         if seen.turning_cycle && !has('P') && has('R') && (has('U') || has('W')) {
             self.form("turning-cycle-two-blocks");
@@ -226,6 +248,7 @@ impl Scan {
                         self.form("lower-case");
                     }
                     seen.turning_cycle |= [71, 72, 73].map(CodeNumber::g).contains(&code);
+                    seen.threading_cycle |= code == CodeNumber::g(76);
                     seen.unit_or_cycle |= [70, 71].map(CodeNumber::g).contains(&code);
                     seen.tool_change |= code == CodeNumber::m(6);
                     seen.macro_call |= code == CodeNumber::g(65) || code == CodeNumber::g(66);
@@ -234,7 +257,10 @@ impl Scan {
                     }
                 }
             }
+            // `T0101=…` gives something that is called so a value.
+            b'T' if after.trim_start().starts_with('=') => {}
             b'T' => {
+                seen.plain_tool |= len == digits && (1..=2).contains(&digits);
                 seen.packed_tool |= len == digits && (3..=4).contains(&digits);
                 seen.short_tool |= len == digits && digits == 3;
                 let halves = value.get(..2).zip(value.get(2..4));
@@ -284,8 +310,10 @@ impl Scan {
         }
         if digits > 0 {
             self.form("program-number");
-            if digits == 5 {
-                self.form("five-digit-program");
+            match digits {
+                5 => self.form("five-digit-program"),
+                6..=8 => self.form("long-program-number"),
+                _ => {}
             }
         }
         after
@@ -420,6 +448,30 @@ mod tests {
                 Y1
                 M6 G97
                 turning-words
+            "#]],
+        );
+    }
+
+    #[test]
+    fn a_mill_may_write_a_tool_and_its_offset_alike() {
+        check(
+            "%1234\nM6 T0101\nG0 X1 Y1\nX2 Y2\nX3 Y3\nG1 Z-1\nX4 Y4\n",
+            &expect![[r#"
+
+                M6 G0 G1
+                tape-mark tape-mark-with-number milling-words
+            "#]],
+        );
+    }
+
+    #[test]
+    fn an_offset_by_d_beside_the_tool_and_threads_of_one_block_are_seen() {
+        check(
+            "T0101=12\nT1 D1\nT2 M6 D2\nG76 X20. Z-15. K1.2 D.3 F2.\nG76 P010060 Q100 R50\n",
+            &expect![[r#"
+
+                M6 G76
+                tool-with-d turning-cycle-one-block
             "#]],
         );
     }

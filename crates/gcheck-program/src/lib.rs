@@ -19,7 +19,7 @@ mod survey;
 mod tool_names;
 
 pub use block::{Block, BlockFlags, BlockIx, BlockTable, Value, Word};
-pub use evidence::{EVIDENCE_BYTES, collect_evidence};
+pub use evidence::{EVIDENCE_BYTES, collect_evidence, evidence_of_file};
 pub use expression::{BinaryOp, Expr, ExprIx, Function, Op};
 pub use line_length::{counted_characters, places_that_count};
 pub use loaded::{Loaded, Place, Touched};

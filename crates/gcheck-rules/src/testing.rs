@@ -98,6 +98,7 @@ impl World<'_> {
             machine: &self.machine,
             programs: self.programs,
             control_is_guessed: self.control_is_guessed,
+            unsupported: None,
         }
     }
 

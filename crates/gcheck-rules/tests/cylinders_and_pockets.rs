@@ -27,6 +27,7 @@ fn findings(program: &str) -> BTreeSet<String> {
         machine: &machine,
         programs: &NoPrograms,
         control_is_guessed: false,
+        unsupported: None,
     };
     let source = SourceText::from(program);
     let outcome = check(&Job {

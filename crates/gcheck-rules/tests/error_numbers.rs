@@ -17,6 +17,7 @@ fn findings(program: &str) -> Vec<Finding> {
         machine: &machine,
         programs: &NoPrograms,
         control_is_guessed: false,
+        unsupported: None,
     };
     let source = SourceText::from(program);
     let selection = Selection::recommended(RULES);

@@ -28,6 +28,7 @@ fn fixed(rule: &RuleEntry, program: &str, control: &str, kinds: FixKinds) -> (St
             machine: &machine,
             programs: &NoPrograms,
             control_is_guessed: false,
+            unsupported: None,
         };
         let execution = Execution::default();
         let mut outcome =

@@ -29,6 +29,7 @@ fn findings(control: &Control, selection: &Selection, program: &str) -> Vec<Stri
         machine: &machine,
         programs: &NoPrograms,
         control_is_guessed: false,
+        unsupported: None,
     };
     let source = SourceText::from(program);
     let outcome = check(&Job {

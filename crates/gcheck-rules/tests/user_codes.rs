@@ -50,8 +50,13 @@ fn findings(control: &Control, program: &str) -> Vec<Finding> {
     let machine = MachineFacts::default();
     let mut selection = Selection::recommended(RULES);
     selection.enable("all").unwrap();
-    let environment =
-        Environment { dialect: &dialect, machine: &machine, programs: &Folder, control_is_guessed: false };
+    let environment = Environment {
+        dialect: &dialect,
+        machine: &machine,
+        programs: &Folder,
+        control_is_guessed: false,
+        unsupported: None,
+    };
     let source = SourceText::from(program);
     let execution = Execution::default();
     check(&Job { source: &source, environment, selection: &selection, suppressions: true, execution })

@@ -1,15 +1,17 @@
-//! Which control runs a program: option, comment, configuration, detection, fallback, in this order.
+//! Which control runs a program: option, comment, configuration, detection, neighbours, fallback, in this order.
 //!
 //! Knows: the order, and how a comment names a control. Must not know: any control.
 
 use std::path::Path;
 
-use gcheck_controls::{Evidence, Guess};
+use gcheck_controls::{Evidence, Guess, UnsupportedDialect};
 use gcheck_lint::Selection;
 use gcheck_report::{ControlChoice, ControlSource};
 use gcheck_syntax::SourceText;
 
 use crate::config::validate_control;
+use crate::detection::{detected, evidence};
+use crate::neighbours::Neighbours;
 use crate::{Problem, paths};
 
 /// Lines in which a comment may name the control.
@@ -21,6 +23,7 @@ pub(crate) fn choose(
     source: &SourceText,
     option: Option<&str>,
     configured: Option<(&str, Option<&Path>)>,
+    neighbours: &Neighbours,
 ) -> Result<ControlChoice, Problem> {
     let choice = |name: &str, source, because| ControlChoice { name: name.to_owned(), source, because };
     if let Some(name) = option {
@@ -33,24 +36,68 @@ pub(crate) fn choose(
         let because = file.map(paths::shown_from_here);
         return Ok(choice(name, ControlSource::Configuration, because));
     }
-    if let Some(guess) = detected(path, source.text()) {
-        return Ok(choice(&guess.control, ControlSource::Detected, Some(guess.because)));
-    }
-    Ok(choice(gcheck_controls::fallback(), ControlSource::Default, None))
+    Ok(guessed(&evidence(path, source.text()), path, neighbours))
 }
 
-/// The control that a program and the end of its name speak for.
-pub(crate) fn detected(path: &Path, text: &str) -> Option<Guess> {
-    let extension = path.extension().map(|extension| extension.to_string_lossy().to_lowercase());
-    gcheck_controls::guess(&Evidence { extension, ..gcheck_program::collect_evidence(text) })
+/// The choice where nobody made one.
+fn guessed(evidence: &Evidence, path: &Path, neighbours: &Neighbours) -> ControlChoice {
+    let detected = |name: String, because: String| ControlChoice {
+        name,
+        source: ControlSource::Detected,
+        because: Some(because),
+    };
+    let guess = gcheck_controls::guess(evidence);
+    if let Some(guess) = guess.as_ref().filter(|guess| guess.is_clear) {
+        return detected(guess.control.clone(), guess.because.clone());
+    }
+    // Only a program that leaves a choice is worth the reading of its neighbours.
+    let is_open = evidence.unsupported.is_none();
+    let majority = is_open.then(|| neighbours.majority(path)).flatten();
+    let is_possible = |control: &String| {
+        guess
+            .as_ref()
+            .is_some_and(|guess| [Some(&guess.control), guess.rival.as_ref()].contains(&Some(control)))
+            || gcheck_controls::may_be_for(evidence, control)
+    };
+    if let Some(majority) = majority.filter(|majority| is_possible(&majority.control)) {
+        return detected(majority.control.clone(), majority.words());
+    }
+    match guess {
+        Some(Guess { control, because, rival: None, .. }) => return detected(control, because),
+        Some(Guess { control, because, rival: Some(rival), .. }) => {
+            return detected(control, format!("{because}; {rival} fits nearly as well"));
+        }
+        None => {}
+    }
+    let named = || gcheck_controls::foreign(evidence);
+    let because = match evidence.unsupported {
+        Some(dialect) => Some(format!("the file is for {}", dialect.name)),
+        None => {
+            named().map(|other| format!("{} names {}, which gcheck does not have", other.comment, other.name))
+        }
+    };
+    ControlChoice { name: gcheck_controls::fallback().to_owned(), source: ControlSource::Default, because }
+}
+
+/// Does the choice of a control depend on the programs beside the one that it is for?
+pub(crate) fn may_depend_on_neighbours(choice: &ControlChoice, path: &Path, text: &str) -> bool {
+    let is_guessed = matches!(choice.source, ControlSource::Detected | ControlSource::Default);
+    is_guessed && detected(path, text).is_none_or(|guess| !guess.is_clear)
 }
 
 /// Of a program whose control nobody chose, and whose dialect no control here reads, only the rule that says so is run.
-pub(crate) fn narrow_for_dialect(selection: &mut Selection, source: ControlSource, head: &str) {
+/// Returns that dialect.
+pub(crate) fn narrow_for_dialect(
+    selection: &mut Selection,
+    source: ControlSource,
+    path: &Path,
+    head: &str,
+) -> Option<&'static UnsupportedDialect> {
     let is_guessed = matches!(source, ControlSource::Detected | ControlSource::Default);
-    if is_guessed && gcheck_controls::unsupported_dialect(head).is_some() {
-        selection.keep_only(UNSUPPORTED_DIALECT);
-    }
+    let extension = path.extension().map(|extension| extension.to_string_lossy().to_ascii_lowercase());
+    let dialect = gcheck_controls::unsupported_dialect(head, extension.as_deref()).filter(|_| is_guessed)?;
+    selection.keep_only(UNSUPPORTED_DIALECT);
+    Some(dialect)
 }
 
 /// The rule that names a dialect that no control here reads.
@@ -92,6 +139,7 @@ mod tests {
     use gcheck_syntax::SourceText;
 
     use super::choose;
+    use crate::neighbours::Neighbours;
 
     fn choice(
         text: &str,
@@ -99,7 +147,8 @@ mod tests {
         configured: Option<&str>,
     ) -> (String, ControlSource, Option<String>) {
         let source = SourceText::from(text);
-        let choice = choose(Path::new("a.nc"), &source, option, configured.map(|name| (name, None))).unwrap();
+        let configured = configured.map(|name| (name, None));
+        let choice = choose(Path::new("a.nc"), &source, option, configured, &Neighbours::default()).unwrap();
         (choice.name, choice.source, choice.because)
     }
 
@@ -124,7 +173,7 @@ mod tests {
         let printed = "G92 E0\nG1 X1 E1.1\nG1 X2 E1.2\nG1 Y2 E1.3\n";
         let rules = |source, text| {
             let mut selection = gcheck_lint::Selection::recommended(gcheck_rules::RULES);
-            super::narrow_for_dialect(&mut selection, source, text);
+            super::narrow_for_dialect(&mut selection, source, Path::new("a.nc"), text);
             selection.rules().map(|(rule, _)| rule.meta.id).collect::<Vec<_>>()
         };
         for source in [ControlSource::Default, ControlSource::Detected] {
@@ -135,9 +184,48 @@ mod tests {
     }
 
     #[test]
+    fn an_unclear_program_is_for_the_control_of_its_neighbours() {
+        let folder = tempfile::tempdir().unwrap();
+        let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).unwrap();
+        let of = |name: &str, neighbours: &Neighbours| {
+            let path = folder.path().join(name);
+            let source = SourceText::from(std::fs::read_to_string(&path).unwrap().as_str());
+            let choice = choose(&path, &source, None, None, neighbours).unwrap();
+            (choice.name, choice.source, choice.because.unwrap_or_default())
+        };
+        write("clear.nc", "G0 X1. Y1.\nM30\n");
+        write("other.nc", "#<depth> = 1\nM2\n");
+        for name in ["a.nc", "b.nc", "c.nc"] {
+            write(name, "(VF-2)\nG0 X1.\nM30\n");
+        }
+        let neighbours = Neighbours::default();
+        assert_eq!(of("clear.nc", &neighbours).1, ControlSource::Default, "one of four shows another");
+        std::fs::remove_file(folder.path().join("other.nc")).unwrap();
+        let neighbours = Neighbours::default();
+        assert_eq!(
+            of("clear.nc", &neighbours),
+            (
+                "haas-mill".to_owned(),
+                ControlSource::Detected,
+                "its neighbours, of which 3 of 3 show it".to_owned()
+            )
+        );
+        write("printed.nc", "G92 E0\nG1 X1 E1.1\nG1 X2 E1.2\nG1 Y2 E1.3\n");
+        write("named.nc", "(MAZAK VTC)\nG0 X1.\n");
+        let printed = of("printed.nc", &neighbours);
+        assert_eq!(
+            (printed.1, printed.2.as_str()),
+            (ControlSource::Default, "the file is for a 3-D printer")
+        );
+        let named = of("named.nc", &neighbours);
+        assert_eq!(named.2, "(MAZAK VTC) names a Mazak control, which gcheck does not have");
+    }
+
+    #[test]
     fn an_unknown_name_in_a_comment_is_refused_at_its_place() {
         let source = SourceText::from("%\n(gcheck: control=linuxcn)\n");
-        let problem = choose(Path::new("a.nc"), &source, None, None).unwrap_err().to_string();
+        let problem =
+            choose(Path::new("a.nc"), &source, None, None, &Neighbours::default()).unwrap_err().to_string();
         assert!(
             problem.starts_with("a.nc:2:18: no control is called `linuxcn`; did you mean `linuxcnc`?"),
             "{problem}"

@@ -11,8 +11,8 @@ use crate::config::Configs;
 use crate::{Problem, paths};
 
 /// Extensions of part programs, lower case.
-pub(crate) const EXTENSIONS: [&str; 11] =
-    ["nc", "ngc", "cnc", "tap", "eia", "ncf", "gcode", "iso", "din", "prg", "mpf"];
+pub(crate) const EXTENSIONS: [&str; 13] =
+    ["nc", "ngc", "cnc", "tap", "eia", "ncf", "gcode", "iso", "din", "prg", "mpf", "spf", "min"];
 
 /// What was found.
 #[derive(Debug, Default)]

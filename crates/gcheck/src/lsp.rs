@@ -22,6 +22,7 @@ use crate::config::{Config, Configs, FILE_NAMES, RuleWishes, unknown_rule, valid
 use crate::control_choice::{choose, narrow_for_dialect};
 use crate::discovery::{self, EXTENSIONS, is_program_name};
 use crate::in_force::{self, Controls};
+use crate::neighbours::Neighbours;
 use crate::programs::{ProgramFolders, Reachable};
 use crate::{Problem, paths, reading};
 
@@ -41,6 +42,7 @@ pub(crate) fn run(global: &Global) -> Result<u8, Problem> {
         isolated: global.isolated,
         configs: Mutex::default(),
         folders: Mutex::default(),
+        neighbours: Mutex::default(),
         controls: Controls::default(),
     };
     serve(Arc::new(host), io::stdin(), io::stdout())
@@ -57,6 +59,7 @@ struct Surroundings {
     /// By the configuration that the editor's user has chosen.
     configs: Mutex<HashMap<Option<PathBuf>, Result<Configs, Problem>>>,
     folders: Mutex<Arc<ProgramFolders>>,
+    neighbours: Mutex<Arc<Neighbours>>,
     controls: Controls,
 }
 
@@ -85,6 +88,10 @@ impl Surroundings {
         Arc::clone(&self.folders.lock().unwrap_or_else(PoisonError::into_inner))
     }
 
+    fn neighbours(&self) -> Arc<Neighbours> {
+        Arc::clone(&self.neighbours.lock().unwrap_or_else(PoisonError::into_inner))
+    }
+
     /// What is in force, filled in as far as it gets.
     fn fill(&self, program: &ProgramQuery<'_>, in_force: &mut InForce) -> Result<(), Problem> {
         let config = self.config(program)?;
@@ -96,7 +103,7 @@ impl Surroundings {
         let from = settings.control.as_deref().map(|name| (name, settings.control_from.as_deref()));
         let option = program.control.or(self.control.as_deref());
         let ControlChoice { name, source, because } =
-            choose(program.path, &SourceText::from(program.head), option, from)?;
+            choose(program.path, &SourceText::from(program.head), option, from, &self.neighbours())?;
         in_force.choice =
             Choice { control: name.clone(), source: format!("{source:?}").to_lowercase(), because };
         let control = self.controls.get(&name, &settings.codes)?;
@@ -105,10 +112,11 @@ impl Surroundings {
         let mut selection = settings
             .selection(&RuleWishes::default())
             .map_err(|unknown| Problem::new(unknown_rule(&unknown)))?;
-        narrow_for_dialect(&mut selection, source, program.head);
+        let unsupported = narrow_for_dialect(&mut selection, source, program.path, program.head);
         in_force.settings = Some(Settings {
             control,
             control_is_guessed: matches!(source, ControlSource::Detected | ControlSource::Default),
+            unsupported,
             machine: Arc::new(machine),
             selection: Arc::new(selection),
             suppressions: true,
@@ -162,6 +170,7 @@ impl Host for Surroundings {
     fn forget(&self) {
         self.configs.lock().unwrap_or_else(PoisonError::into_inner).clear();
         *self.folders.lock().unwrap_or_else(PoisonError::into_inner) = Arc::default();
+        *self.neighbours.lock().unwrap_or_else(PoisonError::into_inner) = Arc::default();
     }
 
     fn watched(&self) -> Vec<String> {

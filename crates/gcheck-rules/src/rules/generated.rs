@@ -58,6 +58,7 @@ pub(crate) mod cycles {
     pub(crate) mod cycle_word_missing;
     pub(crate) mod cycle_word_not_positive;
     pub(crate) mod cycle_words_lost;
+    pub(crate) mod drilled_beside_the_centre;
     pub(crate) mod maybe_cycle_left_on;
     pub(crate) mod pattern_without_cycle;
     pub(crate) mod pocket_on_wrong_side;
@@ -251,6 +252,7 @@ pub(crate) mod probing {
     pub(crate) mod measures_in_positions;
     pub(crate) mod probe_feed_too_high;
     pub(crate) mod probe_goes_nowhere;
+    pub(crate) mod probe_touches_already;
     pub(crate) mod probing_in_wrong_mode;
     pub(crate) mod shift_of_axis_not_probed;
     pub(crate) mod spindle_turns_while_probing;
@@ -359,6 +361,7 @@ pub(crate) mod tool {
     pub(crate) mod tool_call_in_comment;
     pub(crate) mod tool_called_not_changed;
     pub(crate) mod tool_change_at_part;
+    pub(crate) mod tool_change_in_skipped_block;
     pub(crate) mod tool_change_without_stop;
     pub(crate) mod tool_change_without_t;
     pub(crate) mod tool_comment_of_another_tool;
@@ -449,6 +452,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &cycles::cycle_word_missing::RULE,
     &cycles::cycle_word_not_positive::RULE,
     &cycles::cycle_words_lost::RULE,
+    &cycles::drilled_beside_the_centre::RULE,
     &cycles::maybe_cycle_left_on::RULE,
     &cycles::pattern_without_cycle::RULE,
     &cycles::pocket_on_wrong_side::RULE,
@@ -615,6 +619,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &probing::measures_in_positions::RULE,
     &probing::probe_feed_too_high::RULE,
     &probing::probe_goes_nowhere::RULE,
+    &probing::probe_touches_already::RULE,
     &probing::probing_in_wrong_mode::RULE,
     &probing::shift_of_axis_not_probed::RULE,
     &probing::spindle_turns_while_probing::RULE,
@@ -705,6 +710,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &tool::tool_call_in_comment::RULE,
     &tool::tool_called_not_changed::RULE,
     &tool::tool_change_at_part::RULE,
+    &tool::tool_change_in_skipped_block::RULE,
     &tool::tool_change_without_stop::RULE,
     &tool::tool_change_without_t::RULE,
     &tool::tool_comment_of_another_tool::RULE,

@@ -65,7 +65,7 @@ fn a_mistake_is_found_whether_its_words_are_written_or_computed() {
     };
     let shown: String = silent.into_iter().map(line).collect();
     expect![[r#"
-        3606 words
+        3650 words
         blank-inside-number: G Y
         block-number-not-first: G
         code-must-come-first: M

@@ -66,6 +66,7 @@ impl<'c> Judge<'c> {
             machine: &self.machine,
             programs: &NoPrograms,
             control_is_guessed: false,
+            unsupported: None,
         };
         let source = SourceText::from(program);
         check(&Job {

@@ -6,6 +6,7 @@ use std::panic::{self, AssertUnwindSafe};
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use gcheck_controls::UnsupportedDialect;
 use gcheck_diagnostics::FixKinds;
 use gcheck_engine::Model;
 use gcheck_lint::{Environment, Execution, Fixed, Job, Selection, check, describe_all, fix_all};
@@ -16,8 +17,9 @@ use gcheck_syntax::SourceText;
 use super::cache::{Cache, Entry, Key, Questions, Run, Verdict, answers_hold};
 use crate::args::{Assignment, CheckOptions, Global, Switch};
 use crate::config::{Config, FileSettings, RuleWishes, unknown_rule};
-use crate::control_choice::{choose, narrow_for_dialect};
+use crate::control_choice::{choose, may_depend_on_neighbours, narrow_for_dialect};
 use crate::in_force::Controls;
+use crate::neighbours::Neighbours;
 use crate::programs::{ProgramFolders, Reachable};
 use crate::{Problem, in_force, reading};
 
@@ -45,6 +47,7 @@ pub(super) struct Bench<'o> {
     fixes: Option<FixKinds>,
     set: &'o [Assignment],
     folders: Arc<ProgramFolders>,
+    neighbours: Neighbours,
     pub(super) controls: Controls,
     /// Results of earlier runs, and what this run is called in them.
     cache: Option<(Cache, Run)>,
@@ -74,6 +77,7 @@ impl<'o> Bench<'o> {
             }),
             set: &options.set,
             folders: Arc::default(),
+            neighbours: Neighbours::default(),
             controls: Controls::default(),
             cache: cache.map(|cache| (cache, run)),
         }
@@ -93,6 +97,8 @@ pub(super) struct Prepared {
     pub(super) settings: FileSettings,
     pub(super) choice: ControlChoice,
     pub(super) selection: Selection,
+    /// The dialect, where no control here reads it and nobody chose one.
+    unsupported: Option<&'static UnsupportedDialect>,
 }
 
 /// Reads a file and finds out what is in force for it.
@@ -106,12 +112,21 @@ fn decide(
     source: SourceText,
     settings: FileSettings,
 ) -> Result<Prepared, Problem> {
-    let from = settings.control.as_deref().map(|name| (name, settings.control_from.as_deref()));
-    let choice = choose(&target.path, &source, bench.control, from)?;
+    let choice = chosen(bench, target, &source, &settings)?;
     let mut selection =
         settings.selection(&bench.wishes).map_err(|unknown| Problem::new(unknown_rule(&unknown)))?;
-    narrow_for_dialect(&mut selection, choice.source, source.text());
-    Ok(Prepared { source, settings, choice, selection })
+    let unsupported = narrow_for_dialect(&mut selection, choice.source, &target.path, source.text());
+    Ok(Prepared { source, settings, choice, selection, unsupported })
+}
+
+fn chosen(
+    bench: &Bench<'_>,
+    target: &Target,
+    source: &SourceText,
+    settings: &FileSettings,
+) -> Result<ControlChoice, Problem> {
+    let from = settings.control.as_deref().map(|name| (name, settings.control_from.as_deref()));
+    choose(&target.path, source, bench.control, from, &bench.neighbours)
 }
 
 /// A file that was checked.
@@ -139,10 +154,13 @@ fn check_file(bench: &Bench<'_>, target: &Target) -> Result<Checked, Problem> {
     // What is fixed is checked over and over, and what comes in by a pipe has no place.
     let cache = bench.cache.as_ref().filter(|_| bench.fixes.is_none() && !target.is_standard_input);
     let slot = cache.and_then(|(cache, run)| Some((cache, run.key(&target.shown, &source, &settings)?)));
-    if let Some(verdict) = slot.and_then(|(cache, key)| known(bench, target, &settings, cache, key)) {
+    if let Some(verdict) =
+        slot.and_then(|(cache, key)| known(bench, target, &source, &settings, (cache, key)))
+    {
         return Ok(Checked { report: report(target, source, verdict, 0), change: None });
     }
-    let Prepared { source, settings, choice, selection } = decide(bench, target, source, settings)?;
+    let Prepared { source, settings, choice, selection, unsupported } =
+        decide(bench, target, source, settings)?;
     let control = bench.controls.get(&choice.name, &settings.codes)?;
     let dialect = Dialect::new(&control);
     let programs = Reachable::new(Arc::clone(&bench.folders), &target.path, &settings.search);
@@ -154,6 +172,7 @@ fn check_file(bench: &Bench<'_>, target: &Target) -> Result<Checked, Problem> {
         machine: &machine,
         programs: &questions,
         control_is_guessed: matches!(choice.source, ControlSource::Detected | ControlSource::Default),
+        unsupported,
     };
     let run = |source: &SourceText| {
         check(&Job {
@@ -196,13 +215,16 @@ fn check_file(bench: &Bench<'_>, target: &Target) -> Result<Checked, Problem> {
 fn known(
     bench: &Bench<'_>,
     target: &Target,
+    source: &SourceText,
     settings: &FileSettings,
-    cache: &Cache,
-    key: Key,
+    (cache, key): (&Cache, Key),
 ) -> Option<Verdict> {
     let entry = cache.load(key)?;
     let programs = Reachable::new(Arc::clone(&bench.folders), &target.path, &settings.search);
-    if answers_hold(&entry.asked, &programs) { entry.verdict() } else { None }
+    let verdict = entry.verdict().filter(|_| answers_hold(&entry.asked, &programs))?;
+    let is_chosen_again = !may_depend_on_neighbours(&verdict.control, &target.path, source.text())
+        || chosen(bench, target, source, settings).is_ok_and(|choice| choice == verdict.control);
+    is_chosen_again.then_some(verdict)
 }
 
 fn report(target: &Target, source: SourceText, verdict: Verdict, fixed: usize) -> FileReport {

@@ -19,6 +19,7 @@ use crate::config::{Config, Configs, validate_control};
 use crate::console::{finish, say};
 use crate::control_choice::choose;
 use crate::discovery::{self, Found};
+use crate::neighbours::Neighbours;
 use crate::{Problem, output, paths, reading, rewriting, threads};
 
 /// Standard input among the paths.
@@ -187,7 +188,7 @@ fn reform(
 ) -> Result<Formatted, Problem> {
     let settings = target.config.settings(&target.path);
     let from = settings.control.as_deref().map(|name| (name, settings.control_from.as_deref()));
-    let choice = choose(&target.path, &source, global.control.as_deref(), from)?;
+    let choice = choose(&target.path, &source, global.control.as_deref(), from, &Neighbours::default())?;
     let plain = gcheck_controls::load(&choice.name).map_err(|error| Problem::new(error.to_string()))?;
     let control =
         if settings.codes.is_empty() { plain } else { Arc::new(plain.with_user_codes(&settings.codes)) };

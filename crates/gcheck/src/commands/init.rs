@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use crate::args::Global;
 use crate::config::{Configs, FILE_NAMES, validate_control};
-use crate::{Problem, control_choice, discovery, output, reading};
+use crate::{Problem, detection, discovery, output, reading};
 
 /// Programs that are looked at to find the control of the folder, at most.
 const LOOKED_AT: usize = 200;
@@ -43,7 +43,7 @@ fn detected() -> Result<BTreeMap<String, usize>, Problem> {
     let step = found.files.len().div_ceil(LOOKED_AT).max(1);
     for path in found.files.iter().step_by(step) {
         let Ok(source) = reading::file(path) else { continue };
-        if let Some(guess) = control_choice::detected(path, source.text()) {
+        if let Some(guess) = detection::detected(path, source.text()) {
             *counts.entry(guess.control).or_default() += 1;
         }
     }

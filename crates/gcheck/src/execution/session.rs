@@ -15,6 +15,7 @@ use super::equipment::{AxesSeen, Equipment, Start};
 use crate::args::{ExecutionOptions, Global, Switch};
 use crate::config::{Configs, validate_control};
 use crate::control_choice::choose;
+use crate::neighbours::Neighbours;
 use crate::programs::Reachable;
 use crate::{Problem, paths, reading};
 
@@ -53,7 +54,7 @@ pub(crate) fn prepare(global: &Global, options: &ExecutionOptions) -> Result<Pre
     let source = if is_standard_input { reading::standard_input(&path) } else { reading::file(&path) }?;
     let settings = config.settings(&path);
     let from = settings.control.as_deref().map(|name| (name, settings.control_from.as_deref()));
-    let choice = choose(&path, &source, global.control.as_deref(), from)?;
+    let choice = choose(&path, &source, global.control.as_deref(), from, &Neighbours::default())?;
     let plain = gcheck_controls::load(&choice.name).map_err(|error| Problem::new(error.to_string()))?;
     let control =
         if settings.codes.is_empty() { plain } else { Arc::new(plain.with_user_codes(&settings.codes)) };

@@ -13,7 +13,7 @@ fn programs_are_known_by_extension_in_any_case_and_by_number() {
     let shop = Shop::new();
     let programs = [
         "O1234", "a.NC", "b.ngc", "c.Cnc", "d.tap", "e.eia", "f.ncf", "g.gcode", "h.iso", "i.din", "j.prg",
-        "k.MPF", "o7",
+        "k.MPF", "l.spf", "m.MIN", "o7",
     ];
     for name in programs.iter().chain(&["readme.txt", "O12A", "tool.tbl", "notes", "x.nc.bak"]) {
         shop.file(name, GOOD);

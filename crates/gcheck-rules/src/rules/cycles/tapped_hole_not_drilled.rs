@@ -228,7 +228,12 @@ impl TappedHoleNotDrilled {
         let tool = cx.trace().set_by(Fact::Tool);
         let missed = match nearest {
             Some(hole) if distance(hole.at, at) <= NEAR => None,
-            _ => Some(finding(cx, nearest, at)),
+            // A place where a cutter went down to mill was not meant for this tap.
+            _ => {
+                let drilled = self.holes.iter().filter(near).filter(|hole| hole.is_cycle);
+                let away = |hole: &&Hole| distance(hole.at, at);
+                Some(finding(cx, drilled.min_by(|a, b| away(a).total_cmp(&away(b))), at))
+            }
         };
         // A loop or a call taps it again.
         let is_again = |tap: &Tap| tap.frame == frame && tap.tool == tool && distance(tap.at, at) <= NEAR;
@@ -313,19 +318,21 @@ fn frame(cx: &PathCx<'_>, position: &Position) -> Option<Frame> {
     Some((cx.state().work()?, cx.state().plane(cx.model)?, turned))
 }
 
-fn finding(cx: &PathCx<'_>, nearest: Option<&Hole>, at: [f64; 2]) -> Finding {
-    let label = match nearest {
+/// `drilled` is the nearest hole that a drilling cycle makes, deep enough for the tap.
+fn finding(cx: &PathCx<'_>, drilled: Option<&Hole>, at: [f64; 2]) -> Finding {
+    let label = match drilled {
         Some(hole) => {
-            format!("the nearest hole that is drilled before is {} away", cx.shown(Mm(distance(hole.at, at))))
+            let away = cx.shown(Mm(distance(hole.at, at)));
+            format!("the nearest hole that is drilled before, and so deep, is {away} away")
         }
-        None => "no hole is drilled before".to_owned(),
+        None => "no hole of this depth is drilled before".to_owned(),
     };
     let finding = cx
         .finding(&META, cx.range(), "the tap goes down where no hole is drilled")
         .label(label)
         .assuming("the part has no holes there before the program starts")
         .help("give the point of the drilled hole, or drill a hole here first");
-    match nearest {
+    match drilled {
         Some(hole) if hole.bytes != cx.range() => {
             finding.also(hole.bytes.clone(), "the nearest hole that is drilled")
         }
@@ -338,7 +345,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::testing::check_rule;
+    use crate::testing::{World, check_rule, findings, only, words};
 
     /// Four holes are drilled, then tapped at the points given.
     fn program(drilled: &str, tapped: &str) -> String {
@@ -415,6 +422,22 @@ mod tests {
                    | ^^^^ warning[tapped-hole-not-drilled] the tap goes down where no hole is drilled
             "#]],
         );
+    }
+
+    #[test]
+    fn a_distance_is_that_to_a_hole_that_is_drilled() {
+        let milled = "X10. Y10.\nG80\nG0 X41. Y10.\nG1 Z-14. F90.\nG0 Z20.\n";
+        let found =
+            findings(&only(&RULE), "haas-mill", &program(milled, "X10. Y10.\nX40.\n"), &World::default());
+        expect![[r#"
+            the tap goes down where no hole is drilled
+              here: the nearest hole that is drilled before, and so deep, is 30 mm away
+              there: the nearest hole that is drilled
+              note: the program drills 1 of the 2 holes that this tool taps
+              assuming: the part has no holes there before the program starts
+              help: give the point of the drilled hole, or drill a hole here first
+        "#]]
+        .assert_eq(&found.iter().map(words).collect::<String>());
     }
 
     #[test]

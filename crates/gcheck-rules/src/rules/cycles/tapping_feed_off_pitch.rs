@@ -1,7 +1,7 @@
 //! A tap that is not fed by its pitch each turn.
 
 use gcheck_controls::{Effect, Letter};
-use gcheck_engine::{Abstract, At, Domain, Fact, FeedMode, Role};
+use gcheck_engine::{Abstract, At, Domain, Fact, FeedMode, Role, Units};
 use gcheck_program::BlockFlags;
 
 use crate::declare::declare_rule;
@@ -105,6 +105,13 @@ impl PathRule for TappingFeedOffPitch {
         if is_rounded || (SHORT..=LONG).contains(&(a_turn / thread.pitch)) {
             return;
         }
+        // A program without units has its feed in those that fit the pitch.
+        let are_written =
+            cx.trace().set_by(Fact::Mode(Role::Units)).is_some() || cx.environment.machine.units_are_told;
+        let in_others = a_turn / units.in_mm() * other(units).in_mm() / thread.pitch;
+        if !are_written && (SHORT..=LONG).contains(&in_others) {
+            return;
+        }
         self.told = Some(changed);
         let right = trimmed(right);
         let message = format!(
@@ -128,6 +135,14 @@ impl PathRule for TappingFeedOffPitch {
 
 fn is_tapping(effect: Effect) -> bool {
     matches!(effect, Effect::CycleTap | Effect::CycleLeftTap)
+}
+
+/// Inches for millimetres, and millimetres for inches.
+fn other(units: Units) -> Units {
+    match units {
+        Units::Inch => Units::Mm,
+        Units::Mm => Units::Inch,
+    }
 }
 
 /// The rounding error of a number with these digits.
@@ -375,6 +390,35 @@ mod tests {
             &expect![[r#"
                 5 | G84 Z-1. R.1 F.05
                   |              ^^^^ warning[tapping-feed-off-pitch] the tap is fed 0.0001 in per turn, and the pitch is 0.05 in
+            "#]],
+        );
+    }
+
+    #[test]
+    fn without_units_the_feed_is_in_those_that_fit_the_pitch() {
+        let program = |units: &str, feed: &str| {
+            format!(
+                "(M3X0.5 FORM TAP)\nM6 T15\nG90 G54 {units}G0 X0. Y0.\nG95 S300 M3\nG84 Z-1. R.1 {feed}\nG80\nM30\n"
+            )
+        };
+        check_rule(&RULE, "fanuc-mill", &program("", "F0.019685"), &expect![[""]]);
+        check_rule(&RULE, "fanuc-mill", &program("", "F0.5"), &expect![[""]]);
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            &program("", "F0.03"),
+            &expect![[r#"
+                5 | G84 Z-1. R.1 F0.03
+                  |              ^^^^^ warning[tapping-feed-off-pitch] the tap is fed 0.03 mm per turn, and the pitch is 0.5 mm
+            "#]],
+        );
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            &program("G21 ", "F0.019685"),
+            &expect![[r#"
+                5 | G84 Z-1. R.1 F0.019685
+                  |              ^^^^^^^^^ warning[tapping-feed-off-pitch] the tap is fed 0.02 mm per turn, and the pitch is 0.5 mm
             "#]],
         );
     }

@@ -43,8 +43,8 @@ declare_rule! {
     /// N100 G1 X2. F10.
     /// M99
     /// ```
-    /// A section after the end of the program that begins with a sequence number and has its own end is *info* at most:
-    /// the operator may start there.
+    /// A section after the end of the program that begins with a sequence number or a title, and has its own end, is *info*
+    /// at most: the operator may start there.
     ///
     /// Blocks that a condition skips because of values that the program itself sets are a *hint* at most: such a
     /// program has its settings at its top. If the program does not set the variable that decides, both ways are taken.
@@ -126,10 +126,18 @@ struct Group {
 enum Cause {
     /// The block before always leads elsewhere.
     LedAway(Range<u32>),
-    /// The block before ends the program, and what follows looks like a separate program that begins with this number.
-    Section(Range<u32>, u32),
+    /// The block before ends the program or begins it again, and what follows looks like a separate program.
+    Section(Range<u32>, Start),
     /// The block before has a condition, and with the values that the program sets it goes one way.
     Decided(Range<u32>),
+}
+
+/// Where an operator may start a section.
+enum Start {
+    /// At this sequence number.
+    Number(u32),
+    /// Below a comment that is alone in its block.
+    Title,
 }
 
 /// Runs of blocks that no path reaches. Past an alarm, those that follow an end of the program and have no label.
@@ -206,7 +214,7 @@ fn cause(cx: &FinishCx<'_>, above: Option<&Place>, last: u32, block: u32) -> Opt
     // With a branch or a target in between, the condition is elsewhere.
     if leads_away(above, cx.model) && !(last + 1..=block).any(|between| is_led_to(cx, between)) {
         return Some(match section(cx, above, last, block) {
-            Some(number) => Cause::Section(above.range(), number),
+            Some(start) => Cause::Section(above.range(), start),
             None => Cause::LedAway(above.range()),
         });
     }
@@ -222,9 +230,8 @@ fn cause(cx: &FinishCx<'_>, above: Option<&Place>, last: u32, block: u32) -> Opt
     (decides && !is_called).then(|| Cause::Decided(above.range()))
 }
 
-/// The sequence number at which an operator may start a section that follows the end of the program and has its own
-/// end.
-fn section(cx: &FinishCx<'_>, above: &Place, last: u32, block: u32) -> Option<u32> {
+/// Where an operator may start a section that follows the end of the program and has its own end.
+fn section(cx: &FinishCx<'_>, above: &Place, last: u32, block: u32) -> Option<Start> {
     let file = cx.program.file(0)?;
     let number = |place: &Place| {
         let label = place.table.words(place.block()).iter().find(|word| word.letter.ascii() == b'N')?;
@@ -235,10 +242,26 @@ fn section(cx: &FinishCx<'_>, above: &Place, last: u32, block: u32) -> Option<u3
     // If every block has a number, no number marks a section.
     let all_have_numbers = place(block + 1).is_some_and(|place| number(&place).is_some());
     let has_own_end = || (block..part_end).filter_map(place).any(|place| ends_program(&place, cx));
-    if !ends_program(above, cx) || all_have_numbers || !has_own_end() {
+    if all_have_numbers || !has_own_end() {
         return None;
     }
-    (last + 1..=block).filter_map(place).find_map(|place| number(&place))
+    if ends_program(above, cx)
+        && let Some(number) = (last + 1..=block).filter_map(place).find_map(|place| number(&place))
+    {
+        return Some(Start::Number(number));
+    }
+    let is_title = |place: Place| {
+        let block = place.block();
+        block.flags.contains(BlockFlags::COMMENT) && place.table.words(block).is_empty()
+    };
+    let is_over = ends_program(above, cx) || is_return(above, cx);
+    (is_over && (last + 1..block).filter_map(place).any(is_title)).then_some(Start::Title)
+}
+
+/// Does the block end a subprogram, or begin a main program again?
+fn is_return(place: &Place, cx: &FinishCx<'_>) -> bool {
+    let mut words = place.table.words(place.block()).iter();
+    words.any(|word| cx.model.effect(word.code) == Effect::Return)
 }
 
 /// Does the block end the program?
@@ -343,9 +366,12 @@ fn finding(group: Group) -> Finding {
     let finding = Finding::new(&META, group.range, message).label("never executed").help(help);
     match group.cause {
         Cause::LedAway(range) => finding.also(range, "execution goes elsewhere here"),
-        Cause::Section(range, number) => finding
-            .also(range, "the program ends here")
-            .note(format!("an operator may start the program at `N{number}`"))
+        Cause::Section(range, start) => finding
+            .also(range, "execution does not go on here")
+            .note(match start {
+                Start::Number(number) => format!("an operator may start the program at `N{number}`"),
+                Start::Title => "an operator may start the program below the comment".to_owned(),
+            })
             .at_most(Severity::Info),
         // A program with settings at its top skips what they do not select.
         Cause::Decided(range) => finding
@@ -393,6 +419,28 @@ mod tests {
             4 | N6 G0 X2.
               | ^^^^^^^^^ warning[unreachable-block] no path reaches these 2 blocks
         "#]],
+        );
+    }
+
+    #[test]
+    fn a_section_with_a_title_and_an_end_of_its_own_may_be_started_by_the_operator() {
+        check_rule(
+            &RULE,
+            "haas-lathe",
+            "O1\nG0 X1.\nM99\n(SET WORK OFFSETS)\nG10 L2 P1 Z8.5\nG10 L2 P2 Z2.5\nM30\n",
+            &expect![[r#"
+                5 | G10 L2 P1 Z8.5
+                  | ^^^^^^^^^^^^^^ info[unreachable-block] no path reaches these 2 blocks
+            "#]],
+        );
+        check_rule(
+            &RULE,
+            "haas-lathe",
+            "O1\nG0 X1.\nM99\nG10 L2 P1 Z8.5\nG10 L2 P2 Z2.5\nM30\n",
+            &expect![[r#"
+                4 | G10 L2 P1 Z8.5
+                  | ^^^^^^^^^^^^^^ warning[unreachable-block] no path reaches these 2 blocks
+            "#]],
         );
     }
 

@@ -39,9 +39,11 @@ declare_rule! {
 fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
     for (ix, (second, code)) in cx.codes().enumerate() {
         let earlier = cx.codes().take(ix).find(|(_, other)| other.group_ix() == code.group_ix());
-        // Another rule reports the same code twice.
+        // Another rule reports the same code twice, so the second one makes no second pair.
+        let is_again = cx.codes().take(ix).any(|(_, other)| other.number() == code.number());
         if let Some((first, other)) = earlier
             && code.group().exclusive
+            && !is_again
             && other.number() != code.number()
             && !cx.words_may_be_arguments()
             && !depends(cx, code)
@@ -110,6 +112,19 @@ mod tests {
             &expect![[r#"
                 1 | G0 G1 X1. F#1
                   |    ^^ warning[two-codes-of-one-group] `G0` and `G1` belong to one modal group
+            "#]],
+        );
+    }
+
+    #[test]
+    fn a_pair_is_one_finding_however_often_its_codes_are_written() {
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "G0 G28 G91 G90 G90\n",
+            &expect![[r#"
+                1 | G0 G28 G91 G90 G90
+                  |            ^^^ warning[two-codes-of-one-group] `G91` and `G90` belong to one modal group
             "#]],
         );
     }

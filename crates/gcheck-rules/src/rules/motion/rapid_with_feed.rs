@@ -1,7 +1,7 @@
 //! A rapid move below the zero of the part that has a feed.
 
 use gcheck_controls::{Effect, Letter, LetterSet};
-use gcheck_engine::{Abstract, Axis, Domain, Event, Role, TravelKind};
+use gcheck_engine::{Abstract, Axis, Domain, Event, Role, Travel, TravelKind};
 use gcheck_geometry::Mm;
 use gcheck_program::Word;
 
@@ -12,7 +12,7 @@ declare_rule! {
     /// A block with a feed (`F`) moves at rapid down to below the zero of the part, or sideways there.
     ///
     /// A feed in the block shows that the tool should cut. Above the part there is no finding: some programs give the
-    /// feed of the next cut early.
+    /// feed of the next cut early. A block whose end is where the tool already is moves nothing, and is not reported.
     ///
     /// ## Why it matters
     /// At rapid the feed has no effect, and the tool runs into the part at full speed. `G0` was written instead of
@@ -65,7 +65,14 @@ impl PathRule for RapidWithFeed {
         let (from, to) = (travel.from.raw(Axis::Z), travel.to.raw(Axis::Z));
         // An unknown height is NaN, and not below anything. A move up and out of the part is not a cut.
         let is_below = to < -LEVEL && to < from + LEVEL;
-        if !cx.is_mill() || !is_plain || !is_below || cx.has_effect(is_elsewhere) || has_unknown_code(cx) {
+        let is_still = [Axis::X, Axis::Y, Axis::Z].iter().all(|axis| stays(travel, *axis));
+        if !cx.is_mill()
+            || !is_plain
+            || !is_below
+            || is_still
+            || cx.has_effect(is_elsewhere)
+            || has_unknown_code(cx)
+        {
             return;
         }
         if Abstract::known(cx.state().feed()).is_some_and(|feed| feed >= NO_CUT) {
@@ -78,6 +85,12 @@ impl PathRule for RapidWithFeed {
                 .help("write `G1` if the block should cut; else give the feed with the first cut"),
         );
     }
+}
+
+/// Is the end of the move where the axis already is? An axis of unknown position stays where the block has no word of it.
+fn stays(travel: &Travel, axis: Axis) -> bool {
+    let (from, to) = (travel.from.raw(axis), travel.to.raw(axis));
+    (to - from).abs() <= LEVEL || to.to_bits() == from.to_bits()
 }
 
 /// Codes whose move is not in the coordinates of the part.
@@ -109,6 +122,26 @@ mod tests {
                   |     ^^^ warning[rapid-with-feed] rapid move below the zero of the part has a feed (`F`)
                 3 | X10 F300
                   |     ^^^^ warning[rapid-with-feed] rapid move below the zero of the part has a feed (`F`)
+            "#]],
+        );
+    }
+
+    #[test]
+    fn a_block_that_moves_nothing_gives_the_feed_of_the_next_cut() {
+        let program = |again: &str| {
+            format!(
+                "G21 G90 G54 G0 X0. Y0. Z5.\nG1 Z-2. F90.\nX20.\nG0 X30. Y-5.\n{again} F60.\nG1 Y5.\nG0 Z5.\nM30\n"
+            )
+        };
+        check_rule(&RULE, "fanuc-mill", &program("Z-2."), &expect![[""]]);
+        check_rule(&RULE, "fanuc-mill", &program("X30. Z-2."), &expect![[""]]);
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            &program("Z-3."),
+            &expect![[r#"
+                5 | Z-3. F60.
+                  |      ^^^^ warning[rapid-with-feed] rapid move below the zero of the part has a feed (`F`)
             "#]],
         );
     }

@@ -39,7 +39,7 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
     if !cx.environment.control_is_guessed {
         return;
     }
-    let Some(dialect) = cx.text.evidence().unsupported else { return };
+    let Some(dialect) = cx.environment.unsupported.or(cx.text.evidence().unsupported) else { return };
     let first = cx.survey.first_block.clone().unwrap_or_default();
     report.add(
         Finding::new(&META, first, format!("the file is for {}, which gcheck does not read", dialect.name))

@@ -25,6 +25,7 @@ declare_rule! {
     /// o100 else
     /// o100 endif
     /// ```
+    /// Letters that are part of a longer text are not called a keyword: `ORECTANGLE` is a name where the control reads a number.
     rule "stray-keyword" in "syntax" {
         summary: "keyword in the wrong place",
         severity: Error,
@@ -40,6 +41,10 @@ fn check(cx: &BlockCx<'_>, error: &SyntaxError, report: &mut Report<'_>) {
 
 fn finding(cx: &BlockCx<'_>, error: &SyntaxError) -> Finding {
     let keyword = cx.slice(error.range.clone());
+    let text = letters_around(cx, error);
+    if text.len() > keyword.len() {
+        return part_of_text(cx, error, text);
+    }
     let finding =
         Finding::new(&META, cx.in_file(error.range.clone()), format!("keyword `{keyword}` cannot be here"));
     let branch = ["ELSE", "ELSEIF", "ENDIF"].iter().any(|k| k.eq_ignore_ascii_case(keyword));
@@ -55,6 +60,33 @@ fn finding(cx: &BlockCx<'_>, error: &SyntaxError) -> Finding {
             .label("belongs to no statement or expression")
             .help("complete the statement, or remove the keyword"),
     }
+}
+
+/// The letters in one piece that the keyword is in.
+fn letters_around<'t>(cx: &BlockCx<'t>, error: &SyntaxError) -> &'t str {
+    let block = cx.block_text();
+    let inside = |at: u32| at.saturating_sub(cx.block().range.start) as usize;
+    let (start, end) = (inside(error.range.start), inside(error.range.end));
+    let (Some(before), Some(after)) = (block.get(..start), block.get(end..)) else { return "" };
+    let is_letter = |c: char| c.is_ascii_alphabetic();
+    let from = before.trim_end_matches(is_letter).len();
+    let to = block.len() - after.trim_start_matches(is_letter).len();
+    block.get(from..to).unwrap_or_default()
+}
+
+/// A longer text, in which the control reads a keyword.
+fn part_of_text(cx: &BlockCx<'_>, error: &SyntaxError, text: &str) -> Finding {
+    let keyword = cx.slice(error.range.clone());
+    let is_name = text.starts_with(['O', 'o']) && cx.block_text().trim_start().starts_with(text);
+    let finding = Finding::new(&META, cx.in_file(error.range.clone()), format!("text `{text}` is not code"))
+        .label(format!("the control reads `{keyword}` as a keyword here"));
+    if is_name {
+        let name = text.get(1..).unwrap_or_default();
+        return finding
+            .note("after `O` the control reads the number of a program")
+            .help(format!("number the program, and put its name in a comment: `O1234 ({name})`"));
+    }
+    finding.help("put remarks in parentheses, or correct the text")
 }
 
 #[cfg(test)]
@@ -75,6 +107,29 @@ mod tests {
                   | ^^^^ error[stray-keyword] keyword `ELSE` cannot be here
             "#]],
         );
+    }
+
+    #[test]
+    fn letters_of_a_longer_text_are_no_keyword() {
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "G0\nORECTANGLE (SQUARE)\nG0 X1. OR\n",
+            &expect![[r#"
+                2 | ORECTANGLE (SQUARE)
+                  | ^^ error[stray-keyword] text `ORECTANGLE` is not code
+                3 | G0 X1. OR
+                  |        ^^ error[stray-keyword] keyword `OR` cannot be here
+            "#]],
+        );
+        let found = findings(&only(&RULE), "fanuc-mill", "ORECTANGLE\n", &World::default());
+        expect![[r#"
+            text `ORECTANGLE` is not code
+              here: the control reads `OR` as a keyword here
+              note: after `O` the control reads the number of a program
+              help: number the program, and put its name in a comment: `O1234 (RECTANGLE)`
+        "#]]
+        .assert_eq(&found.iter().map(words).collect::<String>());
     }
 
     #[test]

@@ -59,7 +59,8 @@ pub(super) fn of(global: &Global, options: &PlotOptions, prepared: &Prepared) ->
     let settings = Configs::new(&global.config, global.isolated)?.of_file(path)?.settings(path);
     let mut selection =
         settings.selection(&RuleWishes::default()).map_err(|unknown| Problem::new(unknown_rule(&unknown)))?;
-    narrow_for_dialect(&mut selection, prepared.choice.source, prepared.source.text());
+    let source = prepared.choice.source;
+    let unsupported = narrow_for_dialect(&mut selection, source, path, prepared.source.text());
     let dialect = Dialect::new(&prepared.control);
     let programs = Reachable::new(Arc::default(), path, &prepared.search);
     let machine = in_force::machine(&settings, &prepared.control, &options.execution.set)?;
@@ -69,10 +70,8 @@ pub(super) fn of(global: &Global, options: &PlotOptions, prepared: &Prepared) ->
             dialect: &dialect,
             machine: &machine,
             programs: &programs,
-            control_is_guessed: matches!(
-                prepared.choice.source,
-                ControlSource::Detected | ControlSource::Default
-            ),
+            control_is_guessed: matches!(source, ControlSource::Detected | ControlSource::Default),
+            unsupported,
         },
         selection: &selection,
         suppressions: true,

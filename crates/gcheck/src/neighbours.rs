@@ -1,0 +1,123 @@
+//! What the programs beside one show of their control: a program that shows little is for the control of the others.
+//!
+//! Knows: folders, how many must agree. Must not know: any control, what a program is asked for. A folder is read when the
+//! first unclear program of it is met, and once.
+
+use std::collections::{BTreeMap, HashMap};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, PoisonError};
+
+use crate::detection::detected;
+use crate::discovery::is_program_name;
+use crate::{paths, reading};
+
+/// Programs of one folder that are looked at: the first by name.
+const MAX_FILES: usize = 200;
+/// A larger file is not looked at: what it holds is not worth its reading.
+const MAX_FILE: u64 = 4 << 20;
+/// So many programs must show the control.
+const ENOUGH: usize = 3;
+
+/// What the programs of folders show, by absolute path; shared by all files of a run.
+#[derive(Debug, Default)]
+pub(crate) struct Neighbours {
+    known: Mutex<HashMap<PathBuf, Arc<Vec<Neighbour>>>>,
+}
+
+/// A program, and the control that it clearly shows.
+#[derive(Debug)]
+struct Neighbour {
+    path: PathBuf,
+    shows: Option<String>,
+}
+
+/// The control of most programs beside one.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Majority {
+    pub(crate) control: String,
+    /// Programs that clearly show it.
+    count: usize,
+    /// Programs beside the one.
+    of: usize,
+}
+
+impl Majority {
+    /// The reason, as a line about the control words it.
+    pub(crate) fn words(&self) -> String {
+        format!("its neighbours, of which {} of {} show it", self.count, self.of)
+    }
+}
+
+impl Neighbours {
+    /// The control that most programs in the folder of `path` clearly show, and hardly one of them another.
+    pub(crate) fn majority(&self, path: &Path) -> Option<Majority> {
+        // What comes in by a pipe under a name of its own has no neighbours.
+        let path = path.is_file().then(|| paths::absolute(path))?;
+        let programs = self.programs(path.parent()?);
+        let others = programs.iter().filter(|program| program.path != path);
+        agreed(others.map(|program| program.shows.as_deref()))
+    }
+
+    fn programs(&self, folder: &Path) -> Arc<Vec<Neighbour>> {
+        let known = || self.known.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(programs) = known().get(folder) {
+            return Arc::clone(programs);
+        }
+        // Read without the lock: two threads that read one folder at the same time read the same.
+        let programs = Arc::new(read(folder));
+        Arc::clone(known().entry(folder.to_owned()).or_insert(programs))
+    }
+}
+
+/// The control that more than half of the programs show, and nine of ten of those that show one.
+fn agreed<'s>(shown: impl Iterator<Item = Option<&'s str>>) -> Option<Majority> {
+    let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
+    let mut of = 0;
+    for shows in shown {
+        of += 1;
+        if let Some(control) = shows {
+            *counts.entry(control).or_default() += 1;
+        }
+    }
+    let clear: usize = counts.values().sum();
+    let (control, count) = counts.into_iter().max_by_key(|(_, count)| *count)?;
+    let is_agreed = count >= ENOUGH && count * 2 > of && count * 10 >= clear * 9;
+    is_agreed.then(|| Majority { control: control.to_owned(), count, of })
+}
+
+fn read(folder: &Path) -> Vec<Neighbour> {
+    let Ok(entries) = fs::read_dir(folder) else { return Vec::new() };
+    let is_small =
+        |path: &PathBuf| fs::metadata(path).is_ok_and(|data| data.is_file() && data.len() <= MAX_FILE);
+    let mut paths: Vec<PathBuf> =
+        entries.flatten().map(|entry| entry.path()).filter(|path| is_program_name(path)).collect();
+    paths.sort();
+    let programs = paths.into_iter().filter(is_small).take(MAX_FILES).filter_map(|path| {
+        let source = reading::file(&path).ok()?;
+        let guess = detected(&path, source.text()).filter(|guess| guess.rival.is_none());
+        Some(Neighbour { path, shows: guess.map(|guess| guess.control) })
+    });
+    programs.collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Majority, agreed};
+
+    fn check(shown: &[&str], expected: Option<(&str, usize, usize)>) {
+        let shown = shown.iter().map(|control| (!control.is_empty()).then_some(*control));
+        let expected =
+            expected.map(|(control, count, of)| Majority { control: control.to_owned(), count, of });
+        assert_eq!(agreed(shown), expected);
+    }
+
+    #[test]
+    fn most_programs_must_clearly_agree() {
+        check(&["a-mill", "a-mill", "a-mill", ""], Some(("a-mill", 3, 4)));
+        check(&["a-mill", "a-mill"], None);
+        check(&["a-mill", "a-mill", "a-mill", "a-lathe"], None);
+        check(&["a-mill", "a-mill", "a-mill", "", "", ""], None);
+        check(&[], None);
+    }
+}
