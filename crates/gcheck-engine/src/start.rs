@@ -90,7 +90,11 @@ fn unset<D: Domain>(model: &Model<'_>) -> D::Value {
 fn variables<D: Domain>(model: &Model<'_>, machine: &Machine) -> Variables<D> {
     let unwritten = if machine.fresh { unset::<D>(model) } else { D::unknown() };
     let kept = |(number, value): (&u32, &f64)| (model.semantics().kept_as(*number), *value);
-    Variables::new(unwritten, machine.variables.iter().map(kept))
+    let mut variables = Variables::new(unwritten, machine.variables.iter().map(kept));
+    for (number, value) in machine.guesses.variables.iter().map(kept) {
+        variables.guess(number, D::assumed(D::number(value)));
+    }
+    variables
 }
 
 fn locals<D: Domain>(model: &Model<'_>, machine: &Machine) -> Locals<D> {

@@ -12,6 +12,8 @@ mod compensation;
 mod curve;
 mod cycle;
 mod feed;
+#[cfg(feature = "forgetful")]
+mod fields;
 #[cfg(test)]
 mod laws;
 mod mapping;
@@ -41,6 +43,8 @@ pub(crate) use compensation::{Compensation, CompensationState, Course, Programme
 pub(crate) use curve::ControlPoints;
 pub use cycle::CycleWords;
 pub(crate) use feed::Feed;
+#[cfg(feature = "forgetful")]
+pub use fields::state_fields;
 pub(crate) use mapping::Mapping;
 pub use mapping::{Diameters, Wrapped};
 pub use mode_set::ModeSet;

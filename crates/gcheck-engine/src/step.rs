@@ -990,7 +990,12 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
             return Ok(state.variables.get(number));
         }
         if let Some((variable, row, column)) = system {
-            let value = self.read_system(variable, row, column, state)?;
+            let mut value = self.read_system(variable, row, column, state)?;
+            if variable.holds == SystemValue::Unknown
+                && let Some(guess) = self.machine.guesses.variables.get(&number)
+            {
+                value = D::assumed(D::number(*guess));
+            }
             // The program may have written over it.
             return Ok(if written == Truth::Unknown {
                 value.join(&state.variables.get(number))

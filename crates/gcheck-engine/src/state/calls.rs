@@ -8,7 +8,7 @@ use std::rc::Rc;
 use super::bar::BarCommand;
 use super::saved::SavedModes;
 use super::variables::Locals;
-use crate::lattice::{Flat, Lattice, May, Perhaps, discrete, lattice};
+use crate::lattice::{Flat, Lattice, May, Perhaps, discrete, lattice, merged};
 use crate::origin::At;
 use crate::value::{Domain, Truth};
 
@@ -170,11 +170,13 @@ impl<D: Domain> Frame<D> {
     fn either(&self, other: &Self, widen: bool) -> Self {
         let (kind, entry, caller) = self.place().min(other.place());
         let Self { kind: _, entry: _, caller: _, kept, locals } = self;
-        let (kept, locals) = if widen {
-            (kept.widen(&other.kept), locals.widen(&other.locals))
-        } else {
-            (kept.join(&other.kept), locals.join(&other.locals))
-        };
+        let kept =
+            merged!(Frame.kept, *kept, if widen { kept.widen(&other.kept) } else { kept.join(&other.kept) });
+        let locals = merged!(
+            Frame.locals,
+            *locals,
+            if widen { locals.widen(&other.locals) } else { locals.join(&other.locals) }
+        );
         Self { kind, entry, caller, kept, locals }
     }
 
@@ -227,7 +229,11 @@ impl<D: Domain> ModalCall<D> {
         let values = self.arguments.iter().zip(&other.arguments);
         Self {
             target: self.target,
-            arguments: values.map(|((number, a), (_, b))| (*number, merge(a, b))).collect(),
+            arguments: merged!(
+                ModalCall.arguments,
+                self.arguments,
+                values.map(|((number, a), (_, b))| (*number, merge(a, b))).collect()
+            ),
             repeats: self.repeats,
         }
     }
@@ -305,7 +311,11 @@ impl<D: Domain> ModalCalls<D> {
         if any {
             calls.clear();
         }
-        Self { off: self.off.join(&other.off), calls, other: May(any) }
+        Self {
+            off: merged!(ModalCalls.off, self.off, self.off.join(&other.off)),
+            calls: merged!(ModalCalls.calls, self.calls, calls),
+            other: merged!(ModalCalls.other, self.other, May(any)),
+        }
     }
 
     fn map<E: Domain>(&self, change: &impl Fn(&D::Value) -> E::Value) -> ModalCalls<E> {
@@ -494,10 +504,11 @@ impl<D: Domain> Calls<D> {
             let last = self.frames.last().zip(other.frames.last());
             last.map(|(a, b)| a.either(b, widen)).into_iter().collect()
         };
+        let (modal, with) = (&self.modal, &other.modal);
         Self {
-            frames,
-            elsewhere: May(!alike),
-            modal: if widen { self.modal.widen(&other.modal) } else { self.modal.join(&other.modal) },
+            frames: merged!(Calls.frames, self.frames, frames),
+            elsewhere: merged!(Calls.elsewhere, self.elsewhere, May(!alike)),
+            modal: merged!(Calls.modal, *modal, if widen { modal.widen(with) } else { modal.join(with) }),
         }
     }
 }

@@ -5,7 +5,7 @@
 
 use gcheck_geometry::Mm;
 
-use crate::lattice::{Flat, Lattice, May, lattice};
+use crate::lattice::{Flat, Lattice, May, lattice, merged};
 use crate::machine::{self, Machine, WorkOffset};
 use crate::position::{Axis, Position};
 use crate::value::Truth;
@@ -245,14 +245,25 @@ impl Lattice for Tables {
             let listed = a.listed.join(&b.listed);
             // A tool that is there on one path only may be anything.
             let tool = if listed == Truth::Unknown { ToolData::ANYTHING } else { a.tool.join(&b.tool) };
-            Row { number, tool, listed }
+            Row {
+                number,
+                tool: merged!(Row.tool, a.tool, tool),
+                listed: merged!(Row.listed, a.listed, listed),
+            }
         };
+        let offsets: Vec<(u16, WorkOffset)> =
+            offsets.into_iter().map(|n| (n, self.offset(n).join(&other.offset(n)))).collect();
+        let tools: Vec<Row> = tools.into_iter().map(row).collect();
         Self {
-            offsets: offsets.into_iter().map(|n| (n, self.offset(n).join(&other.offset(n)))).collect(),
-            other_offset: other_offset.join(&other.other_offset),
-            references: references.join(&other.references),
-            tools: tools.into_iter().map(row).collect(),
-            partial: partial.join(&other.partial),
+            offsets: merged!(Tables.offsets, self.offsets, offsets),
+            other_offset: merged!(
+                Tables.other_offset,
+                self.other_offset,
+                other_offset.join(&other.other_offset)
+            ),
+            references: merged!(Tables.references, self.references, references.join(&other.references)),
+            tools: merged!(Tables.tools, self.tools, tools),
+            partial: merged!(Tables.partial, self.partial, partial.join(&other.partial)),
         }
     }
 

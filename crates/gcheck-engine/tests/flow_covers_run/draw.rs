@@ -1,0 +1,97 @@
+//! What nobody told, drawn at random for one run.
+//!
+//! Knows: which inputs a program has. Must not know: what a run makes of them.
+
+use std::collections::BTreeSet;
+
+use gcheck_engine::{Axis, Machine, Position, Tool, WorkOffset};
+use gcheck_geometry::Mm;
+
+/// Numbers that are the same in every test run.
+pub(crate) struct Random(u64);
+
+impl Random {
+    pub(crate) fn new(seed: u64) -> Self {
+        Self(seed)
+    }
+
+    /// A number below `of`.
+    pub(crate) fn below(&mut self, of: usize) -> usize {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut mixed = self.0;
+        mixed = (mixed ^ (mixed >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((mixed ^ (mixed >> 31)) >> 11) as usize % of
+    }
+
+    pub(crate) fn one_of(&mut self, of: &[f64]) -> f64 {
+        of[self.below(of.len())]
+    }
+
+    pub(crate) fn once_in(&mut self, times: usize) -> bool {
+        self.below(times) == 0
+    }
+}
+
+const VALUES: [f64; 8] = [0.0, 1.0, 2.0, 3.0, -1.0, 2.5, 10.0, 0.0];
+const COORDINATES: [f64; 6] = [0.0, 10.0, -25.5, 3.0, 100.0, 0.0];
+
+/// The machine as one run finds it: what is told, and the rest drawn.
+pub(crate) fn draw(told: &Machine, text: &str, random: &mut Random) -> Machine {
+    let mut machine = told.clone();
+    if !told.fresh {
+        machine.fresh = random.once_in(3);
+        for number in numbers(text) {
+            if !machine.fresh || !random.once_in(4) {
+                machine.guesses.variables.insert(number, random.one_of(&VALUES));
+            }
+        }
+        machine.guesses.touch = Some(random.one_of(&[0.0, 0.25, 0.5, 1.0]));
+    }
+    if told.start.is_none() && !random.once_in(4) {
+        machine.start = Some(point(random));
+    }
+    if told.offsets.is_empty() && !random.once_in(4) {
+        for number in 1..=6 {
+            machine.offsets.insert(number, WorkOffset { origin: point(random), rotation: 0.0 });
+        }
+    }
+    if told.tools.is_empty() && !told.tool_table_is_complete && !random.once_in(4) {
+        for number in 1..=6 {
+            machine.tools.insert(number, tool(number, random));
+        }
+        machine.tool_table_is_complete = random.once_in(2);
+    }
+    machine
+}
+
+/// Numbers of variables that the text names.
+fn numbers(text: &str) -> BTreeSet<u32> {
+    let after_hash = text.split('#').skip(1);
+    let digits = after_hash.filter_map(|rest| {
+        let end = rest.find(|c: char| !c.is_ascii_digit()).unwrap_or(rest.len());
+        rest.get(..end)?.parse().ok()
+    });
+    digits.filter(|number| *number >= 100).collect()
+}
+
+fn point(random: &mut Random) -> Position {
+    let mut point = Position::ZERO;
+    for axis in [Axis::X, Axis::Y, Axis::Z, Axis::A] {
+        point.set(axis, random.one_of(&COORDINATES));
+    }
+    point
+}
+
+pub(crate) fn tool(number: u32, random: &mut Random) -> Tool {
+    let mut offset = Position::ZERO;
+    offset.set(Axis::Z, random.one_of(&[100.0, 50.0, 0.0]));
+    Tool {
+        pocket: number,
+        offset,
+        diameter: Mm(random.one_of(&[4.0, 6.0, 0.5])),
+        corner_radius: Mm(0.0),
+        angles: [0.0; 2],
+        orientation: 0,
+    }
+}
