@@ -92,7 +92,9 @@ fn variables<D: Domain>(model: &Model<'_>, machine: &Machine) -> Variables<D> {
     let kept = |(number, value): (&u32, &f64)| (model.semantics().kept_as(*number), *value);
     let mut variables = Variables::new(unwritten, machine.variables.iter().map(kept));
     for (number, value) in machine.guesses.variables.iter().map(kept) {
-        variables.guess(number, D::assumed(D::number(value)));
+        if !variables.is_written(number) {
+            variables.narrow(number, D::assumed(D::number(value)));
+        }
     }
     variables
 }

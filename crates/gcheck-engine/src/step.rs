@@ -1007,7 +1007,10 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
             return Ok(D::number(value));
         }
         let value = state.variables.get(number);
-        self.tell_vacant(number, &value, state);
+        // A condition that asks whether it is set makes the reading a decision.
+        if !state.variables.is_narrowed(number) {
+            self.tell_vacant(number, &value, state);
+        }
         Ok(value)
     }
 
@@ -1254,7 +1257,7 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
                     && let Some(narrowed) = D::assume_vacant(&value, vacant)
                     && self.model.system_variable(*variable).is_none()
                 {
-                    self.write_plain(*variable, narrowed, state);
+                    self.narrow(*variable, narrowed, state);
                 }
                 return;
             }
@@ -1274,8 +1277,20 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
         if let Some(narrowed) = D::assume(&value, op, bound, self.model.semantics()) {
             let is_system = self.model.system_variable(variable).is_some();
             if !is_system {
-                self.write_plain(variable, narrowed, state);
+                self.narrow(variable, narrowed, state);
             }
+        }
+    }
+
+    /// A variable holds this on the way taken. Nobody has written it for that.
+    fn narrow(&self, variable: u32, value: D::Value, state: &mut State<D>) {
+        let semantics = self.model.semantics();
+        let number = semantics.kept_as(variable);
+        let [first, last] = semantics.locals;
+        if !(first..=last).contains(&number) {
+            state.variables.narrow(number, value);
+        } else if let Some(locals) = state.calls.locals_mut() {
+            locals.set(number, value);
         }
     }
 

@@ -236,10 +236,15 @@ impl<D: Domain> Variables<D> {
         Self { common: Rc::new(common), named: Named::new(), unwritten, unsure: May(false) }
     }
 
-    /// The variable holds this though nobody wrote it, and nobody told.
-    pub(crate) fn guess(&mut self, number: u32, value: D::Value) {
-        let guessed = Variable { value, written: Truth::False };
-        Rc::make_mut(&mut self.common).entry(number).or_insert(guessed);
+    /// The variable holds this though nobody wrote it for that: a guess, or what a condition leaves of it.
+    pub(crate) fn narrow(&mut self, number: u32, value: D::Value) {
+        let written = self.written(number);
+        Rc::make_mut(&mut self.common).insert(number, Variable { value, written });
+    }
+
+    /// Is more known of a variable that nobody wrote than of others?
+    pub(crate) fn is_narrowed(&self, number: u32) -> bool {
+        self.common.contains_key(&number)
     }
 
     /// A common variable.

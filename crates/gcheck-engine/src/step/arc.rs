@@ -141,6 +141,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let mut to = self.axes_of(target, state);
         if self.may_run_beside(state) {
             to = to.with_xyz([Mm::UNKNOWN; 3]);
+            self.emit(state, Event::Unfollowed);
         }
         let event = ArcMove {
             plane,

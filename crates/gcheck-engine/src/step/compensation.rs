@@ -85,13 +85,13 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let cutter = Cutter::new(side, radius).with_tip(tip(orientation));
         // Switched off and on again without a move between, it goes on from where the tool stands.
         let mut compensation = match std::mem::take(&mut state.compensation.left) {
-            Perhaps::Yes(left) if left.plane == plane => left,
-            Perhaps::Yes(_) | Perhaps::No => Rc::new(Compensation {
+            Perhaps::Yes(Course::Followed(left)) if left.plane == plane => left,
+            Perhaps::Yes(Course::Followed(_)) | Perhaps::No => Rc::new(Compensation {
                 compensator: Compensator::new(config(self.model.semantics())),
                 plane,
                 at: *state.actual(),
             }),
-            Perhaps::Unknown => return Ok(()),
+            Perhaps::Yes(Course::Unknown) | Perhaps::Unknown => return Ok(()),
         };
         // An unknown start or size is no mistake of the program: it is carried as an unknown path.
         let start = planar(&self.transformed(state.position(), state), plane);
@@ -244,7 +244,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     pub(crate) fn compensation_off(&mut self, state: &mut State<D>) -> Step {
         self.end_cutter_along_vectors(state);
         let Some(mut compensation) = state.compensation.take_followed() else {
-            state.compensation.on = Perhaps::No;
+            state.compensation.leave_unknown();
             return Ok(());
         };
         let followed = Rc::make_mut(&mut compensation);
@@ -263,7 +263,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 let actual = state.wrapped().turned(actual);
                 state.points.actual = actual;
                 state.points.position = programmed;
-                state.compensation.left = Perhaps::Yes(compensation);
+                state.compensation.left = Perhaps::Yes(Course::Followed(compensation));
                 Ok(())
             }
             Err(error) => Err(fault(&error)),
@@ -273,14 +273,14 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// The first move after `G40`: whether it may be what it is.
     pub(crate) fn leave_compensation(&mut self, is_arc: bool, state: &mut State<D>) -> Step {
         match std::mem::take(&mut state.compensation.left) {
-            Perhaps::Yes(mut left) => {
+            Perhaps::Yes(Course::Followed(mut left)) => {
                 Rc::make_mut(&mut left).compensator.exit_motion(is_arc).map_err(|error| fault(&error))
             }
             Perhaps::Unknown => {
                 self.assumptions.insert(Assumption::Unsettled(Unsettled::Compensation));
                 Ok(())
             }
-            Perhaps::No => Ok(()),
+            Perhaps::Yes(Course::Unknown) | Perhaps::No => Ok(()),
         }
     }
 
@@ -341,6 +341,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             state.points.position = target;
             state.points.actual = Position::UNKNOWN;
             state.compensation.on = Perhaps::Yes(Course::Unknown);
+            self.emit(state, Event::Unfollowed);
             return Ok(());
         }
         let end = self.transformed(&target, state);
@@ -373,6 +374,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if let Err(error) = result {
             state.points.actual = Position::UNKNOWN;
             state.compensation.on = Perhaps::Yes(Course::Unknown);
+            self.emit(state, Event::Unfollowed);
             return if error == CompensationError::NotUsable { Ok(()) } else { Err(fault(&error)) };
         }
         let actual = above(&end, followed.compensator.position(), followed.plane);

@@ -276,6 +276,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             state.points.position.set(Axis::Y, f64::NAN);
         }
         state.points.actual = self.axes_of(state.position(), state);
+        self.emit(state, Event::Unfollowed);
         Ok(())
     }
 
@@ -514,7 +515,16 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let from = state.position().xyz();
         let mut strokes = std::mem::take(&mut self.stroke_buffer);
         strokes.clear();
-        let result = hole(effect, facts, from, rules, &mut |stroke| strokes.push(stroke));
+        let mut result = hole(effect, facts, from, rules, &mut |stroke| strokes.push(stroke));
+        let [_, _, height] = plane.to_local(from);
+        if result.is_ok() && !height.is_known() {
+            // Where it begins decides whether it rises first.
+            self.emit(state, Event::Unfollowed);
+        }
+        if result.is_ok() && state.mode(Role::ReturnLevel).only().is_none() && facts.initial != facts.r {
+            strokes.clear();
+            result = Err(CycleError::Unknown);
+        }
         if result.is_ok()
             && let Err(fault) = self.check_cycle_spindle(effect, rules, state)
         {
@@ -554,6 +564,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 end.set(depth, f64::NAN);
                 state.points.position = end;
                 state.points.actual = self.axes_of(&end, state);
+                self.emit(state, Event::Unfollowed);
                 Ok(())
             }
         }

@@ -19,6 +19,7 @@ use crate::cycles::{
     multi_pass_thread, tapered_thread,
 };
 use crate::event::{FeedMode, Units};
+use crate::event::Event;
 use crate::fault::{CycleFault, Fault};
 use crate::lattice::Perhaps;
 use crate::model::Role;
@@ -309,6 +310,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             Err(CycleError::Unknown | CycleError::NotThisKind) => {
                 state.points.position = end;
                 state.points.actual = self.axes_of(&end, state);
+                self.emit(state, Event::Unfollowed);
                 Ok(())
             }
         }

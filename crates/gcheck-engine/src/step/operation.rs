@@ -184,6 +184,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let held = self.hold_compensation(state)?;
         state.points.position = end;
         state.points.actual = self.axes_of(&end, state);
+        self.emit(state, Event::Unfollowed);
         Self::release_compensation(held.without_path(), state);
         Ok(())
     }
@@ -239,6 +240,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         state.points.position = *target;
         state.points.position.set(Axis::Z, f64::NAN);
         state.points.actual = self.axes_of(state.position(), state);
+        self.emit(state, Event::Unfollowed);
     }
 
     // ---- engraving ----
@@ -307,6 +309,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 state.points.position.set(first, f64::NAN);
                 state.points.position.set(second, f64::NAN);
                 state.points.actual = self.axes_of(state.position(), state);
+                self.emit(state, Event::Unfollowed);
                 return Ok(());
             }
         };

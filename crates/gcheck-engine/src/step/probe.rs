@@ -81,7 +81,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             // Without a workpiece the touch is said to be at the end of the move, and the probe stands a hundredth of an inch
             // before it: what a simulation of the reference interpreter does.
             self.stop_short(from, 0.254, state);
-            state.probe.result = Truth::False;
+            state.probe.result = self.has_code(Effect::AlarmIfNotTouched).into();
             return Ok(());
         }
         // Under a rotation an axis moves that the block does not name.

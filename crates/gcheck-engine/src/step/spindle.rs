@@ -262,16 +262,15 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             Some(0) => {}
             Some(number) => {
                 let data = state.tables().tool(number).copied().unwrap_or(unknown);
-                let entry = Self::entry_of(number, state);
-                state.tool.loaded = Loaded { data, entry };
+                state.tool.loaded = Loaded { data, entry: Self::entry_of(number, state) };
             }
             None => state.tool.loaded = Loaded { data: unknown, entry: Perhaps::Unknown },
         }
     }
 
-    /// The entry of the table that a tool's data come from.
+    /// The entry of the table that a tool's data come from. A tool that nobody listed has one all the same.
     fn entry_of(number: u32, state: &State<D>) -> Perhaps<u32> {
-        if state.tables().row_of(number) == 0 { Perhaps::No } else { Perhaps::Yes(number) }
+        if number == 0 && state.tables().row_of(number) == 0 { Perhaps::No } else { Perhaps::Yes(number) }
     }
 
     /// `M61`.
@@ -288,6 +287,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             }
             Some(Count::Unknown) => {
                 state.tool.number = D::unknown();
+                state.tool.loaded.entry = Perhaps::Unknown;
                 self.emit(state, Event::SetToolNumber(None));
             }
             None => return Err(Fault::MissingWord(Letter::of('Q'))),

@@ -20,47 +20,94 @@ mod law;
 mod material;
 mod programs;
 
-use std::cell::{Cell, RefCell};
+use std::collections::BTreeMap;
 
 use gcheck_engine::{Machine, NoLibrary};
-use proptest::prelude::*;
-use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 
 use crate::draw::Random;
 use crate::generator::{Style, Writer};
 use crate::law::{Case, Counts, check};
 
-/// Random programs of a control.
-fn law(control: &'static str, style: Style, cases: u32) {
-    let config = Config { cases, failure_persistence: None, max_shrink_iters: 5_000, ..Config::default() };
-    // The same programs in every run.
-    let mut runner = TestRunner::new_with_rng(config, TestRng::deterministic_rng(RngAlgorithm::ChaCha));
-    let strategy = (prop::collection::vec(any::<u8>(), 10..260), any::<u64>());
-    let counts = RefCell::new(Counts::default());
-    let result = runner.run(&strategy, |(choices, seed)| {
-        let text = Writer::new(&choices, style).program();
-        let machine = Machine::default();
-        let case = Case {
-            name: "generated",
-            control,
-            text: &text,
-            machine: &machine,
-            library: &NoLibrary,
-            work: 40_000,
-            fuel: 3_000,
-        };
-        let seen = check(&case, 3, &mut Random::new(seed)).map_err(TestCaseError::fail)?;
-        counts.borrow_mut().add(seen);
-        Ok(())
-    });
-    let counts = counts.into_inner();
-    eprintln!("{control}, {style:?}: {counts:?}");
-    if let Err(error) = result {
-        panic!("{control}: {error}");
+/// Random programs of a control, the same in every test run. Of those that fail in the same way, the one that is left of the
+/// shortest is shown.
+fn law(control: &'static str, style: Style, cases: u64) {
+    let mut counts = Counts::default();
+    let mut failures: BTreeMap<String, (String, u64)> = BTreeMap::new();
+    for seed in 0..cases {
+        let text = generated(style, seed);
+        match generated_law(control, &text, seed) {
+            Ok(seen) => counts.add(seen),
+            Err(why) => {
+                let slot = failures.entry(kind_of(&why)).or_insert_with(|| (text.clone(), seed));
+                if text.len() < slot.0.len() {
+                    *slot = (text, seed);
+                }
+            }
+        }
     }
+    eprintln!("{control}, {style:?}: {counts:?}");
+    let shown: Vec<String> = failures
+        .iter()
+        .map(|(kind, (text, seed))| {
+            let fails = |less: &str| generated_law(control, less, *seed).is_err_and(|why| kind_of(&why) == *kind);
+            let text = shortened(text, fails);
+            generated_law(control, &text, *seed).err().unwrap_or_default()
+        })
+        .collect();
+    assert!(shown.is_empty(), "{control}, {style:?}: {} kinds\n{}", shown.len(), shown.join("\n"));
     // A law that hardly says anything of a program would say little.
     assert!(counts.left_out * 10 < counts.programs, "{control}: {counts:?}");
     assert!(counts.ended * 5 > counts.runs, "{control}: {counts:?}");
+}
+
+/// The program of a style and a number.
+fn generated(style: Style, seed: u64) -> String {
+    let mut random = Random::new(seed);
+    let length = 10 + random.below(250);
+    let choices: Vec<u8> = (0..length).map(|_| random.below(256) as u8).collect();
+    Writer::new(&choices, style).program()
+}
+
+fn generated_law(control: &str, text: &str, seed: u64) -> Result<Counts, String> {
+    let case = Case {
+        name: "generated",
+        control,
+        text,
+        machine: &Machine::default(),
+        library: &NoLibrary,
+        work: 40_000,
+        fuel: 3_000,
+    };
+    check(&case, 3, &mut Random::new(seed))
+}
+
+/// A failure without its numbers.
+fn kind_of(why: &str) -> String {
+    let (_, why) = why.split_once(": ").unwrap_or_default();
+    let end = why.find([':', '{', '\n']).unwrap_or(why.len());
+    let rest = if why.starts_with("not shown") { &why[..why.len().min(34)] } else { &why[..end] };
+    rest.chars().filter(|c| !c.is_ascii_digit()).collect()
+}
+
+/// The program without the lines that the failure does not need.
+fn shortened(text: &str, fails: impl Fn(&str) -> bool) -> String {
+    let mut lines: Vec<&str> = text.lines().collect();
+    let mut count = lines.len() / 2;
+    while count > 0 {
+        let mut at = 0;
+        while at < lines.len() {
+            let is_left = |number: &usize| !(at..at + count).contains(number);
+            let less: Vec<&str> =
+                lines.iter().enumerate().filter(|(number, _)| is_left(number)).map(|(_, line)| *line).collect();
+            if fails(&(less.join("\n") + "\n")) {
+                lines = less;
+            } else {
+                at += count;
+            }
+        }
+        count /= 2;
+    }
+    lines.join("\n") + "\n"
 }
 
 #[test]
@@ -91,8 +138,8 @@ fn the_flow_covers_the_run_on_a_lathe() {
 
 /// Checks programs one after the other; all that fail are named.
 fn all(programs: &[material::Source], runs: u32, fuel: u64) -> Counts {
-    let counts = Cell::new(Counts::default());
-    let mut failures = Vec::new();
+    let mut counts = Counts::default();
+    let mut failures: BTreeMap<String, Vec<String>> = BTreeMap::new();
     for (number, source) in programs.iter().enumerate() {
         let case = Case {
             name: &source.name,
@@ -104,18 +151,15 @@ fn all(programs: &[material::Source], runs: u32, fuel: u64) -> Counts {
             fuel,
         };
         match check(&case, runs, &mut Random::new(number as u64)) {
-            Ok(seen) => {
-                let mut sum = counts.get();
-                sum.add(seen);
-                counts.set(sum);
-            }
-            Err(why) => failures.push(why),
+            Ok(seen) => counts.add(seen),
+            Err(why) => failures.entry(kind_of(&why)).or_default().push(why),
         }
     }
-    let count = failures.len();
-    failures.truncate(10);
-    assert!(failures.is_empty(), "{count} of {} programs:\n{}", programs.len(), failures.join("\n"));
-    counts.into_inner()
+    let count: usize = failures.values().map(Vec::len).sum();
+    let shortest = |all: &Vec<String>| all.iter().min_by_key(|why| why.len()).cloned();
+    let shown: Vec<String> = failures.values().filter_map(shortest).collect();
+    assert!(shown.is_empty(), "{count} of {} programs, {} kinds:\n{}", programs.len(), shown.len(), shown.join("\n"));
+    counts
 }
 
 #[test]
