@@ -491,10 +491,17 @@ impl State<Concrete> {
     /// The state of a run as one of the analysis: what the run does not know may be anything.
     #[must_use]
     pub fn as_abstract(&self) -> State<Abstract> {
+        self.lift(&AbstractValue::Unknown)
+    }
+
+    /// The state of a run as one of the analysis, with `unknown` for every variable that the run does not know. Nothing differs
+    /// between the two but their values: a field that is not named here does not compile.
+    #[must_use]
+    pub fn lift(&self, unknown: &AbstractValue) -> State<Abstract> {
         let change = &|value: &ConcreteValue| match value {
             ConcreteValue::Vacant => AbstractValue::Vacant,
             ConcreteValue::Number(number) => AbstractValue::Number(*number),
-            ConcreteValue::Unknown => AbstractValue::Unknown,
+            ConcreteValue::Unknown => unknown.clone(),
         };
         let Self {
             points,

@@ -1188,6 +1188,7 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
         condition: ExprIx,
         state: &mut State<D>,
     ) -> Step<Outcome<D>> {
+        let undecided = state.clone();
         let mut without = state.clone();
         self.assume(table, condition, false, &mut without);
         self.assume(table, condition, true, state);
@@ -1202,7 +1203,16 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
             match &statement.kind {
                 StatementKind::Goto { target: Some(target) } => {
                     let value = self.evaluate(place, table, table.expr(*target), state)?;
-                    match self.jump_to_label(&value, state)? {
+                    let jump = match self.jump_to_label(&value, state) {
+                        Ok(jump) => jump,
+                        Err(fault) => {
+                            // A jump without its target falls through: whatever the condition is, the next block comes.
+                            self.refuse(fault)?;
+                            *state = undecided;
+                            return Ok(Outcome::Next);
+                        }
+                    };
+                    match jump {
                         Outcome::Jump(to) => fork.push((to, state.clone())),
                         Outcome::Fork(more) => fork.extend(more),
                         other => return Ok(other),

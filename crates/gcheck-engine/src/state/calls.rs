@@ -537,6 +537,29 @@ impl<D: Domain> Lattice for Calls<D> {
             && self.frames.iter().zip(&other.frames).all(|(a, b)| a.is_same(b))
             && self.modal.same(&other.modal)
     }
+
+    fn uncovered(&self, inner: &Self) -> String {
+        if !self.modal.covers(&inner.modal) {
+            return format!(".modal: {:?} / {:?}", self.modal, inner.modal);
+        }
+        let places = |frame: &Frame<D>| (frame.caller.file, frame.caller.block);
+        if self.frames.len() != inner.frames.len() {
+            let of = |calls: &Self| calls.frames.iter().map(places).collect::<Vec<_>>();
+            return format!(": called from {:?} / {:?}", of(self), of(inner));
+        }
+        let mut pairs = self.frames.iter().zip(&inner.frames);
+        let gap = pairs.find(|(a, b)| !self.elsewhere.0 && a.place() != b.place() || !a.values_cover(b));
+        gap.map_or_else(String::new, |(a, b)| {
+            format!(
+                ".frame: {:?} / {:?}\n{}\n.locals: {:?} / {:?}",
+                a.place(),
+                b.place(),
+                a.kept.uncovered(&b.kept),
+                a.locals,
+                b.locals
+            )
+        })
+    }
 }
 
 impl<D: Domain> PartialEq for Calls<D> {

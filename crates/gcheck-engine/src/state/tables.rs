@@ -297,6 +297,23 @@ impl Lattice for Tables {
             && tools.iter().zip(&other.tools).all(same_tool)
             && partial.same(&other.partial)
     }
+
+    fn uncovered(&self, inner: &Self) -> String {
+        let (offsets, tools) = self.numbers(inner);
+        let offset = offsets.into_iter().find(|number| !self.offset(*number).covers(&inner.offset(*number)));
+        if let Some(number) = offset {
+            return format!(".offset {number}{}", self.offset(number).uncovered(&inner.offset(number)));
+        }
+        let lines = tools.into_iter().map(|number| (self.line(number), inner.line(number)));
+        let mut gaps = lines.filter(|(a, b)| !a.listed.covers(&b.listed) || !a.tool.covers(&b.tool));
+        match gaps.next() {
+            Some((a, b)) => {
+                let (outer, inner) = (a.listed, b.listed);
+                format!(".tool {}: listed {outer:?} / {inner:?} {}", a.number, a.tool.uncovered(&b.tool))
+            }
+            None => String::new(),
+        }
+    }
 }
 
 impl PartialEq for Tables {

@@ -137,6 +137,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     /// The end of an arc whose shape is not known.
     fn unknown_arc(&mut self, counter_clockwise: bool, target: &Position, state: &mut State<D>) -> Step {
+        if state.plane(self.model).is_none() {
+            self.emit(state, Event::Unfollowed);
+        }
         let plane = state.plane(self.model).unwrap_or(Plane::Xy);
         let mut to = self.axes_of(target, state);
         if self.may_run_beside(state) {

@@ -14,12 +14,12 @@ use super::{Count, Executor, Step};
 use crate::assumption::{Assumption, Unsettled};
 use crate::event::{ArcMove, Event, Travel, TravelKind};
 use crate::fault::{CompensationFault, Fault};
-use crate::lattice::{Flat, Perhaps};
+use crate::lattice::{Flat, Lattice, Perhaps};
 use crate::model::Role;
 use crate::observer::Observer;
 use crate::origin::Origin;
 use crate::position::Position;
-use crate::state::{Compensation, Course, Programmed, State, ToolData};
+use crate::state::{Compensation, Course, ModeSet, Programmed, State, ToolData};
 use crate::value::Domain;
 
 type Offset = OffsetEvent<Programmed, (Origin, Event)>;
@@ -159,8 +159,18 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let Some(value) = self.words.get(letter) else { return Ok(()) };
         self.count(letter)?;
         let mode = state.mode(Role::Length).only();
+        let cancels = self.model.semantics().zero_length_number_cancels;
         if mode.is_some_and(|ix| self.model.effect(ix) == Effect::LengthOff) {
             state.tool.h = value;
+        } else if mode.is_none() || cancels && value.covers(&D::number(0.0)) && D::known(&value).is_none() {
+            // Whether it ends the compensation, is kept for another, or does nothing.
+            let either = state.tool.h.join(&value);
+            state.tool.h = either;
+            if cancels && value.covers(&D::number(0.0)) {
+                let off = self.model.code_with(Effect::LengthOff);
+                state.modes.add(Role::Length, &ModeSet::one(off));
+                self.lose_length(state);
+            }
         } else if self.model.semantics().zero_length_number_cancels && D::known(&value) == Some(0.0) {
             self.cancel_length(state);
         }

@@ -19,7 +19,6 @@ use crate::cycles::{
     multi_pass_thread, tapered_thread,
 };
 use crate::event::{FeedMode, Units};
-use crate::event::Event;
 use crate::fault::{CycleFault, Fault};
 use crate::lattice::Perhaps;
 use crate::model::Role;
@@ -308,9 +307,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             Err(CycleError::Profile(_)) => Err(Fault::Profile),
             Err(CycleError::TooManyStrokes) => Err(Fault::Cycle(CycleFault::Geometry)),
             Err(CycleError::Unknown | CycleError::NotThisKind) => {
-                state.points.position = end;
-                state.points.actual = self.axes_of(&end, state);
-                self.emit(state, Event::Unfollowed);
+                self.end_unfollowed(end, state);
                 Ok(())
             }
         }

@@ -228,7 +228,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     fn length_number(&mut self, sign: f64, state: &mut State<D>) -> Step {
         let rules = self.model.semantics().tools;
         match self.count(Letter::of('H'))? {
-            None | Some(Count::Known(0)) if rules.length_from_tool && state.tables().is_complete() => {
+            None | Some(Count::Known(0)) if rules.length_from_tool => {
                 self.loaded_length(sign, state);
                 Ok(())
             }
@@ -246,20 +246,6 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 self.set_length(self.unknown_length(state), state);
                 Ok(())
             }
-            None if rules.length_from_tool => match D::known(state.tool()) {
-                #[expect(clippy::cast_sign_loss, reason = "tool numbers are counts")]
-                Some(tool) if tool > 0.0 => self.apply_length(tool as u32, sign, state),
-                Some(_) => {
-                    state.tool.h = D::number(0.0);
-                    self.set_length(Position::ZERO, state);
-                    Ok(())
-                }
-                None => {
-                    state.tool.h = D::unknown();
-                    self.set_length(self.unknown_length(state), state);
-                    Ok(())
-                }
-            },
             // H stays in effect from before.
             None => match D::known(state.h()) {
                 #[expect(clippy::cast_sign_loss, reason = "offset numbers are counts")]
@@ -276,7 +262,13 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     pub(super) fn loaded_length(&mut self, sign: f64, state: &mut State<D>) {
         let number = state.tool().clone();
         state.tool.h = number;
-        let mut length = state.tool.loaded.data.length();
+        let mut length = self.with_known_axes(state.tool.loaded.data.length(), state);
+        if !length.is_known()
+            && let Some(tool) = D::known(state.tool())
+        {
+            #[expect(clippy::cast_sign_loss, reason = "tool numbers are counts")]
+            self.assumptions.insert(Assumption::ToolLength(tool as u32));
+        }
         for axis in Axis::ALL {
             length.set(axis, sign * length.raw(axis));
         }
@@ -300,6 +292,17 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         length
     }
 
+    /// Of an entry of which nothing is known but its size, too: only along Z on mills.
+    fn with_known_axes(&self, mut length: Position, state: &State<D>) -> Position {
+        let unknown = self.unknown_length(state);
+        for axis in Axis::ALL {
+            if length.raw(axis).is_nan() && !unknown.raw(axis).is_nan() {
+                length.set(axis, 0.0);
+            }
+        }
+        length
+    }
+
     pub(super) fn apply_length(&mut self, number: u32, sign: f64, state: &mut State<D>) -> Step {
         state.tool.h = D::number(f64::from(number));
         if number == 0 && !self.model.semantics().tools.length_from_tool {
@@ -312,13 +315,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             None if state.tables().is_complete() => return Err(Fault::NoSuchTool(number)),
             None => self.unknown_length(state),
         };
-        // Of an entry of which nothing is known but its size, too: only along Z on mills.
-        let mut length = length;
-        for axis in Axis::ALL {
-            if length.raw(axis).is_nan() && !self.unknown_length(state).raw(axis).is_nan() {
-                length.set(axis, 0.0);
-            }
-        }
+        let length = self.with_known_axes(length, state);
         if !length.is_known() {
             self.assumptions.insert(Assumption::ToolLength(number));
         }

@@ -340,6 +340,11 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             return Ok(Some(effect));
         }
         let active = state.active_cycle(self.model).filter(|ix| ix.is_some());
+        if state.active_cycle(self.model).is_none() {
+            // Whether there is one, and which, is not known.
+            state.points.lose();
+            self.emit(state, Event::Unfollowed);
+        }
         Ok(active.map(|ix| self.model.effect(ix)))
     }
 }

@@ -8,7 +8,7 @@ use gcheck_geometry::Seconds;
 use super::{Count, Executor, Step};
 use crate::event::{Coolant, Event, FeedMode, Spindle};
 use crate::fault::Fault;
-use crate::lattice::{Flat, Perhaps};
+use crate::lattice::{Lattice, Flat, Perhaps};
 use crate::model::Role;
 use crate::observer::Observer;
 use crate::position::{Axis, Position};
@@ -264,7 +264,11 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 let data = state.tables().tool(number).copied().unwrap_or(unknown);
                 state.tool.loaded = Loaded { data, entry: Self::entry_of(number, state) };
             }
-            None => state.tool.loaded = Loaded { data: unknown, entry: Perhaps::Unknown },
+            // It may be no tool.
+            None => {
+                let data = state.tool.loaded.data.join(&unknown);
+                state.tool.loaded = Loaded { data, entry: Perhaps::Unknown };
+            }
         }
     }
 

@@ -41,8 +41,10 @@ pub(crate) fn draw(told: &Machine, text: &str, random: &mut Random) -> Machine {
     let mut machine = told.clone();
     if !told.fresh {
         machine.fresh = random.once_in(3);
-        for number in numbers(text) {
-            if !machine.fresh || !random.once_in(4) {
+        // A word with nothing for its value is taken as given, so what is written as a word has a value.
+        let (numbers, in_words) = numbers(text);
+        for number in numbers {
+            if !machine.fresh || in_words || !random.once_in(4) {
                 machine.guesses.variables.insert(number, random.one_of(&VALUES));
             }
         }
@@ -65,14 +67,17 @@ pub(crate) fn draw(told: &Machine, text: &str, random: &mut Random) -> Machine {
     machine
 }
 
-/// Numbers of variables that the text names.
-fn numbers(text: &str) -> BTreeSet<u32> {
-    let after_hash = text.split('#').skip(1);
-    let digits = after_hash.filter_map(|rest| {
-        let end = rest.find(|c: char| !c.is_ascii_digit()).unwrap_or(rest.len());
-        rest.get(..end)?.parse().ok()
-    });
-    digits.filter(|number| *number >= 100).collect()
+/// Numbers of variables that the text names, and whether a word has a variable for its value.
+fn numbers(text: &str) -> (BTreeSet<u32>, bool) {
+    let mut in_words = false;
+    let mut numbers = BTreeSet::new();
+    for (at, _) in text.match_indices('#') {
+        let before = text[..at].trim_end_matches(['[', '-', ' ', '+']);
+        in_words |= before.ends_with(|c: char| c.is_ascii_alphabetic());
+        let digits: String = text[at + 1..].chars().skip_while(|c| *c == '[').take_while(char::is_ascii_digit).collect();
+        numbers.extend(digits.parse::<u32>().ok().filter(|number| *number >= 100));
+    }
+    (numbers, in_words)
 }
 
 fn point(random: &mut Random) -> Position {

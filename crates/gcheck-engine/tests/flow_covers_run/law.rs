@@ -7,7 +7,7 @@ use std::fmt::Write as _;
 
 use gcheck_controls::Control;
 use gcheck_engine::{
-    Abstract, At, Concrete, Ending, Event, Fault, FlowCx, FlowObserver, FlowResult, Lattice, Library, Look,
+    Abstract, AbstractValue, At, Concrete, Ending, Event, Fault, FlowCx, FlowObserver, FlowResult, Lattice, Library, Look,
     Machine, Model, Observer, Options, Origin, Program, Reach, RunResult, State, Stopped, Task, flow, run,
 };
 use gcheck_program::{Dialect, Loaded};
@@ -117,6 +117,20 @@ fn stands_for(outer: &Event, inner: &Event) -> bool {
     }
 }
 
+/// Says what is in effect from then on, which the state holds; or that the run itself does not follow its block.
+fn is_announcement(event: &Event) -> bool {
+    matches!(
+        event,
+        Event::Modal(_)
+            | Event::FeedRate(_)
+            | Event::WorkOffset { .. }
+            | Event::Shift(_)
+            | Event::LengthOffset(_)
+            | Event::Rotation(_)
+            | Event::Unfollowed
+    )
+}
+
 fn is_move(event: &Event) -> bool {
     matches!(event, Event::Travel(_) | Event::Arc(_) | Event::Curve(_) | Event::RigidTap { .. })
 }
@@ -157,7 +171,8 @@ impl Observer<Concrete> for Follower<'_> {
         if self.result.reach(at) == Reach::Never {
             return self.lacks(at, "visited, and said to be unreachable".to_owned());
         }
-        let lifted = state.as_abstract();
+        // A value that the run does not know is some number: whether it might be nothing, the run cannot say.
+        let lifted = state.lift(&AbstractValue::any_number());
         let states = self.shown.states.get(&at).map(Vec::as_slice).unwrap_or_default();
         let cursor = self.cursors.entry(at).or_default();
         let (before, from) = states.split_at((*cursor).min(states.len()));
@@ -173,6 +188,9 @@ impl Observer<Concrete> for Follower<'_> {
 
     fn event(&mut self, origin: Origin, _: &State<Concrete>, event: &Event) {
         if self.gap.is_some() {
+            return;
+        }
+        if is_announcement(event) {
             return;
         }
         *(if is_move(event) { &mut self.counts.moves } else { &mut self.counts.others }) += 1;
@@ -253,7 +271,7 @@ fn finish(follower: &mut Follower<'_>, ran: &RunResult, look: &mut Look<'_, '_>,
                 let at = At { file: 0, block };
                 // A block that is skipped is come to, though not executed; so are those after a tape's end.
                 let is_executed = case.text.lines().nth(block as usize).is_none_or(|line| {
-                    !line.trim_start().starts_with(['/', '%']) && !line.trim().is_empty()
+                    !line.contains(['/', '%']) && !line.trim().is_empty()
                 });
                 if follower.result.reach(at) == Reach::Always && !follower.visited.contains(&at) && is_executed {
                     follower.lacks(at, "said to be on every path, and not visited".to_owned());

@@ -21,7 +21,7 @@ use crate::cycles::{
     CycleError, LayeredFinish, LayeredRoughing, PatternRepeat, Pockets, ProfileFault, ProfileSegment,
     Roughing, RoughingDirection, layered_finish, layered_roughing, pattern_repeat, roughing,
 };
-use crate::event::{TravelKind, Units};
+use crate::event::{Event, TravelKind, Units};
 use crate::fault::{ArcFault, CycleFault, Fault};
 use crate::lattice::Perhaps;
 use crate::model::Role;
@@ -249,7 +249,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 Outcome::Jump(to) if to.file == blocks.file => block = to.block,
                 Outcome::Jump(_) | Outcome::End(_) => return Err(Fault::Profile),
                 // A way that depends on what nobody knows; it leads back to the start in any case.
-                Outcome::Fork(_) => break,
+                Outcome::Fork(_) => {
+                    self.emit(state, Event::Unfollowed);
+                    break;
+                }
                 // The fault is that block's.
                 Outcome::Fault(fault) => return Err(fault),
             }
