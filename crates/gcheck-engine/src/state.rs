@@ -494,10 +494,15 @@ impl State<Concrete> {
         self.lift(&AbstractValue::Unknown)
     }
 
+    /// What the analysis must cover of a state of a run: a variable that the run does not know contradicts nothing.
+    #[must_use]
+    pub fn as_covered(&self) -> State<Abstract> {
+        self.lift(&AbstractValue::none())
+    }
+
     /// The state of a run as one of the analysis, with `unknown` for every variable that the run does not know. Nothing differs
     /// between the two but their values: a field that is not named here does not compile.
-    #[must_use]
-    pub fn lift(&self, unknown: &AbstractValue) -> State<Abstract> {
+    fn lift(&self, unknown: &AbstractValue) -> State<Abstract> {
         let change = &|value: &ConcreteValue| match value {
             ConcreteValue::Vacant => AbstractValue::Vacant,
             ConcreteValue::Number(number) => AbstractValue::Number(*number),

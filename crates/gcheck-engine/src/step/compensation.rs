@@ -162,6 +162,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let cancels = self.model.semantics().zero_length_number_cancels;
         if mode.is_some_and(|ix| self.model.effect(ix) == Effect::LengthOff) {
             state.tool.h = value;
+        } else if state.tool_shift.is_on() {
+            // The words of such a mode are its own.
         } else if mode.is_none() || cancels && value.covers(&D::number(0.0)) && D::known(&value).is_none() {
             // Whether it ends the compensation, is kept for another, or does nothing.
             let either = state.tool.h.join(&value);

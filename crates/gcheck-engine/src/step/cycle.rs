@@ -517,8 +517,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let mut strokes = std::mem::take(&mut self.stroke_buffer);
         strokes.clear();
         let mut result = hole(effect, facts, from, rules, &mut |stroke| strokes.push(stroke));
-        let [_, _, height] = plane.to_local(from);
-        if !height.is_known() || !facts.initial.is_known() {
+        let is_known = from.iter().chain([&facts.initial, &facts.at.0, &facts.at.1]).all(|length| length.is_known());
+        if !is_known {
             // Where it begins decides whether it rises first.
             self.emit(state, Event::Unfollowed);
         }

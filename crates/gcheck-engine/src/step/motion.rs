@@ -26,11 +26,12 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// Moves as the active mode says.
     pub(super) fn motion(&mut self, state: &mut State<D>) -> Step {
         self.turn_drawing(state);
-        self.active_motion(state)?;
+        let moved = self.active_motion(state);
+        let moved = self.held(moved)?;
         if !state.calls.modal.is_off() && self.words.present().intersects(self.model.axis_letters) {
             self.modal_call(state);
         }
-        Ok(())
+        moved
     }
 
     fn active_motion(&mut self, state: &mut State<D>) -> Step {

@@ -15,7 +15,7 @@ use crate::lattice::{Flat, Lattice, Perhaps};
 use crate::machine::WorkOffset;
 use crate::observer::Observer;
 use crate::position::{Axis, Position};
-use crate::state::{State, ToolData};
+use crate::state::{Offsets, State, ToolData};
 use crate::value::{Domain, Truth};
 
 #[expect(clippy::unnecessary_wraps, reason = "handlers of effects share one signature")]
@@ -171,6 +171,11 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 }
             }
         });
+        for (axis, _) in named.iter().filter(|(_, value)| value.is_nan()) {
+            // One unknown shift may have taken the place of another.
+            state.points.actual.set(*axis, f64::NAN);
+            state.points.position.set(*axis, f64::NAN);
+        }
         let shift = state.shift();
         self.emit(state, Event::Shift(shift));
         Ok(())
@@ -464,8 +469,17 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     pub(super) fn forget_offsets(&mut self, state: &mut State<D>) {
         let turns = self.words.has(Letter::of('R'));
+        let shifts = !self.refuses_incomplete();
+        let named = self.named(state);
+        let shared = self.shifts_are_one();
         self.reframe(state, |state| {
             state.offsets.tables_mut().forget_offsets(turns);
+            for (axis, _) in named.iter().filter(|_| shifts) {
+                // Number 0 is the shift of all systems.
+                let Offsets { shift, local, .. } = &mut state.offsets;
+                let slot = if shared { shift } else { local };
+                slot.set(*axis, f64::NAN);
+            }
             state.offsets.in_effect.origin = Position::UNKNOWN;
             if turns {
                 state.offsets.in_effect.rotation = f64::NAN;
@@ -532,8 +546,12 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             self.forget_offsets(state);
             return;
         };
-        let named = self.named(state);
+        let mut named = self.named(state);
         let incremental = state.is_incremental(self.model) == Some(true) && !self.refuses_incomplete();
+        if !here && state.is_incremental(self.model).is_none() && !self.refuses_incomplete() {
+            // Whether the words are added is not known.
+            named.iter_mut().for_each(|(_, value)| *value = f64::NAN);
+        }
         let rotation = self.words.number(Letter::of('R')).filter(|_| !here);
         let old = state.tables().offset(system);
         let mut offset = old;
@@ -680,6 +698,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     fn write_register(&mut self, kind: u32, number: u32, state: &mut State<D>) -> Step {
         let Some(value) = self.length(Letter::of('R'), state) else { return Ok(()) };
         let incremental = state.is_incremental(self.model) == Some(true);
+        let is_settled = state.is_incremental(self.model).is_some();
+        let value = if is_settled { value } else { f64::NAN };
         let is_diameter = self.offsets_are_diameters();
         let tool = state.offsets.tables_mut().tool_mut(number);
         match kind {

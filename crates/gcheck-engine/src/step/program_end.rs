@@ -247,6 +247,11 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     fn restore_offsets(&mut self, was: &SavedModes, saved: &SavedModes, state: &mut State<D>) {
         let mode = |role: Role| saved.modes.get(role.index()).copied().unwrap_or(ModeSet::ANY);
         if was.length != saved.length {
+            if !was.length.is_known() && saved.length == Position::ZERO {
+                // The length in effect may be none.
+                state.modes.add(Role::Length, &mode(Role::Length));
+                return self.lose_length(state);
+            }
             state.modes.put(Role::Length, mode(Role::Length));
             // What it saves is whether there is a length, not which: `G43` brings that of the tool in the spindle.
             if saved.length == Position::ZERO {

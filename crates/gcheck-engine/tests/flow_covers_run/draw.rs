@@ -50,10 +50,10 @@ pub(crate) fn draw(told: &Machine, text: &str, random: &mut Random) -> Machine {
         }
         machine.guesses.touch = Some(random.one_of(&[0.0, 0.25, 0.5, 1.0]));
     }
-    if told.start.is_none() && !random.once_in(4) {
+    if told.start.is_none() {
         machine.start = Some(point(random));
     }
-    if told.offsets.is_empty() && !random.once_in(4) {
+    if told.offsets.is_empty() {
         for number in 1..=6 {
             machine.offsets.insert(number, WorkOffset { origin: point(random), rotation: 0.0 });
         }

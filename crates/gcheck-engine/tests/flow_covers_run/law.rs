@@ -7,10 +7,10 @@ use std::fmt::Write as _;
 
 use gcheck_controls::Control;
 use gcheck_engine::{
-    Abstract, AbstractValue, At, Concrete, Ending, Event, Fault, FlowCx, FlowObserver, FlowResult, Lattice, Library, Look,
+    Abstract, At, Concrete, Ending, Event, Fault, FlowCx, FlowObserver, FlowResult, Lattice, Library, Look,
     Machine, Model, Observer, Options, Origin, Program, Reach, RunResult, State, Stopped, Task, flow, run,
 };
-use gcheck_program::{Dialect, Loaded};
+use gcheck_program::{BlockFlags, Dialect, Loaded};
 
 use crate::draw::{Random, draw};
 
@@ -171,8 +171,7 @@ impl Observer<Concrete> for Follower<'_> {
         if self.result.reach(at) == Reach::Never {
             return self.lacks(at, "visited, and said to be unreachable".to_owned());
         }
-        // A value that the run does not know is some number: whether it might be nothing, the run cannot say.
-        let lifted = state.lift(&AbstractValue::any_number());
+        let lifted = state.as_covered();
         let states = self.shown.states.get(&at).map(Vec::as_slice).unwrap_or_default();
         let cursor = self.cursors.entry(at).or_default();
         let (before, from) = states.split_at((*cursor).min(states.len()));
@@ -183,7 +182,7 @@ impl Observer<Concrete> for Follower<'_> {
                 self.lacks(at, why.unwrap_or_else(|| "never shown".to_owned()));
             }
         }
-        self.last.insert(at, lifted);
+        self.last.insert(at, state.as_abstract());
     }
 
     fn event(&mut self, origin: Origin, _: &State<Concrete>, event: &Event) {
@@ -246,10 +245,11 @@ pub(crate) fn check(case: &Case<'_>, runs: u32, random: &mut Random) -> Result<C
             let ran = run(&program, &model, &machine, *options, case.fuel, &mut follower);
             let mut look = Look::new(&program, &model, &machine);
             if follower.gap.is_none() {
-                finish(&mut follower, &ran, &mut look, case);
+                finish(&mut follower, &ran, &mut look);
             }
             if let Some(gap) = follower.gap {
-                return Err(listing(case, &gap, &machine, *options));
+                let faults: Vec<_> = shown.faults.iter().map(|(at, faults)| (at.file, at.block, faults)).collect();
+                return Err(listing(case, &gap, &machine, *options) + &format!("faults {faults:?}\n"));
             }
             counts.add(Counts { runs: 1, ..follower.counts });
         }
@@ -258,7 +258,7 @@ pub(crate) fn check(case: &Case<'_>, runs: u32, random: &mut Random) -> Result<C
 }
 
 /// How the run stopped must be seen, and no block may be missed that every path comes to.
-fn finish(follower: &mut Follower<'_>, ran: &RunResult, look: &mut Look<'_, '_>, case: &Case<'_>) {
+fn finish(follower: &mut Follower<'_>, ran: &RunResult, look: &mut Look<'_, '_>) {
     let at = ran.origin.at;
     match &ran.stopped {
         Stopped::Ended(ending) => {
@@ -266,13 +266,13 @@ fn finish(follower: &mut Follower<'_>, ran: &RunResult, look: &mut Look<'_, '_>,
             if !follower.shown.endings.get(&at).is_some_and(|endings| endings.contains(ending)) {
                 follower.lacks(at, format!("ends, and no end was shown: {ending:?}"));
             }
-            let blocks = look.program().file(0).map_or(0, |file| file.loaded.outline().blocks());
-            for block in 0..blocks {
+            let Some(file) = look.program().file(0) else { return };
+            for block in 0..file.loaded.outline().blocks() {
                 let at = At { file: 0, block };
-                // A block that is skipped is come to, though not executed; so are those after a tape's end.
-                let is_executed = case.text.lines().nth(block as usize).is_none_or(|line| {
-                    !line.contains(['/', '%']) && !line.trim().is_empty()
-                });
+                // A block that is skipped is come to, though not executed; so is the end of the tape.
+                let silent = BlockFlags::BLOCK_DELETE | BlockFlags::TAPE_MARK;
+                let place = file.loaded.place(block, look.program().dialect());
+                let is_executed = place.is_some_and(|place| !place.block().flags.intersects(silent));
                 if follower.result.reach(at) == Reach::Always && !follower.visited.contains(&at) && is_executed {
                     follower.lacks(at, "said to be on every path, and not visited".to_owned());
                 }
