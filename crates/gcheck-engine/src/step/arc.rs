@@ -146,13 +146,19 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             to = to.with_xyz([Mm::UNKNOWN; 3]);
             self.emit(state, Event::Unfollowed);
         }
+        let turns = if counter_clockwise { 1 } else { -1 };
+        let (_, turns) = self.arc_of_axes(plane, (Mm::UNKNOWN, Mm::UNKNOWN), turns, state);
+        if state.transform.frame().is_unknown() {
+            // A mirror turns it round.
+            self.emit(state, Event::Unfollowed);
+        }
         let event = ArcMove {
             plane,
             from: *state.actual(),
             programmed: *target,
             to,
             centre: (Mm::UNKNOWN, Mm::UNKNOWN),
-            turns: if counter_clockwise { 1 } else { -1 },
+            turns,
             sweep: f64::NAN,
             expanded: false,
         };

@@ -18,7 +18,7 @@ use crate::lattice::{Flat, Lattice, Perhaps};
 use crate::model::Role;
 use crate::observer::Observer;
 use crate::origin::Origin;
-use crate::position::Position;
+use crate::position::{Axis, Position};
 use crate::state::{Compensation, Course, ModeSet, Programmed, State, ToolData};
 use crate::value::Domain;
 
@@ -200,14 +200,19 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let Some(number) = D::known(state.d()) else { return Ok((f64::NAN, 0)) };
         let tables = state.tables();
         let is_loaded = D::known(state.tool()) == Some(number) && !self.words.has(Letter::of('D'));
-        if tables.is_complete() && is_loaded {
+        let zero_is_loaded = self.model.semantics().tools.zero_is_loaded;
+        if is_loaded && if number == 0.0 { zero_is_loaded } else { tables.is_complete() } {
             let tool = state.tool.loaded.data;
             return Ok(self.oriented(tool.size().0 / 2.0, &tool, state));
         }
         if number == 0.0 {
             // Where left out means the tool in the spindle, so does zero.
-            let tool = D::known(state.tool()).filter(|_| self.model.semantics().tools.zero_is_loaded);
-            let Some(tool) = tool.filter(|tool| *tool > 0.0) else { return Ok((0.0, 0)) };
+            let tool = D::known(state.tool());
+            if zero_is_loaded && tool.is_none() {
+                return Ok((f64::NAN, 0));
+            }
+            let tool = tool.filter(|tool| zero_is_loaded && *tool > 0.0);
+            let Some(tool) = tool else { return Ok((0.0, 0)) };
             if tables.is_complete() {
                 let tool = state.tool.loaded.data;
                 return Ok(self.oriented(tool.diameter.0 / 2.0, &tool, state));
@@ -256,6 +261,19 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     pub(crate) fn compensation_off(&mut self, state: &mut State<D>) -> Step {
         self.end_cutter_along_vectors(state);
         let Some(mut compensation) = state.compensation.take_followed() else {
+            if !state.compensation.on.is_no() && self.refuses_incomplete() {
+                // The programmed point becomes that of the path beside it, which is not followed.
+                let plane = state.plane(self.model);
+                for axis in [Axis::X, Axis::Y, Axis::Z] {
+                    let stays = plane.is_some_and(|plane| {
+                        let [_, _, normal] = plane.to_local([Axis::X, Axis::Y, Axis::Z]);
+                        axis == normal
+                    });
+                    if !stays {
+                        state.points.position.set(axis, f64::NAN);
+                    }
+                }
+            }
             state.compensation.leave_unknown();
             return Ok(());
         };

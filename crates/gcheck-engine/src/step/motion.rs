@@ -226,6 +226,18 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             self.polar_target(&mut target, state)?;
         } else if state.effect(Role::Polar, self.model) == Some(Effect::PolarOn) {
             self.polar_words(&mut target, state);
+        } else if state.may_be(Role::Polar, Effect::PolarOn, self.model) {
+            let mut named = [Axis::X, Axis::Y, Axis::Z].into_iter();
+            if named.any(|axis| self.words.has(axis.letter())) {
+                // A coordinate, or a radius or an angle; of the axis that stays in a plane only the plane knows.
+                let stays = |axis: Axis| {
+                    let plane = state.plane(self.model).map(plane_axes);
+                    plane.is_some_and(|([_, _, normal], _)| normal == axis)
+                };
+                for axis in [Axis::X, Axis::Y, Axis::Z].into_iter().filter(|axis| !stays(*axis)) {
+                    target.set(axis, f64::NAN);
+                }
+            }
         }
         Ok(target)
     }

@@ -298,7 +298,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     }
 
     /// Of an entry of which nothing is known but its size, too: only along Z on mills.
-    fn with_known_axes(&self, mut length: Position, state: &State<D>) -> Position {
+    pub(super) fn with_known_axes(&self, mut length: Position, state: &State<D>) -> Position {
         let unknown = self.unknown_length(state);
         for axis in Axis::ALL {
             if length.raw(axis).is_nan() && !unknown.raw(axis).is_nan() {

@@ -147,7 +147,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 let (start, end) = (from.raw(axis), state.position().raw(axis));
                 state.points.position.set(axis, end - (end - start) * distance / length);
             }
-            state.points.actual = self.axes_of(state.position(), state);
+            let mut stands = self.axes_of(state.position(), state);
+            self.keep_unnamed(&mut stands, state);
+            state.points.actual = stands;
         }
     }
 

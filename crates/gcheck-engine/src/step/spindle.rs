@@ -261,7 +261,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         match number {
             Some(0) => {}
             Some(number) => {
-                let data = state.tables().tool(number).copied().unwrap_or(unknown);
+                let mut data = state.tables().tool(number).copied().unwrap_or(unknown);
+                data.offset = self.with_known_axes(data.offset, state);
                 state.tool.loaded = Loaded { data, entry: Self::entry_of(number, state) };
             }
             // It may be no tool.

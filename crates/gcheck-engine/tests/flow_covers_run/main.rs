@@ -18,6 +18,8 @@ mod draw;
 mod generator;
 mod law;
 mod material;
+#[cfg(feature = "forgetful")]
+mod mutations;
 mod programs;
 
 use std::collections::BTreeMap;
@@ -27,6 +29,16 @@ use gcheck_engine::{Machine, NoLibrary};
 use crate::draw::Random;
 use crate::generator::{Style, Writer};
 use crate::law::{Case, Counts, check};
+
+/// Controls and the styles of their random programs.
+const GENERATED: [(&str, Style); 6] = [
+    ("fanuc-mill", Style::Macro),
+    ("haas-mill", Style::Local),
+    ("haas-mill", Style::FiveAxis),
+    ("linuxcnc", Style::OWords),
+    ("fanuc-lathe", Style::Lathe),
+    ("haas-lathe", Style::Lathe),
+];
 
 /// Random programs of a control, the same in every test run. Of those that fail in the same way, the one that is left of the
 /// shortest is shown.

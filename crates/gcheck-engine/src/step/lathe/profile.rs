@@ -242,6 +242,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let start = *state.position();
         let mut block = blocks.first;
         let mut left = MOST_BLOCKS;
+        let mut refused = None;
         while (blocks.first..=blocks.last).contains(&block) {
             left = left.checked_sub(1).ok_or(Fault::Profile)?;
             match self.step(At { file: blocks.file, block }, state) {
@@ -253,6 +254,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                     self.emit(state, Event::Unfollowed);
                     break;
                 }
+                Outcome::Fault(fault) if self.lenient => {
+                    refused.get_or_insert((fault, self.origin));
+                    block += 1;
+                }
                 // The fault is that block's.
                 Outcome::Fault(fault) => return Err(fault),
             }
@@ -262,7 +267,14 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         self.pending = pending;
         self.flow = None;
         self.machine_coordinates = false;
-        self.travel(TravelKind::Rapid, start, true, state)
+        self.travel(TravelKind::Rapid, start, true, state)?;
+        match refused {
+            None => Ok(()),
+            Some((fault, block)) => {
+                self.origin = block;
+                Err(fault)
+            }
+        }
     }
 
     /// A profile that runs profiles may come back to itself.
