@@ -720,6 +720,7 @@ impl<O: FlowObserver> Flow<'_, '_, '_, '_, O> {
                 }
                 return over;
             }
+            self.executor.tell_held_back(state);
             head.state = joined.clone();
             *state = joined;
             return Turn::On;
@@ -934,7 +935,13 @@ impl<O: FlowObserver> Flow<'_, '_, '_, '_, O> {
             }
             match self.step(at, &mut state) {
                 Outcome::Next => at = at.next(),
-                Outcome::Jump(_) | Outcome::Fork(_) => return,
+                Outcome::Jump(_) => return self.executor.tell_held_back(&state),
+                Outcome::Fork(ways) => {
+                    if let Some((_, state)) = ways.first() {
+                        self.executor.tell_held_back(state);
+                    }
+                    return;
+                }
                 Outcome::End(ending) => {
                     self.executor.end(&state, ending);
                     return;
@@ -946,7 +953,7 @@ impl<O: FlowObserver> Flow<'_, '_, '_, '_, O> {
             }
             self.follow_calls(&state);
             if met.contains_key(&Key::on(Rc::clone(&self.path), at, &state)) {
-                return;
+                return self.executor.tell_held_back(&state);
             }
         }
     }

@@ -92,7 +92,8 @@ fn variables<D: Domain>(model: &Model<'_>, machine: &Machine) -> Variables<D> {
     let kept = |(number, value): (&u32, &f64)| (model.semantics().kept_as(*number), *value);
     let mut variables = Variables::new(unwritten, machine.variables.iter().map(kept));
     for (number, value) in machine.guesses.variables.iter().map(kept) {
-        if !variables.is_written(number) {
+        // The control's own are guessed where they are read.
+        if !variables.is_written(number) && model.system_variable(number).is_none() {
             variables.narrow(number, D::assumed(D::number(value)));
         }
     }

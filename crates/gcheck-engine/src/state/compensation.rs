@@ -132,7 +132,8 @@ impl Compensation {
         let moves = |a: &Programmed, b: &Programmed| {
             a.origin == b.origin && a.target.covers(&b.target) && a.end.covers(&b.end)
         };
-        let events = |(a, event): &(Origin, Event), (b, inner): &(Origin, Event)| a == b && event.covers(inner);
+        let events =
+            |(a, event): &(Origin, Event), (b, inner): &(Origin, Event)| a == b && event.covers(inner);
         *plane == inner.plane
             && at.covers(&inner.at)
             && compensator.goes_on_as(&inner.compensator, moves, events)

@@ -314,6 +314,15 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         }
     }
 
+    /// Paths meet: what one of them holds back is given out no more, and is told to be moves that are not followed.
+    pub(crate) fn tell_held_back(&mut self, state: &State<D>) {
+        if let Perhaps::Yes(Course::Followed(compensation)) = &state.compensation.on {
+            for held in compensation.compensator.held_back() {
+                self.observer.event(held.origin, state, &Event::Unfollowed);
+            }
+        }
+    }
+
     /// The program ends, or something needs every move given out.
     pub(crate) fn flush_compensation(&mut self, state: &mut State<D>) -> Step {
         let Some(mut compensation) = state.compensation.take_followed() else { return Ok(()) };

@@ -517,7 +517,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let mut strokes = std::mem::take(&mut self.stroke_buffer);
         strokes.clear();
         let mut result = hole(effect, facts, from, rules, &mut |stroke| strokes.push(stroke));
-        let is_known = from.iter().chain([&facts.initial, &facts.at.0, &facts.at.1]).all(|length| length.is_known());
+        let is_known =
+            from.iter().chain([&facts.initial, &facts.at.0, &facts.at.1]).all(|length| length.is_known());
         if !is_known {
             // Where it begins decides whether it rises first.
             self.emit(state, Event::Unfollowed);
@@ -596,7 +597,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         }
         if matches!(
             effect,
-            Effect::CycleBoreStop | Effect::CycleBackBore | Effect::CycleBoreManual | Effect::CycleBoreDwellManual
+            Effect::CycleBoreStop
+                | Effect::CycleBackBore
+                | Effect::CycleBoreManual
+                | Effect::CycleBoreDwellManual
         ) {
             state.spindle.way = Flat::Unknown;
         }

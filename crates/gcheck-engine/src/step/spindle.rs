@@ -8,7 +8,7 @@ use gcheck_geometry::Seconds;
 use super::{Count, Executor, Step};
 use crate::event::{Coolant, Event, FeedMode, Spindle};
 use crate::fault::Fault;
-use crate::lattice::{Lattice, Flat, Perhaps};
+use crate::lattice::{Flat, Lattice, Perhaps};
 use crate::model::Role;
 use crate::observer::Observer;
 use crate::position::{Axis, Position};

@@ -39,7 +39,12 @@ const COORDINATES: [f64; 6] = [0.0, 10.0, -25.5, 3.0, 100.0, 0.0];
 /// The machine as one run finds it: what is told, and the rest drawn.
 pub(crate) fn draw(told: &Machine, text: &str, random: &mut Random) -> Machine {
     let mut machine = told.clone();
-    if !told.fresh {
+    if told.fresh {
+        // Common variables hold nothing; the control's own may hold anything.
+        for number in numbers(text).0.into_iter().filter(|number| *number >= 1_000) {
+            machine.guesses.variables.insert(number, random.one_of(&VALUES));
+        }
+    } else {
         machine.fresh = random.once_in(3);
         // A word with nothing for its value is taken as given, so what is written as a word has a value.
         let (numbers, in_words) = numbers(text);
@@ -74,7 +79,8 @@ fn numbers(text: &str) -> (BTreeSet<u32>, bool) {
     for (at, _) in text.match_indices('#') {
         let before = text[..at].trim_end_matches(['[', '-', ' ', '+']);
         in_words |= before.ends_with(|c: char| c.is_ascii_alphabetic());
-        let digits: String = text[at + 1..].chars().skip_while(|c| *c == '[').take_while(char::is_ascii_digit).collect();
+        let digits: String =
+            text[at + 1..].chars().skip_while(|c| *c == '[').take_while(char::is_ascii_digit).collect();
         numbers.extend(digits.parse::<u32>().ok().filter(|number| *number >= 100));
     }
     (numbers, in_words)

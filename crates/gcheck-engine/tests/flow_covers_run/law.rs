@@ -51,7 +51,18 @@ pub(crate) struct Counts {
 
 impl Counts {
     pub(crate) fn add(&mut self, other: Self) {
-        let Self { programs, left_out, runs, ended, states, moves, others, unfollowed, faults, faults_by_value } = other;
+        let Self {
+            programs,
+            left_out,
+            runs,
+            ended,
+            states,
+            moves,
+            others,
+            unfollowed,
+            faults,
+            faults_by_value,
+        } = other;
         self.programs += programs;
         self.left_out += left_out;
         self.runs += runs;
@@ -200,7 +211,8 @@ impl Observer<Concrete> for Follower<'_> {
         if events.contains(&Event::Unfollowed) {
             self.counts.unfollowed += 1;
         } else {
-            let like: Vec<_> = events.iter().filter(|outer| is_move(outer) == is_move(event)).take(4).collect();
+            let like: Vec<_> =
+                events.iter().filter(|outer| is_move(outer) == is_move(event)).take(4).collect();
             self.lacks(origin.at, format!("not shown: {event:?}\nshown: {like:#?}"));
         }
     }
@@ -218,11 +230,8 @@ pub(crate) fn check(case: &Case<'_>, runs: u32, random: &mut Random) -> Result<C
     let loaded = Loaded::new(case.text, &dialect, |_, _, _| ());
     let program = Program::new(loaded, &dialect, case.library);
     let mut counts = Counts { programs: 1, ..Counts::default() };
-    let skips: &[Options] = if case.text.contains('/') {
-        &[Options::NONE, Options::SKIP_ALL]
-    } else {
-        &[Options::NONE]
-    };
+    let skips: &[Options] =
+        if case.text.contains('/') { &[Options::NONE, Options::SKIP_ALL] } else { &[Options::NONE] };
     for options in skips {
         let mut shown = Shown::default();
         let task = Task { options: *options, ..Task::all_paths(case.work) };
@@ -248,7 +257,8 @@ pub(crate) fn check(case: &Case<'_>, runs: u32, random: &mut Random) -> Result<C
                 finish(&mut follower, &ran, &mut look);
             }
             if let Some(gap) = follower.gap {
-                let faults: Vec<_> = shown.faults.iter().map(|(at, faults)| (at.file, at.block, faults)).collect();
+                let faults: Vec<_> =
+                    shown.faults.iter().map(|(at, faults)| (at.file, at.block, faults)).collect();
                 return Err(listing(case, &gap, &machine, *options) + &format!("faults {faults:?}\n"));
             }
             counts.add(Counts { runs: 1, ..follower.counts });
@@ -273,7 +283,10 @@ fn finish(follower: &mut Follower<'_>, ran: &RunResult, look: &mut Look<'_, '_>)
                 let silent = BlockFlags::BLOCK_DELETE | BlockFlags::TAPE_MARK;
                 let place = file.loaded.place(block, look.program().dialect());
                 let is_executed = place.is_some_and(|place| !place.block().flags.intersects(silent));
-                if follower.result.reach(at) == Reach::Always && !follower.visited.contains(&at) && is_executed {
+                if follower.result.reach(at) == Reach::Always
+                    && !follower.visited.contains(&at)
+                    && is_executed
+                {
                     follower.lacks(at, "said to be on every path, and not visited".to_owned());
                 }
             }
@@ -321,8 +334,8 @@ fn control(name: &str) -> &'static Control {
         static CONTROLS: std::cell::RefCell<HashMap<String, &'static Control>> = std::cell::RefCell::default();
     }
     CONTROLS.with_borrow_mut(|controls| {
-        *controls.entry(name.to_owned()).or_insert_with(|| {
-            Box::leak(Box::new(gcheck_controls::load(name).unwrap()))
-        })
+        *controls
+            .entry(name.to_owned())
+            .or_insert_with(|| Box::leak(Box::new(gcheck_controls::load(name).unwrap())))
     })
 }

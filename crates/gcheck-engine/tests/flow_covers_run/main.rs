@@ -61,7 +61,8 @@ fn law(control: &'static str, style: Style, cases: u64) {
     let shown: Vec<String> = failures
         .iter()
         .map(|(kind, (text, seed))| {
-            let fails = |less: &str| generated_law(control, less, *seed).is_err_and(|why| kind_of(&why) == *kind);
+            let fails =
+                |less: &str| generated_law(control, less, *seed).is_err_and(|why| kind_of(&why) == *kind);
             let text = shortened(text, fails);
             generated_law(control, &text, *seed).err().unwrap_or_default()
         })
@@ -109,8 +110,12 @@ fn shortened(text: &str, fails: impl Fn(&str) -> bool) -> String {
         let mut at = 0;
         while at < lines.len() {
             let is_left = |number: &usize| !(at..at + count).contains(number);
-            let less: Vec<&str> =
-                lines.iter().enumerate().filter(|(number, _)| is_left(number)).map(|(_, line)| *line).collect();
+            let less: Vec<&str> = lines
+                .iter()
+                .enumerate()
+                .filter(|(number, _)| is_left(number))
+                .map(|(_, line)| *line)
+                .collect();
             if fails(&(less.join("\n") + "\n")) {
                 lines = less;
             } else {
@@ -170,7 +175,13 @@ fn all(programs: &[material::Source], runs: u32, fuel: u64) -> Counts {
     let count: usize = failures.values().map(Vec::len).sum();
     let shortest = |all: &Vec<String>| all.iter().min_by_key(|why| why.len()).cloned();
     let shown: Vec<String> = failures.values().filter_map(shortest).collect();
-    assert!(shown.is_empty(), "{count} of {} programs, {} kinds:\n{}", programs.len(), shown.len(), shown.join("\n"));
+    assert!(
+        shown.is_empty(),
+        "{count} of {} programs, {} kinds:\n{}",
+        programs.len(),
+        shown.len(),
+        shown.join("\n")
+    );
     counts
 }
 

@@ -30,7 +30,8 @@ enum Trial {
 
 fn trials() -> Vec<Trial> {
     let own = (0..sources().len()).map(Trial::Own);
-    let random = (0..EACH).flat_map(|seed| GENERATED.map(|(control, style)| Trial::Random(control, style, seed)));
+    let random =
+        (0..EACH).flat_map(|seed| GENERATED.map(|(control, style)| Trial::Random(control, style, seed)));
     own.chain(random).collect()
 }
 
@@ -103,11 +104,17 @@ fn the_law_fails_for_every_field_that_is_forgotten() {
         fs::write(path, page(&found, &counts)).unwrap();
     }
     let is_excused = |field: &Field| UNSEEN.iter().any(|(owner, name, _)| (*owner, *name) == *field);
-    let green: Vec<Field> =
-        found.iter().filter(|(field, red)| red.is_none() && !is_excused(field)).map(|(field, _)| *field).collect();
+    let green: Vec<Field> = found
+        .iter()
+        .filter(|(field, red)| red.is_none() && !is_excused(field))
+        .map(|(field, _)| *field)
+        .collect();
     assert!(green.is_empty(), "forgotten, and no program shows it: {green:?}");
-    let excused: Vec<Field> =
-        found.iter().filter(|(field, red)| red.is_some() && is_excused(field)).map(|(field, _)| *field).collect();
+    let excused: Vec<Field> = found
+        .iter()
+        .filter(|(field, red)| red.is_some() && is_excused(field))
+        .map(|(field, _)| *field)
+        .collect();
     assert!(excused.is_empty(), "excused, though a program shows it: {excused:?}");
 }
 
