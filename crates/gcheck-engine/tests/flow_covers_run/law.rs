@@ -138,6 +138,8 @@ fn is_announcement(event: &Event) -> bool {
             | Event::Shift(_)
             | Event::LengthOffset(_)
             | Event::Rotation(_)
+            | Event::Spindle(_)
+            | Event::Coolant { .. }
             | Event::Unfollowed
     )
 }
@@ -251,7 +253,8 @@ pub(crate) fn check(case: &Case<'_>, runs: u32, random: &mut Random) -> Result<C
                 counts: Counts::default(),
                 gap: None,
             };
-            let ran = run(&program, &model, &machine, *options, case.fuel, &mut follower);
+            let options = Options { optional_stop: random.once_in(2), ..*options };
+            let ran = run(&program, &model, &machine, options, case.fuel, &mut follower);
             let mut look = Look::new(&program, &model, &machine);
             if follower.gap.is_none() {
                 finish(&mut follower, &ran, &mut look);
@@ -259,7 +262,7 @@ pub(crate) fn check(case: &Case<'_>, runs: u32, random: &mut Random) -> Result<C
             if let Some(gap) = follower.gap {
                 let faults: Vec<_> =
                     shown.faults.iter().map(|(at, faults)| (at.file, at.block, faults)).collect();
-                return Err(listing(case, &gap, &machine, *options) + &format!("faults {faults:?}\n"));
+                return Err(listing(case, &gap, &machine, options) + &format!("faults {faults:?}\n"));
             }
             counts.add(Counts { runs: 1, ..follower.counts });
         }
