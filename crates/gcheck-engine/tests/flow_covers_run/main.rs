@@ -31,6 +31,7 @@ use crate::generator::{Style, Writer};
 use crate::law::{Case, Counts, check};
 
 /// Controls and the styles of their random programs.
+#[cfg(feature = "forgetful")]
 const GENERATED: [(&str, Style); 6] = [
     ("fanuc-mill", Style::Macro),
     ("haas-mill", Style::Local),
@@ -189,6 +190,23 @@ fn all(programs: &[material::Source], runs: u32, fuel: u64) -> Counts {
 fn the_flow_covers_the_runs_of_programs_written_for_each_field() {
     let counts = all(&programs::sources(), 24, 3_000);
     eprintln!("programs for each field: {counts:?}");
+}
+
+/// A gap that is closed goes from the list.
+#[test]
+fn the_gaps_that_are_known_are_there() {
+    for (name, control, text) in programs::GAPS {
+        let case = Case {
+            name,
+            control,
+            text,
+            machine: &Machine::default(),
+            library: &NoLibrary,
+            work: 40_000,
+            fuel: 3_000,
+        };
+        assert!(check(&case, 64, &mut Random::new(1)).is_err(), "{name}: the law holds");
+    }
 }
 
 #[test]

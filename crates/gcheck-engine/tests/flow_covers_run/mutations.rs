@@ -144,7 +144,7 @@ fn page(found: &[(Field, Option<String>)], counts: &Counts) -> String {
             Some(program) => ("red", program.clone()),
             None => {
                 let excuse = UNSEEN.iter().find(|(a, b, _)| (a, b) == (owner, name));
-                ("green", excuse.map_or("nothing", |(_, _, reason)| reason).to_owned())
+                ("green", excuse.map_or("no program", |(_, _, reason)| reason).to_owned())
             }
         };
         let _ = writeln!(page, "| `{owner}.{name}` | {colour} | {by} |");

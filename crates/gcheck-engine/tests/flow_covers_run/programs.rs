@@ -7,7 +7,19 @@ use gcheck_geometry::Mm;
 
 use crate::material::{Folder, Source};
 
+/// Programs for which the law does not hold yet: name, control, text.
+pub(crate) const GAPS: &[(&str, &str, &str)] = &[
+    // After a call of a number that nobody knows the analysis knows hardly anything, but it does not follow the programs of the
+    // file that the number may be.
+    (
+        "a call of a computed number",
+        MILL,
+        "O1\nG21 G90\nM98 P[1000+#100]\nM30\nO1001\nG0 X1.\nM99\nO1002\nG0 X2.\nM99\nO1003\nG0 X3.\nM99\n",
+    ),
+];
+
 /// Fields that no program shows when they are forgotten, with the reason.
+#[cfg(feature = "forgetful")]
 pub(crate) const UNSEEN: &[(&str, &str, &str)] = &[
     ("BarCommand", "part", BY_ONE_BLOCK),
     ("BarCommand", "initial", BY_ONE_BLOCK),
@@ -22,7 +34,9 @@ pub(crate) const UNSEEN: &[(&str, &str, &str)] = &[
     ("Calls", "elsewhere", "states with other calls under way are kept apart and never become one"),
 ];
 
-const BY_ONE_BLOCK: &str = "the block that calls the cutoff program makes it, and before that block all paths are one";
+#[cfg(feature = "forgetful")]
+const BY_ONE_BLOCK: &str =
+    "the block that calls the cutoff program makes it, and before that block all paths are one";
 
 /// Two ways of a condition on `#100`.
 struct Ways {
@@ -209,43 +223,87 @@ const OTHERS: &[(&str, &str, &str)] = &[
 
 /// Programs for which the law did not hold: name, control, text. Nothing is told of their machine.
 const FOUND: &[(&str, &str, &str)] = &[
-    (
-        "a condition writes no variable",
-        MILL,
-        "IF [#110 NE #0] GOTO 10\n#111=1.\nN10\n#111=#110\nM30\n",
-    ),
+    ("a condition writes no variable", MILL, "IF [#110 NE #0] GOTO 10\n#111=1.\nN10\n#111=#110\nM30\n"),
     ("a jump without its label leaves both ways", MILL, "IF [#112 EQ 0.] GOTO 50\nF[0.]\nG1 X#112\nM30\n"),
     ("a tool that nobody listed has an entry", MILL, "T1 M6\nG10 L10 P1 R5.\nG43 H1\nM30\n"),
     ("a computed tool may be none", MILL, "T2 M6\nT[#110] M6\nG0 X1.\nM30\n"),
     ("a tool by an unknown number", CNC, "T1 M6\nM61 Q#110\nG10 L1 P1 Z5\nG43\nG0 Z1\nM2\n"),
     ("H0 is the tool in the spindle", CNC, "T1 M6\nG43 H0\nG0 Z0\nT0 M6\nG43 H0\nM2\n"),
-    ("a length that is brought back", CNC, "T1 M6\nG43.1 Z3\nM70\nG49\nM72\nG43 H2\nM70\nT2 M6\nG43\nM72\nG0 X4\nM2\n"),
+    (
+        "a length that is brought back",
+        CNC,
+        "T1 M6\nG43.1 Z3\nM70\nG49\nM72\nG43 H2\nM70\nT2 M6\nG43\nM72\nG0 X4\nM2\n",
+    ),
     ("offsets that are brought back", CNC, "G0 X1 F100\nM70\nT1 M6 G43 G55 G1 X2 G98\nM72\nX3\nM2\n"),
-    ("a path that was left on an unknown size", MILL, "F100.\nG41 D1 G1 X10.\nY10.\nG40\nG0 Z10.\nG0 X1.\nM30\n"),
+    (
+        "a path that was left on an unknown size",
+        MILL,
+        "F100.\nG41 D1 G1 X10.\nY10.\nG40\nG0 Z10.\nG0 X1.\nM30\n",
+    ),
     ("G40 moves the programmed point", CNC, "F100\nG0 X5 Y5\nG41 D1\nG1 X10\nG1 Y20\nG40\nG0 Z1\nM2\n"),
-    ("a move that is held back where paths meet", MILL, "F100.\nG41 D1\nIF [#100 GT 0.] GOTO 10\nG1 X10.\nG1 Y10.\nN10\nG1 X20.\nG40 G0 X0.\nM30\n"),
+    (
+        "a move that is held back where paths meet",
+        MILL,
+        "F100.\nG41 D1\nIF [#100 GT 0.] GOTO 10\nG1 X10.\nG1 Y10.\nN10\nG1 X20.\nG40 G0 X0.\nM30\n",
+    ),
     ("a pass under compensation", LATHE, "M3 S500\nG0 X50. Z2.\nG42\nG94 X20. Z-2. F.1\nM30\n"),
-    ("a series of passes from an unknown place", LATHE, "M3 S500 F.2\nG0 X[#110] Z5.\nG90 X40. Z-10.\nG0 X[#111]\nG90 X30.\nM30\n"),
+    (
+        "a series of passes from an unknown place",
+        LATHE,
+        "M3 S500 F.2\nG0 X[#110] Z5.\nG90 X40. Z-10.\nG0 X[#111]\nG90 X30.\nM30\n",
+    ),
     (
         "words of passes behind an unknown mode",
         LATHE,
         "M3 S500 F.2\nG0 X50. Z5.\nIF [#110 GT 0.] GOTO 10\nG90 X40. Z-10.\nN10\nX30.\nG0 X60.\nM30\n",
     ),
-    ("a profile with a refused block", LATHE, "M3 S500 F.2\nG0 X50. Z5.\nG71 U1. R.5\nG71 P100 Q200 F.3\nN100 G0 X20.\nG2 X30. Z-5. R.5\nX31. Z-7.\nN200 X50.\nG70 P100 Q200 S300 F.1\nM30\n"),
-    ("a modal call after a move that is reported", LATHE, "G66 P1002 A1.\nG2 X1. F100.\nG67\nM30\nO1002\nG4 P1.\nM99\n"),
-    ("a touch that must come on a machine just switched on", HAAS, "G0 Z5.\nG31 Z-1. F10. M79\nIF [#105 GT 0.] THEN #111=1.\nM30\n"),
-    ("a touch beside the point", HAAS, "G0 X1. Z5.\nG1 G141 D1 X1. I0. J.6 K.8 F100.\nG31 Z[#102] F20.\nM30\n"),
+    (
+        "a profile with a refused block",
+        LATHE,
+        "M3 S500 F.2\nG0 X50. Z5.\nG71 U1. R.5\nG71 P100 Q200 F.3\nN100 G0 X20.\nG2 X30. Z-5. R.5\nX31. Z-7.\nN200 X50.\nG70 P100 Q200 S300 F.1\nM30\n",
+    ),
+    (
+        "a modal call after a move that is reported",
+        LATHE,
+        "G66 P1002 A1.\nG2 X1. F100.\nG67\nM30\nO1002\nG4 P1.\nM99\n",
+    ),
+    (
+        "a touch that must come on a machine just switched on",
+        HAAS,
+        "G0 Z5.\nG31 Z-1. F10. M79\nIF [#105 GT 0.] THEN #111=1.\nM30\n",
+    ),
+    (
+        "a touch beside the point",
+        HAAS,
+        "G0 X1. Z5.\nG1 G141 D1 X1. I0. J.6 K.8 F100.\nG31 Z[#102] F20.\nM30\n",
+    ),
     ("the override of a tap that is not followed", HAAS, "S500 M3\nG74 Z-3. R1. F100.\nG80\nM30\n"),
     ("pecks from an unknown height", CNC, "G83 X2 Z-3 R1 Q1 F100\nX10 Y1\nG80\nM2\n"),
-    ("a pattern behind an unknown cycle", HAAS, "S500 M3 F100.\nIF [#105 GT 0.] GOTO 10\nG84 Z-2. R1.\nN10\nG70 I5. J0. L4\nG80\nM30\n"),
+    (
+        "a pattern behind an unknown cycle",
+        HAAS,
+        "S500 M3 F100.\nIF [#105 GT 0.] GOTO 10\nG84 Z-2. R1.\nN10\nG70 I5. J0. L4\nG80\nM30\n",
+    ),
     ("a number that is kept or read", HAAS, "IF [#102 GT 0.] GOTO 10\nG44 H1\nN10\nH2\nG0 X1.\nM30\n"),
     ("a shift that replaces an unknown one", MILL, "G52 X#110\nG1 X2.5 F100.\nG52 X#111 Y2.\nG0 Z1.\nM30\n"),
     ("P0 of an offset is the shift", HAAS, "G10 L2 P#100 X1.\nG0 X1.\nM30\n"),
-    ("an offset that may be an increment", MILL, "IF [#100 GT 0.] GOTO 10\nG91\nN10\nG10 L2 P1 X5.\nG10 L10 P1 R5.\nG10 L11 P1 R1.\nG10 L12 P1 R1.\nM30\n"),
+    (
+        "an offset that may be an increment",
+        MILL,
+        "IF [#100 GT 0.] GOTO 10\nG91\nN10\nG10 L2 P1 X5.\nG10 L10 P1 R5.\nG10 L11 P1 R1.\nG10 L12 P1 R1.\nM30\n",
+    ),
     ("an arc under a mirror", MILL, "G51.1 X0.\nG2 X2. Y0. R5. F100.\nM30\n"),
-    ("an arc in an unknown plane", MILL, "IF [#100 GT 0.] GOTO 10\nG19\nN10\nG3 X0. Y2. Z1. I1. J1. F100.\nM30\n"),
+    (
+        "an arc in an unknown plane",
+        MILL,
+        "IF [#100 GT 0.] GOTO 10\nG19\nN10\nG3 X0. Y2. Z1. I1. J1. F100.\nM30\n",
+    ),
     ("a coordinate or an angle", MILL, "G0 X5. Y5.\nIF [#100 GT 0.] GOTO 10\nG16\nN10\nG0 X3. Y30.\nM30\n"),
-    ("a mode of motion or a cycle", MILL, "F100.\nIF [#100 GT 0.] GOTO 10\nG81 Z-2. R1.\nN10\nX2.5\nG80\nM30\n"),
+    (
+        "a mode of motion or a cycle",
+        MILL,
+        "F100.\nIF [#100 GT 0.] GOTO 10\nG81 Z-2. R1.\nN10\nX2.5\nG80\nM30\n",
+    ),
     ("an optional stop that stops", HAAS, "S500 M3 M8\nM1\nG0 X1.\nM30\n"),
 ];
 
@@ -301,7 +359,13 @@ pub(crate) fn sources() -> Vec<Source> {
         machine: Machine::default(),
         ..source(false)((*name, *control, (*text).to_owned()))
     });
-    written.chain(saved).chain(others).map(source(false)).chain(fresh.map(source(true))).chain(found).collect()
+    written
+        .chain(saved)
+        .chain(others)
+        .map(source(false))
+        .chain(fresh.map(source(true)))
+        .chain(found)
+        .collect()
 }
 
 fn text(ways: &Ways) -> String {
