@@ -93,7 +93,7 @@ const ALL: &[Ways] = &[
     ways("size in the table", MILL, ["", "G10 L12 P1 R5.", "G10 L12 P1 R6.", "G0 X1."]),
     ways("wear in the table", MILL, ["", "G10 L11 P1 R.1", "G10 L11 P1 R.2", "G0 X1."]),
     ways("tool that is new in the table", MILL, ["", "G10 L10 P40 R5.", "", "G0 X1."]),
-    ways("tool of unknown number in the table", CNC, ["", "G10 L1 P#<_vmajor> R1", "", "G0 X1"]),
+    ways("tool of unknown number in the table", HAAS, ["", "", "G10 L10 P#[3000+1] R1.", "G0 X1."]),
     // Tool, feed, spindle.
     ways("tool", MILL, ["", "T1 M6", "T2 M6", "G0 X1."]),
     ways("tool of a lathe", LATHE, ["", "T0101", "T0202", "G0 X1."]),
