@@ -295,25 +295,25 @@ impl<D: Domain> ModalCalls<D> {
     }
 
     fn either(&self, other: &Self, merge: impl Fn(&D::Value, &D::Value) -> D::Value) -> Self {
-        let mut calls = self.calls.clone();
+        let mut all = self.calls.clone();
         for call in &other.calls {
-            match calls.iter_mut().find(|own| own.is_alike(call)) {
+            match all.iter_mut().find(|own| own.is_alike(call)) {
                 Some(own) => {
                     if !Rc::ptr_eq(own, call) {
                         *own = Rc::new(own.either(call, &merge));
                     }
                 }
-                None => calls.push(Rc::clone(call)),
+                None => all.push(Rc::clone(call)),
             }
         }
-        calls.sort_by(|a, b| a.key().cmp(b.key()));
-        let any = self.other.0 || other.other.0 || calls.len() > Self::MOST;
+        all.sort_by(|a, b| a.key().cmp(b.key()));
+        let any = self.other.0 || other.other.0 || all.len() > Self::MOST;
         if any {
-            calls.clear();
+            all.clear();
         }
         Self {
             off: merged!(ModalCalls.off, self.off, self.off.join(&other.off)),
-            calls: merged!(ModalCalls.calls, self.calls, calls),
+            calls: merged!(ModalCalls.calls, self.calls, all),
             other: merged!(ModalCalls.other, self.other, May(any)),
         }
     }
@@ -498,7 +498,7 @@ impl<D: Domain> Calls<D> {
 
     fn either(&self, other: &Self, widen: bool) -> Self {
         let alike = self.are_alike(other);
-        let frames = if alike {
+        let all = if alike {
             self.frames.iter().zip(&other.frames).map(|(a, b)| a.either(b, widen)).collect()
         } else {
             let last = self.frames.last().zip(other.frames.last());
@@ -506,7 +506,7 @@ impl<D: Domain> Calls<D> {
         };
         let (modal, with) = (&self.modal, &other.modal);
         Self {
-            frames: merged!(Calls.frames, self.frames, frames),
+            frames: merged!(Calls.frames, self.frames, all),
             elsewhere: merged!(Calls.elsewhere, self.elsewhere, May(!alike)),
             modal: merged!(Calls.modal, *modal, if widen { modal.widen(with) } else { modal.join(with) }),
         }

@@ -242,27 +242,27 @@ impl Lattice for Tables {
         let (offsets, tools) = self.numbers(other);
         let row = |number: u32| {
             let (a, b) = (self.line(number), other.line(number));
-            let listed = a.listed.join(&b.listed);
+            let either = a.listed.join(&b.listed);
             // A tool that is there on one path only may be anything.
-            let tool = if listed == Truth::Unknown { ToolData::ANYTHING } else { a.tool.join(&b.tool) };
+            let joined = if either == Truth::Unknown { ToolData::ANYTHING } else { a.tool.join(&b.tool) };
             Row {
                 number,
-                tool: merged!(Row.tool, a.tool, tool),
-                listed: merged!(Row.listed, a.listed, listed),
+                tool: merged!(Row.tool, a.tool, joined),
+                listed: merged!(Row.listed, a.listed, either),
             }
         };
-        let offsets: Vec<(u16, WorkOffset)> =
+        let all_offsets: Vec<(u16, WorkOffset)> =
             offsets.into_iter().map(|n| (n, self.offset(n).join(&other.offset(n)))).collect();
-        let tools: Vec<Row> = tools.into_iter().map(row).collect();
+        let all_tools: Vec<Row> = tools.into_iter().map(row).collect();
         Self {
-            offsets: merged!(Tables.offsets, self.offsets, offsets),
+            offsets: merged!(Tables.offsets, self.offsets, all_offsets),
             other_offset: merged!(
                 Tables.other_offset,
                 self.other_offset,
                 other_offset.join(&other.other_offset)
             ),
             references: merged!(Tables.references, self.references, references.join(&other.references)),
-            tools: merged!(Tables.tools, self.tools, tools),
+            tools: merged!(Tables.tools, self.tools, all_tools),
             partial: merged!(Tables.partial, self.partial, partial.join(&other.partial)),
         }
     }

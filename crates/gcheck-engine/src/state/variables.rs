@@ -90,13 +90,13 @@ impl<D: Domain> Named<D> {
             };
             (*name, Variable { value, written })
         };
-        let values = if Rc::ptr_eq(values, &other.values) && *unsure == other.unsure {
+        let both = if Rc::ptr_eq(values, &other.values) && *unsure == other.unsure {
             Rc::clone(values)
         } else {
             Rc::new(keys(values, &other.values).map(join).collect())
         };
         Self {
-            values: merged!(Named.values, self.values, values),
+            values: merged!(Named.values, self.values, both),
             unsure: merged!(Named.unsure, *unsure, unsure.join(&other.unsure)),
         }
     }

@@ -97,10 +97,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             state.points.position.set(axis, touched.raw(axis));
             state.probe.point.set(axis, stands.raw(axis));
         }
-        let touches = self.has_code(Effect::AlarmIfNotTouched);
+        let must_touch = self.has_code(Effect::AlarmIfNotTouched);
         let guess = self.machine.guesses.touch.map(|share| share < 1.0);
         let result = guess.map_or_else(D::unknown, |guess| D::assumed(D::number(f64::from(u8::from(guess)))));
-        state.probe.result = if touches { Truth::True } else { D::truth(&result) };
+        state.probe.result = if must_touch { Truth::True } else { D::truth(&result) };
         Ok(())
     }
 
