@@ -550,7 +550,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let incremental = state.is_incremental(self.model) == Some(true) && !self.refuses_incomplete();
         if !here && state.is_incremental(self.model).is_none() && !self.refuses_incomplete() {
             // Whether the words are added is not known.
-            named.iter_mut().for_each(|(_, value)| *value = f64::NAN);
+            for (_, value) in &mut named {
+                *value = f64::NAN;
+            }
         }
         let rotation = self.words.number(Letter::of('R')).filter(|_| !here);
         let old = state.tables().offset(system);
