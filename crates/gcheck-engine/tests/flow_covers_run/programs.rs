@@ -166,7 +166,7 @@ const ALL: &[Ways] = &[
     ways("mirror", MILL, ["", "G51.1 X0.", "G51.1 X5.", "G0 X1."]),
     ways("cylinder", HAAS, ["", "G107 Y0. A0. Q50.", "G107 Y0. A0. Q60.", "G1 Y1. F100."]),
     ways(
-        "where the wrapped axis stands",
+        "place of the wrapped axis",
         HAAS,
         ["", "G0 Y1. A10.\nG107 Y0. A0. Q50.", "G0 Y2. A20.\nG107 Y0. A0. Q50.", "G1 Y1. F100."],
     ),
