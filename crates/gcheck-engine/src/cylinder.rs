@@ -8,7 +8,7 @@
 use gcheck_geometry::Mm;
 use gcheck_geometry::cylinder::angle_of_unrolled;
 
-use crate::lattice::{Joinable, Lattice};
+use crate::lattice::{Joinable, Lattice, merged};
 use crate::position::{Axis, Position};
 
 /// A linear axis wrapped around a cylinder on a rotary axis. NaN is unknown.
@@ -49,9 +49,9 @@ impl Joinable for Cylinder {
         ((linear, rotary) == (other.linear, other.rotary)).then(|| Self {
             linear,
             rotary,
-            diameter: diameter.join(&other.diameter),
-            stands: stands.join(&other.stands),
-            zero: zero.join(&other.zero),
+            diameter: merged!(Cylinder.diameter, diameter, diameter.join(&other.diameter)),
+            stands: merged!(Cylinder.stands, stands, stands.join(&other.stands)),
+            zero: merged!(Cylinder.zero, zero, zero.join(&other.zero)),
         })
     }
 

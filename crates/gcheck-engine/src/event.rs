@@ -10,6 +10,7 @@ use gcheck_controls::CodeIx;
 use gcheck_geometry::{Mm, Plane, Seconds};
 
 use crate::cylinder::Cylinder;
+use crate::lattice::Lattice;
 use crate::position::Position;
 
 /// One event. Its block, and the state in which it happens, come beside it ([`crate::Observer`]).
@@ -21,6 +22,9 @@ pub enum Event {
     Arc(ArcMove),
     /// A curve that is neither: its parameters as the program gives them, and its end.
     Curve(Curve),
+    /// The block may move the axes, and do what belongs to that, in a way that is not followed: its mode, its words or where it
+    /// begins is not known. Moves that are shown beside it are not all that it may make.
+    Unfollowed,
     /// Standing still.
     Dwell(Seconds),
 
@@ -189,6 +193,50 @@ pub enum Event {
     PalletChange,
     /// The program ends.
     End,
+}
+
+impl Event {
+    /// Does this stand for another event? A number that nobody knows stands for every number.
+    pub fn covers(&self, inner: &Self) -> bool {
+        match (self, inner) {
+            (Self::Travel(a), Self::Travel(b)) => {
+                a.kind == b.kind
+                    && a.from.covers(&b.from)
+                    && a.programmed.covers(&b.programmed)
+                    && a.to.covers(&b.to)
+            }
+            (Self::Arc(a), Self::Arc(b)) => {
+                (a.plane, a.turns) == (b.plane, b.turns)
+                    && a.from.covers(&b.from)
+                    && a.programmed.covers(&b.programmed)
+                    && a.to.covers(&b.to)
+                    && a.centre.0.covers(&b.centre.0)
+                    && a.centre.1.covers(&b.centre.1)
+                    && a.sweep.covers(&b.sweep)
+            }
+            (Self::Curve(a), Self::Curve(b)) => {
+                (a.points == b.points || a.points == 0) && a.from.covers(&b.from) && a.to.covers(&b.to)
+            }
+            (
+                Self::RigidTap { from, to, scale },
+                Self::RigidTap { from: inner_from, to: inner_to, scale: inner_scale },
+            ) => from.covers(inner_from) && to.covers(inner_to) && scale.covers(inner_scale),
+            (Self::Dwell(a), Self::Dwell(b)) => a.0.covers(&b.0),
+            (Self::FeedRate(a), Self::FeedRate(b))
+            | (Self::SpindleSpeed(a), Self::SpindleSpeed(b))
+            | (Self::Rotation(a), Self::Rotation(b)) => a.covers(b),
+            (Self::SpindleMode(a), Self::SpindleMode(b)) => a.covers(b),
+            (Self::Shift(a), Self::Shift(b)) | (Self::LengthOffset(a), Self::LengthOffset(b)) => a.covers(b),
+            (
+                Self::WorkOffset { number, offset, rotation },
+                Self::WorkOffset { number: inner_number, offset: inner_offset, rotation: inner_rotation },
+            ) => number == inner_number && offset.covers(inner_offset) && rotation.covers(inner_rotation),
+            (Self::SelectTool(a), Self::SelectTool(b))
+            | (Self::ToolChange(a), Self::ToolChange(b))
+            | (Self::SetToolNumber(a), Self::SetToolNumber(b)) => a.is_none() || a == b,
+            _ => self == inner,
+        }
+    }
 }
 
 /// The lengths that a bar is fed by; NaN unknown.

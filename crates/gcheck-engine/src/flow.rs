@@ -787,6 +787,7 @@ impl<'a, 'p, 'o, 'd, O: FlowObserver> Flow<'a, 'p, 'o, 'd, O> {
                 }
                 return over;
             }
+            self.executor.tell_held_back(state);
             head.state = Rc::new(joined.clone());
             *state = joined;
             return Turn::On;
@@ -1030,7 +1031,13 @@ impl<'a, 'p, 'o, 'd, O: FlowObserver> Flow<'a, 'p, 'o, 'd, O> {
             }
             match self.step(at, &mut state) {
                 Outcome::Next => at = at.next(),
-                Outcome::Jump(_) | Outcome::Fork(_) => return,
+                Outcome::Jump(_) => return self.executor.tell_held_back(&state),
+                Outcome::Fork(ways) => {
+                    if let Some((_, state)) = ways.first() {
+                        self.executor.tell_held_back(state);
+                    }
+                    return;
+                }
                 Outcome::End(ending) => {
                     self.executor.end(&state, ending);
                     return;
@@ -1042,7 +1049,7 @@ impl<'a, 'p, 'o, 'd, O: FlowObserver> Flow<'a, 'p, 'o, 'd, O> {
             }
             self.follow_calls(&state);
             if met.contains_key(&Key::on(Rc::clone(&self.path), at, &state)) {
-                return;
+                return self.executor.tell_held_back(&state);
             }
         }
     }

@@ -31,6 +31,13 @@ pub trait Lattice {
 
     /// Equal, numbers bit by bit: the same values have the same future.
     fn same(&self, other: &Self) -> bool;
+
+    /// Where this does not stand for `inner`, for people: the names of the fields that lead there, with both values. Empty for
+    /// a value without fields, and where it does stand for it.
+    fn uncovered(&self, inner: &Self) -> String {
+        let _ = inner;
+        String::new()
+    }
 }
 
 /// Defines a structure whose lattice is that of its fields, each by itself, with `==` as [`Lattice::same`].
@@ -51,11 +58,19 @@ macro_rules! lattice {
 
         impl $(<$domain: $crate::value::Domain>)? $crate::lattice::Lattice for $name $(<$domain>)? {
             fn join(&self, other: &Self) -> Self {
-                Self { $( $field: $crate::lattice::Lattice::join(&self.$field, &other.$field), )* }
+                Self { $( $field: $crate::lattice::merged!(
+                    $name.$field,
+                    self.$field,
+                    $crate::lattice::Lattice::join(&self.$field, &other.$field)
+                ), )* }
             }
 
             fn widen(&self, newer: &Self) -> Self {
-                Self { $( $field: $crate::lattice::Lattice::widen(&self.$field, &newer.$field), )* }
+                Self { $( $field: $crate::lattice::merged!(
+                    $name.$field,
+                    self.$field,
+                    $crate::lattice::Lattice::widen(&self.$field, &newer.$field)
+                ), )* }
             }
 
             fn covers(&self, inner: &Self) -> bool {
@@ -65,6 +80,18 @@ macro_rules! lattice {
             fn same(&self, other: &Self) -> bool {
                 $( $crate::lattice::Lattice::same(&self.$field, &other.$field) )&&*
             }
+
+            fn uncovered(&self, inner: &Self) -> String {
+                let mut parts = Vec::new();
+                $( if !$crate::lattice::Lattice::covers(&self.$field, &inner.$field) {
+                    let mut part = $crate::lattice::Lattice::uncovered(&self.$field, &inner.$field);
+                    if part.is_empty() {
+                        part = format!(": {:?} / {:?}", self.$field, inner.$field);
+                    }
+                    parts.push(format!(".{}{part}", stringify!($field)));
+                } )*
+                parts.join("\n")
+            }
         }
 
         impl $(<$domain: $crate::value::Domain>)? PartialEq for $name $(<$domain>)? {
@@ -72,9 +99,37 @@ macro_rules! lattice {
                 $crate::lattice::Lattice::same(self, other)
             }
         }
+
+        #[cfg(feature = "forgetful")]
+        impl $(<$domain: $crate::value::Domain>)? $name $(<$domain>)? {
+            /// The type with the names of its fields.
+            pub(crate) const FIELDS: (&str, &[&str]) = (stringify!($name), &[$( stringify!($field) ),*]);
+        }
     };
 }
 pub(crate) use lattice;
+
+/// A field of two values that become one.
+///
+/// A build with the feature `forgetful`, which tests alone make, can be told to leave a field as the older value has it: then
+/// law 4 must fail (`cargo xtask mutations`).
+#[cfg(not(feature = "forgetful"))]
+macro_rules! merged {
+    ($owner:ident . $field:ident, $own:expr, $merged:expr) => {
+        $merged
+    };
+}
+#[cfg(feature = "forgetful")]
+macro_rules! merged {
+    ($owner:ident . $field:ident, $own:expr, $merged:expr) => {
+        if $crate::forgetful::forgets(stringify!($owner), stringify!($field)) {
+            ::core::clone::Clone::clone(&$own)
+        } else {
+            $merged
+        }
+    };
+}
+pub(crate) use merged;
 
 /// A number; NaN stands for any.
 impl Lattice for f64 {
@@ -200,6 +255,10 @@ impl<T: Lattice> Lattice for Rc<T> {
 
     fn same(&self, other: &Self) -> bool {
         Self::ptr_eq(self, other) || (**self).same(other)
+    }
+
+    fn uncovered(&self, inner: &Self) -> String {
+        (**self).uncovered(inner)
     }
 }
 

@@ -9,6 +9,8 @@ mod cylinder;
 mod event;
 mod fault;
 mod flow;
+#[cfg(feature = "forgetful")]
+pub mod forgetful;
 mod lattice;
 mod machine;
 mod model;
@@ -33,13 +35,15 @@ pub use flow::{
 };
 pub use gcheck_controls::{CornerRules, Halt, MotionRules, RapidRules, SpindleWaitRules, TapRules};
 pub use lattice::Lattice;
-pub use machine::{BarFeeder, Dynamics, Machine, Tool, WorkOffset};
+pub use machine::{BarFeeder, Dynamics, Guesses, Machine, Tool, WorkOffset};
 pub use model::{Model, Role};
 pub use observer::{Nobody, Observer};
 pub use origin::{At, Origin};
 pub use position::{Axis, Position};
 pub use program::{Library, LookedUp, NoLibrary, Program, ProgramFile, SourceFile};
 pub use run::{Alarm, MOST_ALARMS, RunResult, Stopped, run};
+#[cfg(feature = "forgetful")]
+pub use state::state_fields;
 pub use state::{
     Bar, CycleWords, Diameters, Frame, FrameKind, ModeSet, NameId, State, Tables, ToolData, ToolShift, Touch,
     Transform, Variables, Way, Ways, Wrapped,

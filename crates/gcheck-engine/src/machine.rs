@@ -55,6 +55,18 @@ pub struct Machine {
     pub bar: BarFeeder,
     /// How quickly axes and spindle change their speed, and what else takes time.
     pub dynamics: Dynamics,
+    /// What a run takes for what nobody told.
+    pub guesses: Guesses,
+}
+
+/// What nobody told of a machine and its work, as one run may find it. An analysis of all paths takes none of it: there
+/// anything may be.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Guesses {
+    /// What numbered variables hold that no program wrote: common ones, and those of the control whose value is not followed.
+    pub variables: BTreeMap<u32, f64>,
+    /// The share of their way, 0 to 1, after which probing moves touch; 1 touches nothing.
+    pub touch: Option<f64>,
 }
 
 /// What of a machine decides how long a program takes. What is not given is not known.

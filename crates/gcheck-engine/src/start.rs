@@ -90,7 +90,14 @@ fn unset<D: Domain>(model: &Model<'_>) -> D::Value {
 fn variables<D: Domain>(model: &Model<'_>, machine: &Machine) -> Variables<D> {
     let unwritten = if machine.fresh { unset::<D>(model) } else { D::unknown() };
     let kept = |(number, value): (&u32, &f64)| (model.semantics().kept_as(*number), *value);
-    Variables::new(unwritten, machine.variables.iter().map(kept))
+    let mut variables = Variables::new(unwritten, machine.variables.iter().map(kept));
+    for (number, value) in machine.guesses.variables.iter().map(kept) {
+        // The control's own are guessed where they are read.
+        if !variables.is_written(number) && model.system_variable(number).is_none() {
+            variables.narrow(number, D::assumed(D::number(value)));
+        }
+    }
+    variables
 }
 
 fn locals<D: Domain>(model: &Model<'_>, machine: &Machine) -> Locals<D> {

@@ -12,6 +12,8 @@ mod compensation;
 mod curve;
 mod cycle;
 mod feed;
+#[cfg(feature = "forgetful")]
+mod fields;
 #[cfg(test)]
 mod laws;
 mod mapping;
@@ -41,6 +43,8 @@ pub(crate) use compensation::{Compensation, CompensationState, Course, Programme
 pub(crate) use curve::ControlPoints;
 pub use cycle::CycleWords;
 pub(crate) use feed::Feed;
+#[cfg(feature = "forgetful")]
+pub use fields::state_fields;
 pub(crate) use mapping::Mapping;
 pub use mapping::{Diameters, Wrapped};
 pub use mode_set::ModeSet;
@@ -487,10 +491,22 @@ impl State<Concrete> {
     /// The state of a run as one of the analysis: what the run does not know may be anything.
     #[must_use]
     pub fn as_abstract(&self) -> State<Abstract> {
+        self.lift(&AbstractValue::Unknown)
+    }
+
+    /// What the analysis must cover of a state of a run: a variable that the run does not know contradicts nothing.
+    #[must_use]
+    pub fn as_covered(&self) -> State<Abstract> {
+        self.lift(&AbstractValue::none())
+    }
+
+    /// The state of a run as one of the analysis, with `unknown` for every variable that the run does not know. Nothing differs
+    /// between the two but their values: a field that is not named here does not compile.
+    fn lift(&self, unknown: &AbstractValue) -> State<Abstract> {
         let change = &|value: &ConcreteValue| match value {
             ConcreteValue::Vacant => AbstractValue::Vacant,
             ConcreteValue::Number(number) => AbstractValue::Number(*number),
-            ConcreteValue::Unknown => AbstractValue::Unknown,
+            ConcreteValue::Unknown => unknown.clone(),
         };
         let Self {
             points,

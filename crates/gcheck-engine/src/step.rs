@@ -990,7 +990,12 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
             return Ok(state.variables.get(number));
         }
         if let Some((variable, row, column)) = system {
-            let value = self.read_system(variable, row, column, state)?;
+            let mut value = self.read_system(variable, row, column, state)?;
+            if variable.holds == SystemValue::Unknown
+                && let Some(guess) = self.machine.guesses.variables.get(&number)
+            {
+                value = D::assumed(D::number(*guess));
+            }
             // The program may have written over it.
             return Ok(if written == Truth::Unknown {
                 value.join(&state.variables.get(number))
@@ -1002,7 +1007,10 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
             return Ok(D::number(value));
         }
         let value = state.variables.get(number);
-        self.tell_vacant(number, &value, state);
+        // A condition that asks whether it is set makes the reading a decision.
+        if !state.variables.is_narrowed(number) {
+            self.tell_vacant(number, &value, state);
+        }
         Ok(value)
     }
 
@@ -1180,6 +1188,7 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
         condition: ExprIx,
         state: &mut State<D>,
     ) -> Step<Outcome<D>> {
+        let undecided = state.clone();
         let mut without = state.clone();
         self.assume(table, condition, false, &mut without);
         self.assume(table, condition, true, state);
@@ -1194,7 +1203,16 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
             match &statement.kind {
                 StatementKind::Goto { target: Some(target) } => {
                     let value = self.evaluate(place, table, table.expr(*target), state)?;
-                    match self.jump_to_label(&value, state)? {
+                    let jump = match self.jump_to_label(&value, state) {
+                        Ok(jump) => jump,
+                        Err(fault) => {
+                            // A jump without its target falls through: whatever the condition is, the next block comes.
+                            self.refuse(fault)?;
+                            *state = undecided;
+                            return Ok(Outcome::Next);
+                        }
+                    };
+                    match jump {
                         Outcome::Jump(to) => fork.push((to, state.clone())),
                         Outcome::Fork(more) => fork.extend(more),
                         other => return Ok(other),
@@ -1249,7 +1267,7 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
                     && let Some(narrowed) = D::assume_vacant(&value, vacant)
                     && self.model.system_variable(*variable).is_none()
                 {
-                    self.write_plain(*variable, narrowed, state);
+                    self.narrow(*variable, narrowed, state);
                 }
                 return;
             }
@@ -1269,8 +1287,20 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
         if let Some(narrowed) = D::assume(&value, op, bound, self.model.semantics()) {
             let is_system = self.model.system_variable(variable).is_some();
             if !is_system {
-                self.write_plain(variable, narrowed, state);
+                self.narrow(variable, narrowed, state);
             }
+        }
+    }
+
+    /// A variable holds this on the way taken. Nobody has written it for that.
+    fn narrow(&self, variable: u32, value: D::Value, state: &mut State<D>) {
+        let semantics = self.model.semantics();
+        let number = semantics.kept_as(variable);
+        let [first, last] = semantics.locals;
+        if !(first..=last).contains(&number) {
+            state.variables.narrow(number, value);
+        } else if let Some(locals) = state.calls.locals_mut() {
+            locals.set(number, value);
         }
     }
 

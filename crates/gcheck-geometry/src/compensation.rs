@@ -543,6 +543,42 @@ impl<M: Clone, E> Compensator<M, E> {
         if self.queue.is_empty() { self.state.controlled } else { self.state.shifted(self.state.planned) }
     }
 
+    /// Whether this path goes on as another does, where `moves` and `events` tell which of what is held back are alike. Levels
+    /// along the normal are those of the moves.
+    pub fn goes_on_as(
+        &self,
+        other: &Self,
+        moves: impl Fn(&M, &M) -> bool,
+        events: impl Fn(&E, &E) -> bool,
+    ) -> bool {
+        let alike = |a: &Queued<M, E>, b: &Queued<M, E>| match (a, b) {
+            (Queued::Move(a), Queued::Move(b)) => {
+                a.end.planar() == b.end.planar()
+                    && (&a.course, &a.programmed) == (&b.course, &b.programmed)
+                    && moves(&a.payload, &b.payload)
+            }
+            (Queued::Event(a), Queued::Event(b)) => events(a, b),
+            (Queued::Move(_), Queued::Event(_)) | (Queued::Event(_), Queued::Move(_)) => false,
+        };
+        self.config == other.config
+            && self.state.without_levels() == other.state.without_levels()
+            && self.queue.len() == other.queue.len()
+            && self.queue.iter().zip(&other.queue).all(|(a, b)| alike(a, b))
+            && match (&self.last_payload, &other.last_payload) {
+                (None, None) => true,
+                (Some(a), Some(b)) => moves(a, b),
+                _ => false,
+            }
+    }
+
+    /// What comes with the moves that are held back.
+    pub fn held_back(&self) -> impl Iterator<Item = &M> {
+        self.queue.iter().filter_map(|queued| match queued {
+            Queued::Move(waiting) => Some(&waiting.payload),
+            Queued::Event(_) => None,
+        })
+    }
+
     /// Whether something is held back.
     pub fn is_waiting(&self) -> bool {
         !self.queue.is_empty()
@@ -650,6 +686,18 @@ impl<M: Clone, E> Compensator<M, E> {
 }
 
 impl State {
+    /// The same with every point at level 0.
+    fn without_levels(&self) -> Self {
+        let flat = |point: PathPoint| PathPoint { normal: 0.0, ..point };
+        Self {
+            programmed: flat(self.programmed),
+            planned: flat(self.planned),
+            centre: flat(self.centre),
+            controlled: flat(self.controlled),
+            ..self.clone()
+        }
+    }
+
     fn at(position: PathPoint) -> Self {
         Self {
             phase: Phase::Off,

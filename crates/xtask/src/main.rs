@@ -20,6 +20,7 @@ mod dist;
 mod generate;
 #[cfg(feature = "product")]
 mod measure;
+mod mutations;
 mod new_rule;
 #[cfg(feature = "product")]
 mod precision;
@@ -47,6 +48,8 @@ usage: cargo xtask COMMAND
   corpus                      check the programs of $GCHECK_CORPUS and write docs/dev/corpus.md
   precision                   draw a sample of those findings, match the verdicts of tests/precision.tsv, write
                               docs/precision.md
+  mutations                   forget each field of the machine's state once where paths meet, and write docs/dev/law-4.md with
+                              the program for which law 4 then fails
   timing [--again] [PROGRAM…] run programs in the motion planner that $GCHECK_TIMING starts, and write
                               fixtures/timing/measured.tsv
   blind seal FILE… | look draw-N | look mistakes-N | page
@@ -67,6 +70,7 @@ fn main() -> ExitCode {
         "blind" => blind::run(rest),
         "tidy" => tidy::run(rest),
         "gen" => generate::run(rest),
+        "mutations" => mutations::run(rest),
         "new-rule" => new_rule::run(rest),
         "test" => test::run(rest),
         #[cfg(feature = "product")]

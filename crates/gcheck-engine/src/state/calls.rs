@@ -8,7 +8,7 @@ use std::rc::Rc;
 use super::bar::BarCommand;
 use super::saved::SavedModes;
 use super::variables::Locals;
-use crate::lattice::{Flat, Lattice, May, Perhaps, discrete, lattice};
+use crate::lattice::{Flat, Lattice, May, Perhaps, discrete, lattice, merged};
 use crate::origin::At;
 use crate::value::{Domain, Truth};
 
@@ -170,11 +170,13 @@ impl<D: Domain> Frame<D> {
     fn either(&self, other: &Self, widen: bool) -> Self {
         let (kind, entry, caller) = self.place().min(other.place());
         let Self { kind: _, entry: _, caller: _, kept, locals } = self;
-        let (kept, locals) = if widen {
-            (kept.widen(&other.kept), locals.widen(&other.locals))
-        } else {
-            (kept.join(&other.kept), locals.join(&other.locals))
-        };
+        let kept =
+            merged!(Frame.kept, *kept, if widen { kept.widen(&other.kept) } else { kept.join(&other.kept) });
+        let locals = merged!(
+            Frame.locals,
+            *locals,
+            if widen { locals.widen(&other.locals) } else { locals.join(&other.locals) }
+        );
         Self { kind, entry, caller, kept, locals }
     }
 
@@ -227,7 +229,11 @@ impl<D: Domain> ModalCall<D> {
         let values = self.arguments.iter().zip(&other.arguments);
         Self {
             target: self.target,
-            arguments: values.map(|((number, a), (_, b))| (*number, merge(a, b))).collect(),
+            arguments: merged!(
+                ModalCall.arguments,
+                self.arguments,
+                values.map(|((number, a), (_, b))| (*number, merge(a, b))).collect()
+            ),
             repeats: self.repeats,
         }
     }
@@ -289,23 +295,27 @@ impl<D: Domain> ModalCalls<D> {
     }
 
     fn either(&self, other: &Self, merge: impl Fn(&D::Value, &D::Value) -> D::Value) -> Self {
-        let mut calls = self.calls.clone();
+        let mut all = self.calls.clone();
         for call in &other.calls {
-            match calls.iter_mut().find(|own| own.is_alike(call)) {
+            match all.iter_mut().find(|own| own.is_alike(call)) {
                 Some(own) => {
                     if !Rc::ptr_eq(own, call) {
                         *own = Rc::new(own.either(call, &merge));
                     }
                 }
-                None => calls.push(Rc::clone(call)),
+                None => all.push(Rc::clone(call)),
             }
         }
-        calls.sort_by(|a, b| a.key().cmp(b.key()));
-        let any = self.other.0 || other.other.0 || calls.len() > Self::MOST;
+        all.sort_by(|a, b| a.key().cmp(b.key()));
+        let any = self.other.0 || other.other.0 || all.len() > Self::MOST;
         if any {
-            calls.clear();
+            all.clear();
         }
-        Self { off: self.off.join(&other.off), calls, other: May(any) }
+        Self {
+            off: merged!(ModalCalls.off, self.off, self.off.join(&other.off)),
+            calls: merged!(ModalCalls.calls, self.calls, all),
+            other: merged!(ModalCalls.other, self.other, May(any)),
+        }
     }
 
     fn map<E: Domain>(&self, change: &impl Fn(&D::Value) -> E::Value) -> ModalCalls<E> {
@@ -488,16 +498,17 @@ impl<D: Domain> Calls<D> {
 
     fn either(&self, other: &Self, widen: bool) -> Self {
         let alike = self.are_alike(other);
-        let frames = if alike {
+        let all = if alike {
             self.frames.iter().zip(&other.frames).map(|(a, b)| a.either(b, widen)).collect()
         } else {
             let last = self.frames.last().zip(other.frames.last());
             last.map(|(a, b)| a.either(b, widen)).into_iter().collect()
         };
+        let (modal, with) = (&self.modal, &other.modal);
         Self {
-            frames,
-            elsewhere: May(!alike),
-            modal: if widen { self.modal.widen(&other.modal) } else { self.modal.join(&other.modal) },
+            frames: merged!(Calls.frames, self.frames, all),
+            elsewhere: merged!(Calls.elsewhere, self.elsewhere, May(!alike)),
+            modal: merged!(Calls.modal, *modal, if widen { modal.widen(with) } else { modal.join(with) }),
         }
     }
 }
@@ -525,6 +536,29 @@ impl<D: Domain> Lattice for Calls<D> {
             && self.frames.len() == other.frames.len()
             && self.frames.iter().zip(&other.frames).all(|(a, b)| a.is_same(b))
             && self.modal.same(&other.modal)
+    }
+
+    fn uncovered(&self, inner: &Self) -> String {
+        if !self.modal.covers(&inner.modal) {
+            return format!(".modal: {:?} / {:?}", self.modal, inner.modal);
+        }
+        let places = |frame: &Frame<D>| (frame.caller.file, frame.caller.block);
+        if self.frames.len() != inner.frames.len() {
+            let of = |calls: &Self| calls.frames.iter().map(places).collect::<Vec<_>>();
+            return format!(": called from {:?} / {:?}", of(self), of(inner));
+        }
+        let mut pairs = self.frames.iter().zip(&inner.frames);
+        let gap = pairs.find(|(a, b)| !self.elsewhere.0 && a.place() != b.place() || !a.values_cover(b));
+        gap.map_or_else(String::new, |(a, b)| {
+            format!(
+                ".frame: {:?} / {:?}\n{}\n.locals: {:?} / {:?}",
+                a.place(),
+                b.place(),
+                a.kept.uncovered(&b.kept),
+                a.locals,
+                b.locals
+            )
+        })
     }
 }
 

@@ -19,7 +19,7 @@ lattice! {
         /// It is on.
         pub(crate) on: Perhaps<Course>,
         /// It is switched off, until the move that leaves its path.
-        pub(crate) left: Perhaps<Rc<Compensation>>,
+        pub(crate) left: Perhaps<Course>,
     }
 }
 
@@ -44,6 +44,15 @@ impl CompensationState {
     pub(crate) fn lose_path(&mut self) {
         if matches!(self.on, Perhaps::Yes(_)) {
             self.on = Perhaps::Yes(Course::Unknown);
+        }
+    }
+
+    /// It is switched off on a path that is not followed, or was off.
+    pub(crate) fn leave_unknown(&mut self) {
+        match std::mem::take(&mut self.on) {
+            Perhaps::No => {}
+            Perhaps::Yes(_) => self.left = Perhaps::Yes(Course::Unknown),
+            Perhaps::Unknown => self.left = Perhaps::Unknown,
         }
     }
 
@@ -81,13 +90,17 @@ impl Joinable for Course {
     }
 
     fn stands_for(&self, inner: &Self) -> bool {
-        matches!(self, Self::Unknown) || self.is_same(inner)
+        match (self, inner) {
+            (Self::Unknown, _) => true,
+            (Self::Followed(a), Self::Followed(b)) => Rc::ptr_eq(a, b) || a.stands_for(b),
+            (Self::Followed(_), Self::Unknown) => false,
+        }
     }
 
     fn is_same(&self, other: &Self) -> bool {
         match (self, other) {
             (Self::Unknown, Self::Unknown) => true,
-            (Self::Followed(a), Self::Followed(b)) => a.is_same(b),
+            (Self::Followed(a), Self::Followed(b)) => Rc::ptr_eq(a, b) || a.is_same(b),
             _ => false,
         }
     }
@@ -113,19 +126,22 @@ pub(crate) struct Programmed {
 }
 
 /// What one path holds back says nothing of another.
-impl Joinable for Rc<Compensation> {
-    fn joined(&self, other: &Self, _: bool) -> Option<Self> {
-        self.is_same(other).then(|| Self::clone(self))
-    }
-
+impl Compensation {
     fn stands_for(&self, inner: &Self) -> bool {
-        self.is_same(inner)
+        let Self { compensator, plane, at } = self;
+        let moves = |a: &Programmed, b: &Programmed| {
+            a.origin == b.origin && a.target.covers(&b.target) && a.end.covers(&b.end)
+        };
+        let events =
+            |(a, event): &(Origin, Event), (b, inner): &(Origin, Event)| a == b && event.covers(inner);
+        *plane == inner.plane
+            && at.covers(&inner.at)
+            && compensator.goes_on_as(&inner.compensator, moves, events)
     }
 
     /// An event held back with a number that nobody knows makes two of them differ: that is safe to say.
     fn is_same(&self, other: &Self) -> bool {
-        let Compensation { compensator, plane, at } = &**self;
-        Self::ptr_eq(self, other)
-            || *plane == other.plane && at.same(&other.at) && *compensator == other.compensator
+        let Self { compensator, plane, at } = self;
+        *plane == other.plane && at.same(&other.at) && *compensator == other.compensator
     }
 }

@@ -5,7 +5,7 @@
 
 use gcheck_geometry::Mm;
 
-use crate::lattice::{Flat, Lattice, May, lattice};
+use crate::lattice::{Flat, Lattice, May, lattice, merged};
 use crate::machine::{self, Machine, WorkOffset};
 use crate::position::{Axis, Position};
 use crate::value::Truth;
@@ -242,17 +242,28 @@ impl Lattice for Tables {
         let (offsets, tools) = self.numbers(other);
         let row = |number: u32| {
             let (a, b) = (self.line(number), other.line(number));
-            let listed = a.listed.join(&b.listed);
+            let either = a.listed.join(&b.listed);
             // A tool that is there on one path only may be anything.
-            let tool = if listed == Truth::Unknown { ToolData::ANYTHING } else { a.tool.join(&b.tool) };
-            Row { number, tool, listed }
+            let joined = if either == Truth::Unknown { ToolData::ANYTHING } else { a.tool.join(&b.tool) };
+            Row {
+                number,
+                tool: merged!(Row.tool, a.tool, joined),
+                listed: merged!(Row.listed, a.listed, either),
+            }
         };
+        let all_offsets: Vec<(u16, WorkOffset)> =
+            offsets.into_iter().map(|n| (n, self.offset(n).join(&other.offset(n)))).collect();
+        let all_tools: Vec<Row> = tools.into_iter().map(row).collect();
         Self {
-            offsets: offsets.into_iter().map(|n| (n, self.offset(n).join(&other.offset(n)))).collect(),
-            other_offset: other_offset.join(&other.other_offset),
-            references: references.join(&other.references),
-            tools: tools.into_iter().map(row).collect(),
-            partial: partial.join(&other.partial),
+            offsets: merged!(Tables.offsets, self.offsets, all_offsets),
+            other_offset: merged!(
+                Tables.other_offset,
+                self.other_offset,
+                other_offset.join(&other.other_offset)
+            ),
+            references: merged!(Tables.references, self.references, references.join(&other.references)),
+            tools: merged!(Tables.tools, self.tools, all_tools),
+            partial: merged!(Tables.partial, self.partial, partial.join(&other.partial)),
         }
     }
 
@@ -285,6 +296,23 @@ impl Lattice for Tables {
             && tools.len() == other.tools.len()
             && tools.iter().zip(&other.tools).all(same_tool)
             && partial.same(&other.partial)
+    }
+
+    fn uncovered(&self, inner: &Self) -> String {
+        let (offsets, tools) = self.numbers(inner);
+        let offset = offsets.into_iter().find(|number| !self.offset(*number).covers(&inner.offset(*number)));
+        if let Some(number) = offset {
+            return format!(".offset {number}{}", self.offset(number).uncovered(&inner.offset(number)));
+        }
+        let lines = tools.into_iter().map(|number| (self.line(number), inner.line(number)));
+        let mut gaps = lines.filter(|(a, b)| !a.listed.covers(&b.listed) || !a.tool.covers(&b.tool));
+        match gaps.next() {
+            Some((a, b)) => {
+                let (outer, inner) = (a.listed, b.listed);
+                format!(".tool {}: listed {outer:?} / {inner:?} {}", a.number, a.tool.uncovered(&b.tool))
+            }
+            None => String::new(),
+        }
     }
 }
 

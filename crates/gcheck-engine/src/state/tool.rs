@@ -42,8 +42,11 @@ impl<D: Domain> ToolState<D> {
     pub(crate) fn at_start(fresh: bool, tables: &Tables) -> Self {
         let number = if fresh { D::number(0.0) } else { D::unknown() };
         let data = if fresh { ToolData::NOTHING } else { ToolData::UNKNOWN };
-        // Observed: the first line of the table is that of the spindle.
-        let entry = tables.first_tool().map_or(Perhaps::No, Perhaps::Yes);
+        // Observed: the first line of the table is that of the spindle. Of a table told in part, another line may be the first.
+        let entry = match tables.first_tool() {
+            _ if !tables.is_complete() => Perhaps::Unknown,
+            first => first.map_or(Perhaps::No, Perhaps::Yes),
+        };
         Self {
             number: number.clone(),
             selected: number,

@@ -4,7 +4,7 @@
 
 use gcheck_geometry::{Degrees, Frame, Mm, Plane};
 
-use crate::lattice::{Joinable, Lattice, Perhaps, lattice};
+use crate::lattice::{Joinable, Lattice, Perhaps, lattice, merged};
 
 lattice! {
     /// Transformations between programmed and work coordinates, in the order in which they act. Off by default.
@@ -37,7 +37,8 @@ pub(crate) struct Rotation {
 impl Joinable for Scaling {
     fn joined(&self, other: &Self, _: bool) -> Option<Self> {
         let Self { factors, centre } = *self;
-        factors.same(&other.factors).then(|| Self { factors, centre: centre.join(&other.centre) })
+        let common = || merged!(Scaling.centre, centre, centre.join(&other.centre));
+        factors.same(&other.factors).then(|| Self { factors, centre: common() })
     }
 
     fn stands_for(&self, inner: &Self) -> bool {
@@ -56,7 +57,8 @@ impl Joinable for Rotation {
     fn joined(&self, other: &Self, _: bool) -> Option<Self> {
         let Self { angle, centre, plane } = *self;
         let alike = angle.same(&other.angle) && plane == other.plane;
-        alike.then(|| Self { angle, centre: centre.join(&other.centre), plane })
+        let common = || merged!(Rotation.centre, centre, centre.join(&other.centre));
+        alike.then(|| Self { angle, centre: common(), plane })
     }
 
     fn stands_for(&self, inner: &Self) -> bool {

@@ -8,7 +8,7 @@ use std::rc::Rc;
 
 use rustc_hash::FxHashMap;
 
-use crate::lattice::{Lattice, May};
+use crate::lattice::{Lattice, May, merged};
 use crate::value::{Domain, Truth};
 
 /// A named parameter, as a small number given by the loaded program.
@@ -90,12 +90,15 @@ impl<D: Domain> Named<D> {
             };
             (*name, Variable { value, written })
         };
-        let values = if Rc::ptr_eq(values, &other.values) && *unsure == other.unsure {
+        let both = if Rc::ptr_eq(values, &other.values) && *unsure == other.unsure {
             Rc::clone(values)
         } else {
             Rc::new(keys(values, &other.values).map(join).collect())
         };
-        Self { values, unsure: unsure.join(&other.unsure) }
+        Self {
+            values: merged!(Named.values, self.values, both),
+            unsure: merged!(Named.unsure, *unsure, unsure.join(&other.unsure)),
+        }
     }
 
     fn map<E: Domain>(&self, change: &impl Fn(&D::Value) -> E::Value) -> Named<E> {
@@ -177,13 +180,16 @@ impl<D: Domain> Locals<D> {
     fn either(&self, other: &Self, widen: bool) -> Self {
         let merge = |(a, b): (&D::Value, &D::Value)| if widen { a.widen(b) } else { a.join(b) };
         let Self { numbered, named } = self;
-        let numbered = if Rc::ptr_eq(numbered, &other.numbered) {
+        let both = if Rc::ptr_eq(numbered, &other.numbered) {
             Rc::clone(numbered)
         } else {
             Rc::new(numbered.iter().zip(&*other.numbered).map(merge).collect())
         };
-        let named = if widen { named.widen(&other.named) } else { named.join(&other.named) };
-        Self { numbered, named }
+        let names = if widen { named.widen(&other.named) } else { named.join(&other.named) };
+        Self {
+            numbered: merged!(Locals.numbered, *numbered, both),
+            named: merged!(Locals.named, *named, names),
+        }
     }
 
     fn all_values(&self, other: &Self, holds: impl Fn(&D::Value, &D::Value) -> bool) -> bool {
@@ -228,6 +234,17 @@ impl<D: Domain> Variables<D> {
     pub(crate) fn new(unwritten: D::Value, known: impl Iterator<Item = (u32, f64)>) -> Self {
         let common = known.map(|(number, value)| (number, Variable::written(D::number(value)))).collect();
         Self { common: Rc::new(common), named: Named::new(), unwritten, unsure: May(false) }
+    }
+
+    /// The variable holds this though nobody wrote it for that: a guess, or what a condition leaves of it.
+    pub(crate) fn narrow(&mut self, number: u32, value: D::Value) {
+        let written = self.written(number);
+        Rc::make_mut(&mut self.common).insert(number, Variable { value, written });
+    }
+
+    /// Is more known of a variable that nobody wrote than of others?
+    pub(crate) fn is_narrowed(&self, number: u32) -> bool {
+        self.common.contains_key(&number)
     }
 
     /// A common variable.
@@ -289,7 +306,7 @@ impl<D: Domain> Variables<D> {
     fn either(&self, other: &Self, widen: bool) -> Self {
         let merge = |a: &D::Value, b: &D::Value| if widen { a.widen(b) } else { a.join(b) };
         let Self { common, named, unwritten, unsure } = self;
-        let common = if Rc::ptr_eq(common, &other.common) {
+        let both = if Rc::ptr_eq(common, &other.common) {
             Rc::clone(common)
         } else {
             let joined = keys(common, &other.common).map(|number| {
@@ -299,11 +316,12 @@ impl<D: Domain> Variables<D> {
             });
             Rc::new(joined.collect())
         };
+        let names = if widen { named.widen(&other.named) } else { named.join(&other.named) };
         Self {
-            common,
-            named: if widen { named.widen(&other.named) } else { named.join(&other.named) },
-            unwritten: merge(unwritten, &other.unwritten),
-            unsure: unsure.join(&other.unsure),
+            common: merged!(Variables.common, *common, both),
+            named: merged!(Variables.named, *named, names),
+            unwritten: merged!(Variables.unwritten, *unwritten, merge(unwritten, &other.unwritten)),
+            unsure: merged!(Variables.unsure, *unsure, unsure.join(&other.unsure)),
         }
     }
 }

@@ -11,6 +11,7 @@ use gcheck_geometry::{Mm, Plane};
 use super::{Executor, Step};
 use crate::assumption::Assumption;
 use crate::cycles::{CycleError, Hole, Stroke, hole};
+use crate::event::Event;
 use crate::event::TravelKind;
 use crate::fault::{CycleFault, Fault};
 use crate::observer::Observer;
@@ -98,7 +99,11 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         match result {
             Err(CycleError::Fault(fault)) => Err(Fault::Cycle(fault)),
             Err(CycleError::TooManyStrokes) => Err(Fault::Cycle(CycleFault::Geometry)),
-            Ok(_) | Err(CycleError::Unknown | CycleError::NotThisKind | CycleError::Profile(_)) => Ok(()),
+            Ok(_) => Ok(()),
+            Err(CycleError::Unknown | CycleError::NotThisKind | CycleError::Profile(_)) => {
+                self.emit(state, Event::Unfollowed);
+                Ok(())
+            }
         }
     }
 }

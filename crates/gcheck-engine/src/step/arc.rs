@@ -137,10 +137,20 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     /// The end of an arc whose shape is not known.
     fn unknown_arc(&mut self, counter_clockwise: bool, target: &Position, state: &mut State<D>) -> Step {
+        if state.plane(self.model).is_none() {
+            self.emit(state, Event::Unfollowed);
+        }
         let plane = state.plane(self.model).unwrap_or(Plane::Xy);
         let mut to = self.axes_of(target, state);
         if self.may_run_beside(state) {
             to = to.with_xyz([Mm::UNKNOWN; 3]);
+            self.emit(state, Event::Unfollowed);
+        }
+        let turns = if counter_clockwise { 1 } else { -1 };
+        let (_, turns) = self.arc_of_axes(plane, (Mm::UNKNOWN, Mm::UNKNOWN), turns, state);
+        if state.transform.frame().is_unknown() {
+            // A mirror turns it round.
+            self.emit(state, Event::Unfollowed);
         }
         let event = ArcMove {
             plane,
@@ -148,7 +158,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             programmed: *target,
             to,
             centre: (Mm::UNKNOWN, Mm::UNKNOWN),
-            turns: if counter_clockwise { 1 } else { -1 },
+            turns,
             sweep: f64::NAN,
             expanded: false,
         };

@@ -14,12 +14,12 @@ use super::{Count, Executor, Step};
 use crate::assumption::{Assumption, Unsettled};
 use crate::event::{ArcMove, Event, Travel, TravelKind};
 use crate::fault::{CompensationFault, Fault};
-use crate::lattice::{Flat, Perhaps};
+use crate::lattice::{Flat, Lattice, Perhaps};
 use crate::model::Role;
 use crate::observer::Observer;
 use crate::origin::Origin;
-use crate::position::Position;
-use crate::state::{Compensation, Course, Programmed, State, ToolData};
+use crate::position::{Axis, Position};
+use crate::state::{Compensation, Course, ModeSet, Programmed, State, ToolData};
 use crate::value::Domain;
 
 type Offset = OffsetEvent<Programmed, (Origin, Event)>;
@@ -85,13 +85,13 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let cutter = Cutter::new(side, radius).with_tip(tip(orientation));
         // Switched off and on again without a move between, it goes on from where the tool stands.
         let mut compensation = match std::mem::take(&mut state.compensation.left) {
-            Perhaps::Yes(left) if left.plane == plane => left,
-            Perhaps::Yes(_) | Perhaps::No => Rc::new(Compensation {
+            Perhaps::Yes(Course::Followed(left)) if left.plane == plane => left,
+            Perhaps::Yes(Course::Followed(_)) | Perhaps::No => Rc::new(Compensation {
                 compensator: Compensator::new(config(self.model.semantics())),
                 plane,
                 at: *state.actual(),
             }),
-            Perhaps::Unknown => return Ok(()),
+            Perhaps::Yes(Course::Unknown) | Perhaps::Unknown => return Ok(()),
         };
         // An unknown start or size is no mistake of the program: it is carried as an unknown path.
         let start = planar(&self.transformed(state.position(), state), plane);
@@ -159,8 +159,20 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let Some(value) = self.words.get(letter) else { return Ok(()) };
         self.count(letter)?;
         let mode = state.mode(Role::Length).only();
+        let cancels = self.model.semantics().zero_length_number_cancels;
         if mode.is_some_and(|ix| self.model.effect(ix) == Effect::LengthOff) {
             state.tool.h = value;
+        } else if state.tool_shift.is_on() {
+            // The words of such a mode are its own.
+        } else if mode.is_none() || cancels && value.covers(&D::number(0.0)) && D::known(&value).is_none() {
+            // Whether it ends the compensation, is kept for another, or does nothing.
+            let either = state.tool.h.join(&value);
+            state.tool.h = either;
+            if cancels && value.covers(&D::number(0.0)) {
+                let off = self.model.code_with(Effect::LengthOff);
+                state.modes.add(Role::Length, &ModeSet::one(off));
+                self.lose_length(state);
+            }
         } else if self.model.semantics().zero_length_number_cancels && D::known(&value) == Some(0.0) {
             self.cancel_length(state);
         }
@@ -188,14 +200,19 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let Some(number) = D::known(state.d()) else { return Ok((f64::NAN, 0)) };
         let tables = state.tables();
         let is_loaded = D::known(state.tool()) == Some(number) && !self.words.has(Letter::of('D'));
-        if tables.is_complete() && is_loaded {
+        let zero_is_loaded = self.model.semantics().tools.zero_is_loaded;
+        if is_loaded && if number == 0.0 { zero_is_loaded } else { tables.is_complete() } {
             let tool = state.tool.loaded.data;
             return Ok(self.oriented(tool.size().0 / 2.0, &tool, state));
         }
         if number == 0.0 {
             // Where left out means the tool in the spindle, so does zero.
-            let tool = D::known(state.tool()).filter(|_| self.model.semantics().tools.zero_is_loaded);
-            let Some(tool) = tool.filter(|tool| *tool > 0.0) else { return Ok((0.0, 0)) };
+            let tool = D::known(state.tool());
+            if zero_is_loaded && tool.is_none() {
+                return Ok((f64::NAN, 0));
+            }
+            let tool = tool.filter(|tool| zero_is_loaded && *tool > 0.0);
+            let Some(tool) = tool else { return Ok((0.0, 0)) };
             if tables.is_complete() {
                 let tool = state.tool.loaded.data;
                 return Ok(self.oriented(tool.diameter.0 / 2.0, &tool, state));
@@ -244,7 +261,20 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     pub(crate) fn compensation_off(&mut self, state: &mut State<D>) -> Step {
         self.end_cutter_along_vectors(state);
         let Some(mut compensation) = state.compensation.take_followed() else {
-            state.compensation.on = Perhaps::No;
+            if !state.compensation.on.is_no() && self.refuses_incomplete() {
+                // The programmed point becomes that of the path beside it, which is not followed.
+                let plane = state.plane(self.model);
+                for axis in [Axis::X, Axis::Y, Axis::Z] {
+                    let stays = plane.is_some_and(|plane| {
+                        let [_, _, normal] = plane.to_local([Axis::X, Axis::Y, Axis::Z]);
+                        axis == normal
+                    });
+                    if !stays {
+                        state.points.position.set(axis, f64::NAN);
+                    }
+                }
+            }
+            state.compensation.leave_unknown();
             return Ok(());
         };
         let followed = Rc::make_mut(&mut compensation);
@@ -263,7 +293,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 let actual = state.wrapped().turned(actual);
                 state.points.actual = actual;
                 state.points.position = programmed;
-                state.compensation.left = Perhaps::Yes(compensation);
+                state.compensation.left = Perhaps::Yes(Course::Followed(compensation));
                 Ok(())
             }
             Err(error) => Err(fault(&error)),
@@ -273,14 +303,23 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// The first move after `G40`: whether it may be what it is.
     pub(crate) fn leave_compensation(&mut self, is_arc: bool, state: &mut State<D>) -> Step {
         match std::mem::take(&mut state.compensation.left) {
-            Perhaps::Yes(mut left) => {
+            Perhaps::Yes(Course::Followed(mut left)) => {
                 Rc::make_mut(&mut left).compensator.exit_motion(is_arc).map_err(|error| fault(&error))
             }
             Perhaps::Unknown => {
                 self.assumptions.insert(Assumption::Unsettled(Unsettled::Compensation));
                 Ok(())
             }
-            Perhaps::No => Ok(()),
+            Perhaps::Yes(Course::Unknown) | Perhaps::No => Ok(()),
+        }
+    }
+
+    /// Paths meet: what one of them holds back is given out no more, and is told to be moves that are not followed.
+    pub(crate) fn tell_held_back(&mut self, state: &State<D>) {
+        if let Perhaps::Yes(Course::Followed(compensation)) = &state.compensation.on {
+            for held in compensation.compensator.held_back() {
+                self.observer.event(held.origin, state, &Event::Unfollowed);
+            }
         }
     }
 
@@ -341,6 +380,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             state.points.position = target;
             state.points.actual = Position::UNKNOWN;
             state.compensation.on = Perhaps::Yes(Course::Unknown);
+            self.emit(state, Event::Unfollowed);
             return Ok(());
         }
         let end = self.transformed(&target, state);
@@ -373,6 +413,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if let Err(error) = result {
             state.points.actual = Position::UNKNOWN;
             state.compensation.on = Perhaps::Yes(Course::Unknown);
+            self.emit(state, Event::Unfollowed);
             return if error == CompensationError::NotUsable { Ok(()) } else { Err(fault(&error)) };
         }
         let actual = above(&end, followed.compensator.position(), followed.plane);

@@ -10,6 +10,7 @@ use super::{Count, Executor, Step};
 use crate::cycles::{CycleError, Hole, Overrides, Stroke, hole};
 use crate::event::{ArcMove, Event, FeedMode, Override, PathMode, Spindle, Stop, TravelKind, Units};
 use crate::fault::{CycleFault, Fault};
+use crate::lattice::{Flat, Lattice, Perhaps};
 use crate::model::Role;
 use crate::observer::Observer;
 use crate::position::{Axis, Position};
@@ -276,6 +277,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             state.points.position.set(Axis::Y, f64::NAN);
         }
         state.points.actual = self.axes_of(state.position(), state);
+        self.emit(state, Event::Unfollowed);
         Ok(())
     }
 
@@ -514,7 +516,17 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let from = state.position().xyz();
         let mut strokes = std::mem::take(&mut self.stroke_buffer);
         strokes.clear();
-        let result = hole(effect, facts, from, rules, &mut |stroke| strokes.push(stroke));
+        let mut result = hole(effect, facts, from, rules, &mut |stroke| strokes.push(stroke));
+        let is_known =
+            from.iter().chain([&facts.initial, &facts.at.0, &facts.at.1]).all(|length| length.is_known());
+        if !is_known {
+            // Where it begins decides whether it rises first.
+            self.emit(state, Event::Unfollowed);
+        }
+        if result.is_ok() && state.mode(Role::ReturnLevel).only().is_none() && facts.initial != facts.r {
+            strokes.clear();
+            result = Err(CycleError::Unknown);
+        }
         if result.is_ok()
             && let Err(fault) = self.check_cycle_spindle(effect, rules, state)
         {
@@ -552,10 +564,45 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 end.set(first, facts.at.0.0);
                 end.set(second, facts.at.1.0);
                 end.set(depth, f64::NAN);
-                state.points.position = end;
-                state.points.actual = self.axes_of(&end, state);
+                self.end_unfollowed(end, state);
+                self.lose_switches(effect, rules, state);
                 Ok(())
             }
+        }
+    }
+
+    /// What a block does on the way is not followed: it ends at a point.
+    pub(super) fn end_unfollowed(&mut self, end: Position, state: &mut State<D>) {
+        if !state.compensation.left.is_no() {
+            // Whether a move leaves the path that was compensated is not known either.
+            state.compensation.left = Perhaps::Unknown;
+        }
+        state.points.position = end;
+        state.points.actual = self.axes_of(&end, state);
+        if self.may_run_beside(state) || !state.compensation.left.is_no() {
+            state.points.actual = state.actual().with_xyz([Mm::UNKNOWN; 3]);
+        }
+        self.emit(state, Event::Unfollowed);
+    }
+
+    /// What strokes that are not followed may have switched.
+    fn lose_switches(&mut self, effect: Effect, rules: &gcheck_controls::CycleRules, state: &mut State<D>) {
+        let _ = rules;
+        if matches!(effect, Effect::CycleTap | Effect::CycleLeftTap) {
+            let either = state.cycle.feed_override_on.join(&Truth::True);
+            state.cycle.feed_override_on = either;
+            state.spindle.way = Flat::Unknown;
+            state.spindle.speed = D::unknown();
+            state.feed.rate = D::unknown();
+        }
+        if matches!(
+            effect,
+            Effect::CycleBoreStop
+                | Effect::CycleBackBore
+                | Effect::CycleBoreManual
+                | Effect::CycleBoreDwellManual
+        ) {
+            state.spindle.way = Flat::Unknown;
         }
     }
 

@@ -20,12 +20,12 @@ use crate::cycles::{
 };
 use crate::event::{FeedMode, Units};
 use crate::fault::{CycleFault, Fault};
-use crate::lattice::Perhaps;
+use crate::lattice::{Lattice, Perhaps};
 use crate::model::Role;
 use crate::observer::Observer;
 use crate::position::{Axis, Position};
 use crate::state::{Course, KeptTurningWords, ModeSet, State, TurningWords};
-use crate::value::Domain;
+use crate::value::{Domain, Truth};
 
 /// Addresses that name the end point of a turning cycle.
 const END_POINT: LetterSet = LetterSet::of("XZUW");
@@ -41,9 +41,14 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let target = self.target(state)?;
         let mut words = state.turning();
         let start = [Axis::X, Axis::Z].map(|axis| Some(state.position().raw(axis)));
-        if start.map(|s| s.map(f64::to_bits)) != words.start.map(|s| s.map(f64::to_bits)) {
-            // Every pass ends where it began; from elsewhere another series begins.
-            words = TurningWords { start, corner: [None; 2], taper: None, lead: None, ..words };
+        // Every pass ends where it began; from elsewhere another series begins.
+        let another = TurningWords { start, corner: [None; 2], taper: None, lead: None, ..words };
+        let is_known = |place: [Option<f64>; 2]| place.iter().all(|at| at.is_none_or(|at| !at.is_nan()));
+        if !is_known(start) || !is_known(words.start) {
+            words = words.join(&another);
+            words.start = start;
+        } else if !start.same(&words.start) {
+            words = another;
         }
         for (slot, axis) in words.corner.iter_mut().zip([Axis::X, Axis::Z]) {
             if self.names_axis(axis) || slot.is_none() {
@@ -307,8 +312,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             Err(CycleError::Profile(_)) => Err(Fault::Profile),
             Err(CycleError::TooManyStrokes) => Err(Fault::Cycle(CycleFault::Geometry)),
             Err(CycleError::Unknown | CycleError::NotThisKind) => {
-                state.points.position = end;
-                state.points.actual = self.axes_of(&end, state);
+                let either = state.cycle.feed_override_on.join(&Truth::True);
+                state.cycle.feed_override_on = either;
+                self.end_unfollowed(end, state);
                 Ok(())
             }
         }

@@ -10,11 +10,11 @@ use super::{Count, Ending, Executor, Flow, Step};
 use crate::assumption::Assumption;
 use crate::event::{Coolant, Event, FeedMode, Override, PathMode, Smoothing, Spindle, Stop, Units};
 use crate::fault::{CompensationFault, Fault};
-use crate::lattice::{Flat, Perhaps};
+use crate::lattice::{Flat, Lattice, Perhaps};
 use crate::model::Role;
 use crate::observer::Observer;
 use crate::position::Axis;
-use crate::state::{Blending, ModalCalls, State};
+use crate::state::{Blending, CoolantState, ModalCalls, State};
 use crate::value::{Domain, Truth};
 
 impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
@@ -479,8 +479,13 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             let is_locked = lock
                 .and_then(|number| self.setting(number))
                 .is_some_and(|value| matches!(value, "on" | "true"));
-            if self.lenient && !is_locked && state.spindle() != Some(Spindle::Stopped) {
-                state.spindle.way = Flat::Unknown;
+            if self.lenient && !is_locked {
+                if state.spindle() != Some(Spindle::Stopped) {
+                    state.spindle.way = Flat::Unknown;
+                }
+                let CoolantState { mist, flood, through } = state.coolant;
+                let [mist, flood, through] = [mist, flood, through].map(|on| on.join(&Truth::False));
+                state.coolant = CoolantState { mist, flood, through };
             }
             return Ok(());
         }

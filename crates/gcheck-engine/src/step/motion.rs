@@ -6,7 +6,7 @@
 use std::rc::Rc;
 
 use gcheck_controls::{CodeIx, Effect, Letter, LetterSet};
-use gcheck_geometry::{Bezier, Mm};
+use gcheck_geometry::{Bezier, Mm, Plane};
 use nalgebra::Point2;
 
 use super::arc::plane_axes;
@@ -18,7 +18,7 @@ use crate::lattice::Perhaps;
 use crate::model::Role;
 use crate::observer::Observer;
 use crate::position::{Axis, Position};
-use crate::state::{ControlPoints, State};
+use crate::state::{ControlPoints, Course, KeptTurningWords, State, TurningWords};
 use crate::value::Domain;
 
 #[expect(clippy::unnecessary_wraps, reason = "handlers of effects share one signature")]
@@ -26,17 +26,18 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// Moves as the active mode says.
     pub(super) fn motion(&mut self, state: &mut State<D>) -> Step {
         self.turn_drawing(state);
-        self.active_motion(state)?;
+        let moved = self.active_motion(state);
+        let moved = self.held(moved)?;
         if !state.calls.modal.is_off() && self.words.present().intersects(self.model.axis_letters) {
             self.modal_call(state);
         }
-        Ok(())
+        moved
     }
 
     fn active_motion(&mut self, state: &mut State<D>) -> Step {
         let present = self.words.present();
         let has_axes = present.intersects(self.model.axis_letters) || present.intersects(super::POLAR);
-        let Some(cycle) = state.active_cycle(self.model) else { return self.lose_position(state) };
+        let Some(cycle) = state.active_cycle(self.model) else { return self.lose_motion(state) };
         if cycle.is_some() {
             return self.cycle(cycle, state);
         }
@@ -44,7 +45,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if to_machine_point && self.model.semantics().machine_coordinates_rapid {
             return self.straight(TravelKind::Rapid, state);
         }
-        let Some(mode) = state.mode(Role::Motion).only() else { return self.lose_position(state) };
+        let Some(mode) = state.mode(Role::Motion).only() else { return self.lose_motion(state) };
         let effect = self.model.effect(mode);
         if to_machine_point && !matches!(effect, Effect::Rapid | Effect::Linear) {
             return Err(Fault::NoMotionMode);
@@ -135,6 +136,49 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         self.model.semantics().strict
     }
 
+    /// What a block without a known mode of motion does: it may be a move of any kind that the modes allow, or a cycle, with
+    /// the words that each keeps.
+    fn lose_motion(&mut self, state: &mut State<D>) -> Step {
+        let may_be = |role: Role, is: &dyn Fn(Effect) -> bool| {
+            let modes = state.mode(role);
+            modes.alternatives().is_empty() || modes.may(|code| is(self.model.effect(code)))
+        };
+        let probes = may_be(Role::Motion, &|effect| {
+            matches!(
+                effect,
+                Effect::ProbeToward
+                    | Effect::ProbeTowardOptional
+                    | Effect::ProbeAway
+                    | Effect::ProbeAwayOptional
+            )
+        });
+        let turns = may_be(Role::Motion, &|effect| {
+            matches!(effect, Effect::TurningPass | Effect::ThreadingPass | Effect::FacingPass)
+        });
+        let curves = may_be(Role::Motion, &|effect| {
+            matches!(effect, Effect::SplineCubic | Effect::SplineQuadratic | Effect::NurbsOpen)
+        });
+        let cycles = may_be(Role::Cycle, &|effect| effect != Effect::CycleCancel && effect != Effect::None);
+        if probes {
+            state.probe.forget();
+        }
+        if turns {
+            let unknown = TurningWords::UNKNOWN;
+            let TurningWords { start, corner, taper, lead, .. } = unknown;
+            let words = TurningWords { start, corner, taper, lead, ..state.turning() };
+            state.turning = KeptTurningWords::of(&words);
+        }
+        if curves {
+            state.curve = Perhaps::Unknown;
+        }
+        if cycles {
+            state.cycle = state.cycle.forgotten();
+            // The level of a hole is not named by its block.
+            state.points.lose();
+        }
+        self.lose_position(state)
+    }
+
     /// A move whose mode is not known: the named axes end nobody knows where.
     pub(super) fn lose_position(&mut self, state: &mut State<D>) -> Step {
         for letter in self.words.present().iter() {
@@ -143,6 +187,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 state.points.actual.set(axis, f64::NAN);
             }
         }
+        self.emit(state, Event::Unfollowed);
         Ok(())
     }
 
@@ -181,6 +226,18 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             self.polar_target(&mut target, state)?;
         } else if state.effect(Role::Polar, self.model) == Some(Effect::PolarOn) {
             self.polar_words(&mut target, state);
+        } else if state.may_be(Role::Polar, Effect::PolarOn, self.model) {
+            let mut named = [Axis::X, Axis::Y, Axis::Z].into_iter();
+            if named.any(|axis| self.words.has(axis.letter())) {
+                // A coordinate, or a radius or an angle; of the axis that stays in a plane only the plane knows.
+                let stays = |axis: Axis| {
+                    let plane = state.plane(self.model).map(plane_axes);
+                    plane.is_some_and(|([_, _, normal], _)| normal == axis)
+                };
+                for axis in [Axis::X, Axis::Y, Axis::Z].into_iter().filter(|axis| !stays(*axis)) {
+                    target.set(axis, f64::NAN);
+                }
+            }
         }
         Ok(target)
     }
@@ -360,16 +417,23 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             self.beside_left_path(kind, target, expanded, state);
             return Ok(());
         }
-        if !state.compensation.left.is_no() {
+        let may_stay = self.may_stay_beside(&target, state);
+        if !may_stay && !state.compensation.left.is_no() {
             self.leave_compensation(false, state)?;
         }
         let mut to = self.axes_of(&target, state);
+        if may_stay {
+            for axis in [Axis::X, Axis::Y, Axis::Z].into_iter().filter(|axis| !self.names_axis(*axis)) {
+                to.set(axis, f64::NAN);
+            }
+        }
         if !expanded {
             self.keep_unnamed(&mut to, state);
         }
         if self.may_run_beside(state) {
             // Compensation by a tool of unknown size: the path beside the programmed one is not known.
             to = to.with_xyz([Mm::UNKNOWN; 3]);
+            self.emit(state, Event::Unfollowed);
         }
         self.travel_to(kind, &target, &to, expanded, state);
         state.points.position = target;
@@ -378,8 +442,23 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     /// Is the path of a compensation that was switched off still to be left: by a move in its plane?
     fn stays_beside(&self, target: &Position, state: &State<D>) -> bool {
-        let Perhaps::Yes(left) = &state.compensation.left else { return false };
-        let ([first, second, _], _) = plane_axes(left.plane);
+        let Perhaps::Yes(Course::Followed(left)) = &state.compensation.left else { return false };
+        self.stays_in(left.plane, target, state)
+    }
+
+    /// May the path that was left be one that nobody knows, and this be a move beside it?
+    fn may_stay_beside(&self, target: &Position, state: &State<D>) -> bool {
+        let is_unknown = match &state.compensation.left {
+            Perhaps::No => false,
+            Perhaps::Yes(course) => matches!(course, Course::Unknown),
+            Perhaps::Unknown => true,
+        };
+        is_unknown && state.plane(self.model).is_none_or(|plane| self.stays_in(plane, target, state))
+    }
+
+    /// Does a move leave the axes of a plane where they are, on a control that then goes on beside a path that was left?
+    fn stays_in(&self, plane: Plane, target: &Position, state: &State<D>) -> bool {
+        let ([first, second, _], _) = plane_axes(plane);
         let stays = |axis: Axis| {
             let named = self.model.letters_of(axis).any(|letter| self.words.has(letter));
             !named && target.raw(axis).to_bits() == state.position().raw(axis).to_bits()
@@ -390,7 +469,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// A move beside a path that was compensated: the axes of its plane stand still.
     fn beside_left_path(&mut self, kind: TravelKind, target: Position, expanded: bool, state: &mut State<D>) {
         let mut to = self.axes_of(&target, state);
-        if let Perhaps::Yes(left) = &state.compensation.left {
+        if let Perhaps::Yes(Course::Followed(left)) = &state.compensation.left {
             let ([first, second, _], _) = plane_axes(left.plane);
             for axis in [first, second] {
                 to.set(axis, state.actual().raw(axis));

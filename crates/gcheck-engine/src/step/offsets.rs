@@ -15,7 +15,7 @@ use crate::lattice::{Flat, Lattice, Perhaps};
 use crate::machine::WorkOffset;
 use crate::observer::Observer;
 use crate::position::{Axis, Position};
-use crate::state::{State, ToolData};
+use crate::state::{Offsets, State, ToolData};
 use crate::value::{Domain, Truth};
 
 #[expect(clippy::unnecessary_wraps, reason = "handlers of effects share one signature")]
@@ -171,6 +171,11 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 }
             }
         });
+        for (axis, _) in named.iter().filter(|(_, value)| value.is_nan()) {
+            // One unknown shift may have taken the place of another.
+            state.points.actual.set(*axis, f64::NAN);
+            state.points.position.set(*axis, f64::NAN);
+        }
         let shift = state.shift();
         self.emit(state, Event::Shift(shift));
         Ok(())
@@ -228,7 +233,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     fn length_number(&mut self, sign: f64, state: &mut State<D>) -> Step {
         let rules = self.model.semantics().tools;
         match self.count(Letter::of('H'))? {
-            None | Some(Count::Known(0)) if rules.length_from_tool && state.tables().is_complete() => {
+            None | Some(Count::Known(0)) if rules.length_from_tool => {
                 self.loaded_length(sign, state);
                 Ok(())
             }
@@ -246,20 +251,6 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 self.set_length(self.unknown_length(state), state);
                 Ok(())
             }
-            None if rules.length_from_tool => match D::known(state.tool()) {
-                #[expect(clippy::cast_sign_loss, reason = "tool numbers are counts")]
-                Some(tool) if tool > 0.0 => self.apply_length(tool as u32, sign, state),
-                Some(_) => {
-                    state.tool.h = D::number(0.0);
-                    self.set_length(Position::ZERO, state);
-                    Ok(())
-                }
-                None => {
-                    state.tool.h = D::unknown();
-                    self.set_length(self.unknown_length(state), state);
-                    Ok(())
-                }
-            },
             // H stays in effect from before.
             None => match D::known(state.h()) {
                 #[expect(clippy::cast_sign_loss, reason = "offset numbers are counts")]
@@ -276,7 +267,13 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     pub(super) fn loaded_length(&mut self, sign: f64, state: &mut State<D>) {
         let number = state.tool().clone();
         state.tool.h = number;
-        let mut length = state.tool.loaded.data.length();
+        let mut length = self.with_known_axes(state.tool.loaded.data.length(), state);
+        if !length.is_known()
+            && let Some(tool) = D::known(state.tool())
+        {
+            #[expect(clippy::cast_sign_loss, reason = "tool numbers are counts")]
+            self.assumptions.insert(Assumption::ToolLength(tool as u32));
+        }
         for axis in Axis::ALL {
             length.set(axis, sign * length.raw(axis));
         }
@@ -300,6 +297,17 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         length
     }
 
+    /// Of an entry of which nothing is known but its size, too: only along Z on mills.
+    pub(super) fn with_known_axes(&self, mut length: Position, state: &State<D>) -> Position {
+        let unknown = self.unknown_length(state);
+        for axis in Axis::ALL {
+            if length.raw(axis).is_nan() && !unknown.raw(axis).is_nan() {
+                length.set(axis, 0.0);
+            }
+        }
+        length
+    }
+
     pub(super) fn apply_length(&mut self, number: u32, sign: f64, state: &mut State<D>) -> Step {
         state.tool.h = D::number(f64::from(number));
         if number == 0 && !self.model.semantics().tools.length_from_tool {
@@ -312,13 +320,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             None if state.tables().is_complete() => return Err(Fault::NoSuchTool(number)),
             None => self.unknown_length(state),
         };
-        // Of an entry of which nothing is known but its size, too: only along Z on mills.
-        let mut length = length;
-        for axis in Axis::ALL {
-            if length.raw(axis).is_nan() && !self.unknown_length(state).raw(axis).is_nan() {
-                length.set(axis, 0.0);
-            }
-        }
+        let length = self.with_known_axes(length, state);
         if !length.is_known() {
             self.assumptions.insert(Assumption::ToolLength(number));
         }
@@ -467,8 +469,17 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     pub(super) fn forget_offsets(&mut self, state: &mut State<D>) {
         let turns = self.words.has(Letter::of('R'));
+        let shifts = !self.refuses_incomplete();
+        let named = self.named(state);
+        let shared = self.shifts_are_one();
         self.reframe(state, |state| {
             state.offsets.tables_mut().forget_offsets(turns);
+            for (axis, _) in named.iter().filter(|_| shifts) {
+                // Number 0 is the shift of all systems.
+                let Offsets { shift, local, .. } = &mut state.offsets;
+                let slot = if shared { shift } else { local };
+                slot.set(*axis, f64::NAN);
+            }
             state.offsets.in_effect.origin = Position::UNKNOWN;
             if turns {
                 state.offsets.in_effect.rotation = f64::NAN;
@@ -535,8 +546,14 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             self.forget_offsets(state);
             return;
         };
-        let named = self.named(state);
+        let mut named = self.named(state);
         let incremental = state.is_incremental(self.model) == Some(true) && !self.refuses_incomplete();
+        if !here && state.is_incremental(self.model).is_none() && !self.refuses_incomplete() {
+            // Whether the words are added is not known.
+            for (_, value) in &mut named {
+                *value = f64::NAN;
+            }
+        }
         let rotation = self.words.number(Letter::of('R')).filter(|_| !here);
         let old = state.tables().offset(system);
         let mut offset = old;
@@ -683,6 +700,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     fn write_register(&mut self, kind: u32, number: u32, state: &mut State<D>) -> Step {
         let Some(value) = self.length(Letter::of('R'), state) else { return Ok(()) };
         let incremental = state.is_incremental(self.model) == Some(true);
+        let is_settled = state.is_incremental(self.model).is_some();
+        let value = if is_settled { value } else { f64::NAN };
         let is_diameter = self.offsets_are_diameters();
         let tool = state.offsets.tables_mut().tool_mut(number);
         match kind {

@@ -184,6 +184,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let held = self.hold_compensation(state)?;
         state.points.position = end;
         state.points.actual = self.axes_of(&end, state);
+        self.emit(state, Event::Unfollowed);
         Self::release_compensation(held.without_path(), state);
         Ok(())
     }
@@ -239,6 +240,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         state.points.position = *target;
         state.points.position.set(Axis::Z, f64::NAN);
         state.points.actual = self.axes_of(state.position(), state);
+        self.emit(state, Event::Unfollowed);
     }
 
     // ---- engraving ----
@@ -307,6 +309,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 state.points.position.set(first, f64::NAN);
                 state.points.position.set(second, f64::NAN);
                 state.points.actual = self.axes_of(state.position(), state);
+                self.emit(state, Event::Unfollowed);
                 return Ok(());
             }
         };
@@ -337,6 +340,11 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             return Ok(Some(effect));
         }
         let active = state.active_cycle(self.model).filter(|ix| ix.is_some());
+        if state.active_cycle(self.model).is_none() {
+            // Whether there is one, and which, is not known.
+            state.points.lose();
+            self.emit(state, Event::Unfollowed);
+        }
         Ok(active.map(|ix| self.model.effect(ix)))
     }
 }

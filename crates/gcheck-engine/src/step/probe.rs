@@ -81,7 +81,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             // Without a workpiece the touch is said to be at the end of the move, and the probe stands a hundredth of an inch
             // before it: what a simulation of the reference interpreter does.
             self.stop_short(from, 0.254, state);
-            state.probe.result = Truth::False;
+            state.probe.result = self.has_code(Effect::AlarmIfNotTouched).into();
             return Ok(());
         }
         // Under a rotation an axis moves that the block does not name.
@@ -90,14 +90,31 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 .into_iter()
                 .filter(|axis| stood.raw(*axis).to_bits() != state.actual().raw(*axis).to_bits()),
         );
+        let touched = self.guessed_touch(&from, state);
+        let stands = self.axes_of(&touched, state);
         for axis in moved {
-            state.points.actual.set(axis, f64::NAN);
-            state.points.position.set(axis, f64::NAN);
-            state.probe.point.set(axis, f64::NAN);
+            state.points.actual.set(axis, stands.raw(axis));
+            state.points.position.set(axis, touched.raw(axis));
+            state.probe.point.set(axis, stands.raw(axis));
         }
-        let touches = self.has_code(Effect::AlarmIfNotTouched);
-        state.probe.result = if touches { Truth::True } else { Truth::Unknown };
+        let must_touch = self.has_code(Effect::AlarmIfNotTouched);
+        let guess = self.machine.guesses.touch.map(|share| share < 1.0);
+        let result = guess.map_or_else(D::unknown, |guess| D::assumed(D::number(f64::from(u8::from(guess)))));
+        state.probe.result = if must_touch { Truth::True } else { D::truth(&result) };
         Ok(())
+    }
+
+    /// The point at which a probing move to the programmed point touched, by the share of its way that is guessed; unknown
+    /// without a guess.
+    fn guessed_touch(&self, from: &Position, state: &State<D>) -> Position {
+        let Some(share) = self.machine.guesses.touch else { return Position::UNKNOWN };
+        let guessed = |number: f64| D::known(&D::assumed(D::number(number))).unwrap_or(f64::NAN);
+        let mut touched = *state.position();
+        for axis in Axis::ALL {
+            let (start, end) = (from.raw(axis), touched.raw(axis));
+            touched.set(axis, guessed(start + (end - start) * share));
+        }
+        touched
     }
 
     pub(super) fn has_code(&self, effect: Effect) -> bool {
@@ -130,7 +147,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 let (start, end) = (from.raw(axis), state.position().raw(axis));
                 state.points.position.set(axis, end - (end - start) * distance / length);
             }
-            state.points.actual = self.axes_of(state.position(), state);
+            let mut stands = self.axes_of(state.position(), state);
+            self.keep_unnamed(&mut stands, state);
+            state.points.actual = stands;
         }
     }
 

@@ -246,15 +246,17 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// Tool length and work offset of a saved state.
     fn restore_offsets(&mut self, was: &SavedModes, saved: &SavedModes, state: &mut State<D>) {
         let mode = |role: Role| saved.modes.get(role.index()).copied().unwrap_or(ModeSet::ANY);
-        if was.length != saved.length {
+        if !was.length.is_known() || !saved.length.is_known() {
+            // Whether they differ is not known.
+            state.modes.add(Role::Length, &mode(Role::Length));
+            self.lose_length(state);
+        } else if was.length != saved.length {
             state.modes.put(Role::Length, mode(Role::Length));
             // What it saves is whether there is a length, not which: `G43` brings that of the tool in the spindle.
             if saved.length == Position::ZERO {
                 self.cancel_length(state);
-            } else if saved.length.values().iter().any(|length| !length.is_nan() && *length != 0.0) {
-                self.loaded_length(1.0, state);
             } else {
-                self.lose_length(state);
+                self.loaded_length(1.0, state);
             }
         }
         if was.modes.get(Role::WorkOffset.index()) != saved.modes.get(Role::WorkOffset.index()) {

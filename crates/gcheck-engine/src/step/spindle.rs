@@ -8,7 +8,7 @@ use gcheck_geometry::Seconds;
 use super::{Count, Executor, Step};
 use crate::event::{Coolant, Event, FeedMode, Spindle};
 use crate::fault::Fault;
-use crate::lattice::{Flat, Perhaps};
+use crate::lattice::{Flat, Lattice, Perhaps};
 use crate::model::Role;
 use crate::observer::Observer;
 use crate::position::{Axis, Position};
@@ -261,17 +261,21 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         match number {
             Some(0) => {}
             Some(number) => {
-                let data = state.tables().tool(number).copied().unwrap_or(unknown);
-                let entry = Self::entry_of(number, state);
-                state.tool.loaded = Loaded { data, entry };
+                let mut data = state.tables().tool(number).copied().unwrap_or(unknown);
+                data.offset = self.with_known_axes(data.offset, state);
+                state.tool.loaded = Loaded { data, entry: Self::entry_of(number, state) };
             }
-            None => state.tool.loaded = Loaded { data: unknown, entry: Perhaps::Unknown },
+            // It may be no tool.
+            None => {
+                let data = state.tool.loaded.data.join(&unknown);
+                state.tool.loaded = Loaded { data, entry: Perhaps::Unknown };
+            }
         }
     }
 
-    /// The entry of the table that a tool's data come from.
+    /// The entry of the table that a tool's data come from. A tool that nobody listed has one all the same.
     fn entry_of(number: u32, state: &State<D>) -> Perhaps<u32> {
-        if state.tables().row_of(number) == 0 { Perhaps::No } else { Perhaps::Yes(number) }
+        if number == 0 && state.tables().row_of(number) == 0 { Perhaps::No } else { Perhaps::Yes(number) }
     }
 
     /// `M61`.
@@ -288,6 +292,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             }
             Some(Count::Unknown) => {
                 state.tool.number = D::unknown();
+                state.tool.loaded.entry = Perhaps::Unknown;
                 self.emit(state, Event::SetToolNumber(None));
             }
             None => return Err(Fault::MissingWord(Letter::of('Q'))),

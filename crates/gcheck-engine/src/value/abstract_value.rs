@@ -128,6 +128,11 @@ impl AbstractValue {
         }
     }
 
+    /// Nothing that a run could find: every value covers it.
+    pub(crate) fn none() -> Self {
+        Self::Set(NumberSet { numbers: Arc::from([]), vacant: false })
+    }
+
     /// Any number, but not nothing: what arithmetic gives on what is not known.
     pub fn any_number() -> Self {
         Self::Interval { lo: f64::NEG_INFINITY, hi: f64::INFINITY, vacant: false }

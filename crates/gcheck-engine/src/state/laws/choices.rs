@@ -268,8 +268,7 @@ made! {
         }
         bar
     };
-    Rc<Compensation>, 3, c => Rc::new(compensation(c));
-    Course, 3, c => if c.below(4) == 0 { Course::Unknown } else { Course::Followed(c.make()) };
+    Course, 3, c => if c.below(4) == 0 { Course::Unknown } else { Course::Followed(Rc::new(compensation(c))) };
     CompensationState, 8, c => CompensationState { on: c.some(), left: c.some() };
     ControlPoints, 8, c => {
         let count = c.below(3);

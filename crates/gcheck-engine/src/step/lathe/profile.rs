@@ -21,7 +21,7 @@ use crate::cycles::{
     CycleError, LayeredFinish, LayeredRoughing, PatternRepeat, Pockets, ProfileFault, ProfileSegment,
     Roughing, RoughingDirection, layered_finish, layered_roughing, pattern_repeat, roughing,
 };
-use crate::event::{TravelKind, Units};
+use crate::event::{Event, TravelKind, Units};
 use crate::fault::{ArcFault, CycleFault, Fault};
 use crate::lattice::Perhaps;
 use crate::model::Role;
@@ -242,6 +242,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let start = *state.position();
         let mut block = blocks.first;
         let mut left = MOST_BLOCKS;
+        let mut refused = None;
         while (blocks.first..=blocks.last).contains(&block) {
             left = left.checked_sub(1).ok_or(Fault::Profile)?;
             match self.step(At { file: blocks.file, block }, state) {
@@ -249,7 +250,14 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 Outcome::Jump(to) if to.file == blocks.file => block = to.block,
                 Outcome::Jump(_) | Outcome::End(_) => return Err(Fault::Profile),
                 // A way that depends on what nobody knows; it leads back to the start in any case.
-                Outcome::Fork(_) => break,
+                Outcome::Fork(_) => {
+                    self.emit(state, Event::Unfollowed);
+                    break;
+                }
+                Outcome::Fault(fault) if self.lenient => {
+                    refused.get_or_insert((fault, self.origin));
+                    block += 1;
+                }
                 // The fault is that block's.
                 Outcome::Fault(fault) => return Err(fault),
             }
@@ -259,7 +267,14 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         self.pending = pending;
         self.flow = None;
         self.machine_coordinates = false;
-        self.travel(TravelKind::Rapid, start, true, state)
+        self.travel(TravelKind::Rapid, start, true, state)?;
+        match refused {
+            None => Ok(()),
+            Some((fault, block)) => {
+                self.origin = block;
+                Err(fault)
+            }
+        }
     }
 
     /// A profile that runs profiles may come back to itself.
