@@ -55,12 +55,20 @@ fn a_mapping_without_its_axes() {
 
 #[test]
 fn a_cycle_without_its_depth() {
-    check_told("haas-mill", &format!("{HEAD}G81 X0. Y0. Z#0 R.1 F10.\nG80\nM30\n"), expect![[r#"
+    check_told(
+        "haas-mill",
+        &format!("{HEAD}G81 X0. Y0. Z#0 R.1 F10.\nG80\nM30\n"),
+        expect![[r#"
         6 error cycle-word-missing: canned cycle without `Z` (`G81`)
-    "#]]);
-    check_told("fanuc-mill", &format!("{HEAD}G81 X1. Y1. Z#0 R.1 F10.\nG80\nM30\n"), expect![[r#"
+    "#]],
+    );
+    check_told(
+        "fanuc-mill",
+        &format!("{HEAD}G81 X1. Y1. Z#0 R.1 F10.\nG80\nM30\n"),
+        expect![[r#"
         6 warning cycle-word-missing: canned cycle without `Z` (`G81`)
-    "#]]);
+    "#]],
+    );
 }
 
 #[test]
@@ -72,9 +80,13 @@ fn a_call_without_its_program() {
             6 error required-word-missing: `M98` without `P`
         "#]],
     );
-    check_told("fanuc-mill", &format!("{HEAD}G54.1 P#0\nM30\n"), expect![[r#"
+    check_told(
+        "fanuc-mill",
+        &format!("{HEAD}G54.1 P#0\nM30\n"),
+        expect![[r#"
         6 warning needed-word-missing: `G54.1` without `P`
-    "#]]);
+    "#]],
+    );
 }
 
 #[test]
