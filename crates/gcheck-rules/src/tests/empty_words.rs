@@ -3,6 +3,8 @@
 //!
 //! Knows: programs of five controls, what each finding of theirs says. Must not know: how values are known.
 
+use std::fmt::Write as _;
+
 use expect_test::{Expect, expect};
 
 use crate::testing::{World, findings, recommended};
@@ -16,7 +18,7 @@ fn check_told(control: &str, program: &str, expected: Expect) {
             continue;
         }
         let line = program[..finding.range.start as usize].lines().count().max(1);
-        shown.push_str(&format!("{line} {} {}: {}\n", finding.severity, finding.rule.id, finding.message));
+        writeln!(shown, "{line} {} {}: {}", finding.severity, finding.rule.id, finding.message).unwrap();
     }
     expected.assert_eq(&shown);
 }
