@@ -22,7 +22,7 @@ use case::{Case, Kind};
 use judge::{Answer, Judge};
 
 /// The controls whose codes are tried.
-const CONTROLS: [&str; 10] = [
+const CONTROLS: [&str; 9] = [
     "haas-mill",
     "haas-lathe",
     "fanuc-mill",
@@ -30,7 +30,6 @@ const CONTROLS: [&str; 10] = [
     "fanuc-lathe-b",
     "fanuc-lathe-c",
     "linuxcnc",
-    "grbl",
     "generic-mill",
     "tsnc-yh-a1m",
 ];

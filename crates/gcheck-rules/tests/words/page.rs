@@ -170,8 +170,12 @@ pub(crate) fn write(tables: &[Table]) -> String {
         for kind in Kind::ALL {
             let count = table.counts[kind as usize];
             let Count { cases, reported, allowed, silent, wrong } = count;
-            let (silent_before, wrong_before) =
-                before.get(&(table.control.clone(), kind.name().to_owned())).copied().unwrap_or_default();
+            // A control that is newer than the test has no figures of the time before.
+            let known = before.get(&(table.control.clone(), kind.name().to_owned()));
+            let (silent_before, wrong_before) = known
+                .map_or(("–".into(), "–".into()), |(silent, wrong)| {
+                    (silent.to_string(), wrong.to_string())
+                });
             let name = kind.name();
             let _ = writeln!(
                 page,

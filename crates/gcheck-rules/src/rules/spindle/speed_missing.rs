@@ -65,8 +65,10 @@ impl PathRule for SpeedMissing {
             return;
         }
         let set_by = cx.trace().set_by(Fact::Speed);
-        // A laser is off at `S0`, and its blocks that move say so.
-        if set_by.and_then(|at| cx.place_of(at)).is_some_and(|place| names_axes(cx, &place)) {
+        // A laser is off at `S0`, and its blocks that move say so, long after it was started.
+        if set_by != started_by
+            && set_by.and_then(|at| cx.place_of(at)).is_some_and(|place| names_axes(cx, &place))
+        {
             return;
         }
         self.told = started_by;
