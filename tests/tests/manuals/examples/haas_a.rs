@@ -818,13 +818,20 @@ const EXAMPLES: &[Example] = &[
         files: &[],
         config: &[],
         expected: Expected {
-            findings: &[Finding(
-                "info[word-passed-over] 3",
-                Verdict::True,
-                "a snippet without the code that the offset is for",
-            )],
-            shows: &[],
-            not_yet: &[Shows::Finds("error[computed-value-out-of-range] 3")],
+            findings: &[
+                Finding(
+                    "error[computed-value-out-of-range] 3",
+                    Verdict::True,
+                    "the alarm that the page is about",
+                ),
+                Finding(
+                    "info[word-passed-over] 3",
+                    Verdict::True,
+                    "a snippet without the code that the offset is for",
+                ),
+            ],
+            shows: &[Shows::Finds("error[computed-value-out-of-range] 3")],
+            not_yet: &[],
         },
     },
     Example {

@@ -255,7 +255,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                     break;
                 }
                 Outcome::Fault(fault) if self.lenient => {
-                    refused.get_or_insert((fault, self.origin));
+                    refused.get_or_insert_with(|| (fault, self.origin, Box::new(state.clone())));
                     block += 1;
                 }
                 // The fault is that block's.
@@ -270,8 +270,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         self.travel(TravelKind::Rapid, start, true, state)?;
         match refused {
             None => Ok(()),
-            Some((fault, block)) => {
+            Some((fault, block, then)) => {
                 self.origin = block;
+                self.at_fault = Some(then);
                 Err(fault)
             }
         }

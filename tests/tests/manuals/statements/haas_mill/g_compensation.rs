@@ -118,10 +118,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 },
             ],
         ),
-        gap(
+        held(
             "p. 259, p. 269, p. 270",
             "D and H select one of 200 offsets (tool groups, from 1000 on, aside).",
-            "D and H from 201 to 999 name neither an offset nor a group: error",
+            "gaps of `D` and `H`, rule `number-out-of-range`",
             &[
                 Rule {
                     finding: "error[number-out-of-range]",

@@ -718,9 +718,9 @@ pub(crate) const CHAPTER: Chapter = Chapter {
         held(
             "p. 359",
             "M98 needs P or a path.",
-            "rule `needed-word-missing`",
+            "rule `required-word-missing`",
             &[Rule {
-                finding: "error[needed-word-missing]",
+                finding: "error[required-word-missing]",
                 violates: short!("M98\nM30\n"),
                 conforms: short!("M98 P777\nM30\nO777\nM99\n"),
             }],

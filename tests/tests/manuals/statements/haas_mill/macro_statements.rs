@@ -61,10 +61,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 rule("error[expression-in-label]", "O#1\nG4 P1.\nM30\n", "O1\nG4 P1.\nM30\n"),
             ],
         ),
-        gap(
+        held(
             "p. 220",
             "A value outside the range of its address is an alarm: D takes 0 to 200, so D#1 with 250 in #1 is one.",
-            "error[computed-value-out-of-range] for D, H and T from 201 to 999 and above 2999, computed or written",
+            "gaps of `D`, `H` and `T`, rules `computed-value-out-of-range` and `number-out-of-range`",
             &[
                 rule(
                     "error[computed-value-out-of-range]",
