@@ -22,6 +22,8 @@ mod generate;
 mod measure;
 mod mutations;
 mod new_rule;
+#[cfg(feature = "playground")]
+mod playground;
 #[cfg(feature = "product")]
 mod precision;
 mod product;
@@ -58,6 +60,7 @@ usage: cargo xtask COMMAND
                               pack gcheck for one system: archive, wheel, npm and Debian packages, with --vscode the
                               extension; builds it in the profile `dist` unless a binary is named
   dist release [--out FOLDER] from the packages of all systems: npm launcher, installers, manifests, checksums
+  playground [--out FOLDER]   build the page that checks programs in a browser, into target/playground
   competitors                 run other checkers on the seeded mistakes and write tests/competitors.tsv";
 
 fn main() -> ExitCode {
@@ -83,7 +86,11 @@ fn main() -> ExitCode {
         #[cfg(feature = "packages")]
         "dist" => dist::run(rest),
         #[cfg(not(feature = "packages"))]
-        "dist" => product::rerun_with_packages("dist", rest),
+        "dist" => product::rerun_with("packages", "dist", rest),
+        #[cfg(feature = "playground")]
+        "playground" => playground::run(rest),
+        #[cfg(not(feature = "playground"))]
+        "playground" => product::rerun_with("playground", "playground", rest),
         "timing" => timing::run(rest),
         #[cfg(feature = "product")]
         "measure" => measure::run(rest),

@@ -1,6 +1,6 @@
-//! Running xtask again with the product's crates, or with those that pack releases, built in.
+//! Running xtask again with the product's crates, or with those that one command needs, built in.
 //!
-//! Knows: the features `product` and `packages`. Must not know: what is read from the product.
+//! Knows: the features of xtask. Must not know: what is read from the product.
 
 use std::env;
 use std::process::{Command, ExitCode};
@@ -23,14 +23,14 @@ pub(crate) fn rerun(command: &str, arguments: &[String], measures: bool) -> anyh
     Ok(workspace::exit_code(status))
 }
 
-/// Runs an xtask command in a build that can pack releases, and has nothing of the product.
-#[cfg(not(feature = "packages"))]
-pub(crate) fn rerun_with_packages(command: &str, arguments: &[String]) -> anyhow::Result<ExitCode> {
+/// Runs an xtask command in a build with one feature, such as that for packing releases, and with nothing of the product.
+#[cfg(not(all(feature = "packages", feature = "playground")))]
+pub(crate) fn rerun_with(feature: &str, command: &str, arguments: &[String]) -> anyhow::Result<ExitCode> {
     let mut cargo = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
     // From where the user is: paths among the arguments count from there.
     cargo
         .args(["run", "--quiet", "--package", "xtask", "--manifest-path"])
         .arg(workspace::root().join("Cargo.toml"));
-    cargo.args(["--no-default-features", "--features", "packages", "--", command]).args(arguments);
+    cargo.args(["--no-default-features", "--features", feature, "--", command]).args(arguments);
     Ok(workspace::exit_code(cargo.status().context("cargo does not start")?))
 }

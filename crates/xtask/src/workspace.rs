@@ -68,10 +68,15 @@ pub(crate) fn graph() -> anyhow::Result<Metadata> {
     let Some(host) = version.lines().find_map(|line| line.strip_prefix("host: ")) else {
         bail!("`rustc -vV` does not name the host");
     };
-    let mut command = MetadataCommand::new();
-    command.features(CargoOpt::AllFeatures);
-    // Manifests for other platforms need not have been downloaded.
-    metadata(command.other_options(["--filter-platform".to_owned(), host.to_owned(), "--offline".to_owned()]))
+    let graph = |options: &[&str]| {
+        let options =
+            ["--filter-platform", host].into_iter().chain(options.iter().copied()).map(str::to_owned);
+        metadata(
+            MetadataCommand::new().features(CargoOpt::AllFeatures).other_options(options.collect::<Vec<_>>()),
+        )
+    };
+    // Manifests for other platforms need not have been downloaded. Those of a feature that was never built may be missing.
+    graph(&["--offline"]).or_else(|_| graph(&["--locked"]))
 }
 
 fn metadata(command: &mut MetadataCommand) -> anyhow::Result<Metadata> {

@@ -95,6 +95,7 @@ fn syntax(rules: &SyntaxRules) -> String {
         ("blanks inside numbers", rules.blanks_in_numbers),
         ("O-words (`O100 SUB`)", rules.o_words),
         ("macro statements (`IF`, `WHILE`)", rules.macro_statements),
+        ("variables (`#1`) and expressions", rules.variables),
         ("named parameters (`#<name>`)", rules.named_parameters),
         ("expressions without brackets", rules.bare_expressions),
         ("several assignments in a block", rules.several_assignments),

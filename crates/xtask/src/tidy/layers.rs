@@ -94,6 +94,18 @@ const OWN: &[(&str, &[&str])] = &[
             "gcheck-ide",
         ],
     ),
+    (
+        "gcheck-playground",
+        &[
+            "gcheck-controls",
+            "gcheck-program",
+            "gcheck-diagnostics",
+            "gcheck-lint",
+            "gcheck-rules",
+            "gcheck-db",
+            "gcheck-ide",
+        ],
+    ),
 ];
 
 /// Use whatever they need: the binary ties everything together, the others never ship.
