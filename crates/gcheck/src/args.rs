@@ -85,6 +85,9 @@ pub enum Command {
     Controls(ListOptions),
     /// Write a `gcheck.toml` with comments into this folder
     Init,
+    /// The machine in `gcheck.toml`
+    #[command(subcommand)]
+    Machine(MachineCommand),
     /// Print the JSON schema of `gcheck.toml`
     Schema,
     /// Serve an editor: the language server on standard input and output
@@ -414,6 +417,77 @@ pub enum VariableName {
 /// Levels of block delete that are switched on: bit 0 is a plain `/` and level 1.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct BlockSkip(pub u16);
+
+/// What is done with the machine in `gcheck.toml`.
+#[derive(Debug, Subcommand)]
+pub enum MachineCommand {
+    /// Write the machine into `gcheck.toml` from what the shop has
+    ///
+    /// Reads INI files and tool tables of LinuxCNC, `$$` dumps of Grbl and its kin, tool libraries of Fusion (JSON) and
+    /// FreeCAD, MTConnect probe documents, and offsets that a control wrote as blocks of `G10`. Each value gets a comment that
+    /// says where it is from; what is in the file already stays.
+    Import(ImportOptions),
+}
+
+/// Options of `gcheck machine import`.
+#[derive(Debug, Args)]
+pub struct ImportOptions {
+    /// Files that describe the machine
+    #[arg(required = true, value_name = "FILE")]
+    pub files: Vec<PathBuf>,
+    /// Write to this file instead of the `gcheck.toml` of this folder
+    #[arg(long, short, value_name = "FILE")]
+    pub output_file: Option<PathBuf>,
+    /// What the files are, where their content does not show it
+    #[arg(long, value_enum, value_name = "FORMAT")]
+    pub format: Option<ImportFormat>,
+    /// The unit of lengths in files that do not say it
+    #[arg(long, value_enum, value_name = "mm|inch")]
+    pub units: Option<LengthUnit>,
+    /// Replace values that are in the file and differ
+    #[arg(long)]
+    pub overwrite: bool,
+    /// Print the file as it would be, and write nothing
+    #[arg(long)]
+    pub dry_run: bool,
+}
+
+/// What describes a machine.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum ImportFormat {
+    /// INI file of a PC control, with `[TRAJ]` and `[AXIS_X]`
+    Ini,
+    /// Tool table: a line a tool, or CSV
+    ToolTable,
+    /// Numbered settings as `$$` prints them
+    Settings,
+    /// Tool library of Fusion, as JSON
+    Fusion,
+    /// Tool library of FreeCAD (`.fctl`)
+    Freecad,
+    /// MTConnect probe document
+    Mtconnect,
+    /// Program with blocks of `G10`
+    Offsets,
+}
+
+/// Unit of lengths.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum LengthUnit {
+    /// Millimetres
+    Mm,
+    /// Inches
+    Inch,
+}
+
+impl From<LengthUnit> for crate::config::Units {
+    fn from(unit: LengthUnit) -> Self {
+        match unit {
+            LengthUnit::Mm => Self::Mm,
+            LengthUnit::Inch => Self::Inch,
+        }
+    }
+}
 
 /// Options of `gcheck lsp`.
 #[derive(Debug, Args)]

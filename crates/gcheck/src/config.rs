@@ -26,8 +26,11 @@ pub use format::FormatTable;
 pub use layer::Layer;
 pub use pattern::PathPattern;
 pub use placed::Placed;
+pub(crate) use read::check_text;
 pub use settings::{FileSettings, RuleWishes};
-pub(crate) use validate::{implausible_acceleration, rotary_axis, unknown_rule, validate_control};
+pub(crate) use validate::{
+    implausible_acceleration, rotary_axis, unknown_rule, validate_control, work_offset,
+};
 
 use crate::{Problem, paths};
 

@@ -16,6 +16,7 @@ mod detection;
 mod discovery;
 mod execution;
 mod fault_words;
+mod importing;
 mod in_force;
 mod lsp;
 mod nearest;
@@ -40,7 +41,7 @@ use clap::Parser as _;
 
 pub use problem::Problem;
 
-use args::{Arguments, Command};
+use args::{Arguments, Command, MachineCommand};
 
 /// Runs the program with the arguments of the process.
 pub fn main() -> ExitCode {
@@ -91,6 +92,9 @@ fn run(arguments: &Arguments) -> Result<u8, Problem> {
         Command::Codes(options) => commands::codes::run(&arguments.global, options),
         Command::Controls(options) => commands::controls::run(options),
         Command::Init => commands::init::run(&arguments.global),
+        Command::Machine(MachineCommand::Import(options)) => {
+            commands::machine::import(&arguments.global, options)
+        }
         Command::Schema => output::print(&config::schema()),
         Command::Lsp(_) => lsp::run(&arguments.global),
         Command::Completions { shell } => commands::completions::run(*shell),

@@ -142,7 +142,7 @@ pub struct MachineTable {
     /// Length of a new bar, for a lathe with a bar feeder.
     pub bar_length: Option<Placed<f64>>,
     /// Bars to be used up, the one in the chuck among them: `run` and `stats` repeat a main program that feeds bar until then.
-    pub bars: Option<u32>,
+    pub bars: Option<Placed<u32>>,
 }
 
 /// A number for all linear axes, or one by axis.

@@ -73,6 +73,15 @@ fn file(path: &Path) -> Result<(Layer, Option<PathBuf>), Problem> {
     Ok((layer, base))
 }
 
+/// Whether a text would do as the configuration of this path; what it extends is not read.
+pub(crate) fn check_text(path: &Path, text: &str) -> Result<(), Problem> {
+    let name = paths::shown_from_here(path);
+    let absolute = paths::absolute(path);
+    let folder = absolute.parent().unwrap_or(&absolute).to_owned();
+    let file = parse(&name, text)?;
+    Layer::new(Some(absolute), file, Text { name: &name, text, folder: &folder }).map(|_| ())
+}
+
 /// Reads `KEY=VALUE` of the command line; a value that is not TOML is text.
 pub(super) fn inline(argument: &str) -> Result<Layer, Problem> {
     let folder = paths::absolute(Path::new("."));

@@ -5,7 +5,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use gcheck_controls::{CodeNumber, Control, Letter, UserCode};
+use gcheck_controls::{CodeNumber, Control, Effect, Letter, UserCode};
 use gcheck_geometry::RotaryAxis;
 use gcheck_lint::Selection;
 use gcheck_rules::RULES;
@@ -62,6 +62,15 @@ impl<'t> Checked<'t> {
         let lists = [&table.axes, &table.rotary_order].into_iter().flatten().flatten();
         for axis in lists.chain(table.travel.keys()).chain(table.rotary_sign.keys()) {
             self.axis(axis)?;
+        }
+        let axes = table.axes.iter().flatten();
+        for (ix, axis) in axes.clone().enumerate() {
+            if axes.clone().take(ix).any(|other| other.value.eq_ignore_ascii_case(&axis.value)) {
+                return Err(self.text.problem(axis, format!("`{}` is listed twice", axis.value)));
+            }
+        }
+        if let Some(bars) = table.bars.as_ref().filter(|bars| bars.value == 0) {
+            return Err(self.text.problem(bars, "at least one bar is in the chuck: write 1 or more"));
         }
         for (axis, travel) in &table.travel {
             let [low, high] = travel.value;
@@ -267,6 +276,11 @@ impl<'t> Checked<'t> {
                     let message = format!("`{}` is not a program; write `O9010`", alias.value);
                     return Err(self.text.problem(alias, message));
                 }
+                if let Some(alias) = &table.alias
+                    && let Some(message) = self.refused_alias(number)
+                {
+                    return Err(self.text.problem(alias, message));
+                }
                 let alias = table.alias.as_ref().map(|a| a.value.clone());
                 let title =
                     table.title.clone().or_else(|| alias.as_ref().map(|program| format!("calls {program}")));
@@ -277,6 +291,19 @@ impl<'t> Checked<'t> {
                 })
             })
             .collect()
+    }
+
+    /// Why the control cannot make a code the call of a program.
+    fn refused_alias(&self, number: CodeNumber) -> Option<String> {
+        let control = self.control.as_ref()?;
+        let (limits, name) = (control.limits(), control.name());
+        if limits.never_aliased.iter().any(|code| CodeNumber::parse(code) == Some(number)) {
+            return Some(format!("{name} does not let `{number}` call a program of your own"));
+        }
+        let most = limits.alias_codes_to?;
+        let is_too_high =
+            CodeNumber::from_value(number.letter(), f64::from(most) + 0.5).is_some_and(|end| number > end);
+        is_too_high.then(|| format!("{name} lets codes up to {most} call programs, not `{number}`"))
     }
 
     pub(super) fn rules(&self, table: &RulesTable) -> Result<RulesTable, Problem> {
@@ -320,16 +347,26 @@ impl<'t> Checked<'t> {
         for (name, value) in variables {
             let inner = name.value.strip_prefix('#').unwrap_or_default();
             let is_named = inner.len() > 2 && inner.starts_with('<') && inner.ends_with('>');
+            if inner.parse::<u32>() == Ok(0) {
+                let message = "`#0` is always empty: it cannot have a value";
+                return Err(self.text.problem(name, message));
+            }
             if !is_named && inner.parse::<u32>().is_err() {
                 let message = format!("`{}` is not a variable; write \"#3100\" or \"#<name>\"", name.value);
                 return Err(self.text.problem(name, message));
             }
             self.finite(name, *value)?;
         }
+        let mut numbers: BTreeMap<u16, &str> = BTreeMap::new();
         for (name, axes) in offsets {
+            let number = self.control.as_ref().and_then(|control| work_offset(&name.value, control));
+            if let Some(other) = number.and_then(|number| numbers.insert(number, &name.value)) {
+                let message = format!("`{}` and `{other}` are one work offset", name.value);
+                return Err(self.text.problem(name, message));
+            }
             let code = name.value.split_whitespace().next().and_then(CodeNumber::parse);
-            let exists =
-                code.is_some_and(|number| self.control.as_ref().is_none_or(|c| c.code(number).is_some()));
+            let is_work_offset = |control: &Arc<Control>| work_offset(&name.value, control).is_some();
+            let exists = code.is_some() && self.control.as_ref().is_none_or(is_work_offset);
             if !exists {
                 let of = self
                     .control
@@ -387,6 +424,29 @@ impl<'t> Checked<'t> {
             return Ok(());
         }
         Err(self.text.problem(key, format!("`{}` must be a finite number", key.value)))
+    }
+}
+
+/// The number of a work offset, counted from 1, as configurations write it: `G54`, `G154 P2`.
+pub(crate) fn work_offset(name: &str, control: &Control) -> Option<u16> {
+    let mut parts = name.split_whitespace();
+    let code = control.code(CodeNumber::parse(&parts.next()?.to_ascii_uppercase())?)?;
+    let p = match parts.next() {
+        Some(part) => Some(part.strip_prefix(['P', 'p'])?),
+        None => None,
+    };
+    if parts.next().is_some() {
+        return None;
+    }
+    match (code.effect(), p) {
+        (Effect::WorkOffset(number), None) => Some(number),
+        (Effect::WorkOffsetByP(first), Some(p)) => {
+            let p = p.parse::<u16>().ok()?;
+            let word = code.entry().words.iter().find(|word| word.letter == "P");
+            let most = word.and_then(|word| word.max).unwrap_or(f64::INFINITY);
+            first.checked_add(p.checked_sub(1)?).filter(|_| f64::from(p) <= most)
+        }
+        _ => None,
     }
 }
 
