@@ -36,7 +36,10 @@ await esbuild.build({
   entryPoints: { preview: "src/preview/page.ts" },
   outdir: "dist",
   // One viewer draws the page of `gcheck plot` and this preview.
-  alias: { "gcheck-viewer": "../../crates/gcheck-toolpath/src/plot/viewer.js" },
+  alias: {
+    "gcheck-panel": "../../crates/gcheck-toolpath/src/plot/panel.js",
+    "gcheck-viewer": "../../crates/gcheck-toolpath/src/plot/viewer.js",
+  },
   platform: "browser",
   format: "iife",
   target: "es2022",

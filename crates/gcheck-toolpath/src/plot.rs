@@ -5,22 +5,26 @@
 
 mod data;
 mod drawing;
+mod drive;
+mod packed;
 mod page;
 mod palette;
 mod svg;
 mod thin;
 
-use gcheck_engine::{Axis, Event, Position};
+use gcheck_engine::{Axis, Event, FeedMode, Position};
 use gcheck_geometry::{Arc, Bounds, Mm};
 
+pub use data::Heading;
 pub use drawing::{Drawing, Thinned, Tool};
 pub use page::{Finding, Page, Source};
 
-use crate::motion::{Motion, Way};
+use crate::motion::{Cover, Motion, Way, cover};
 use crate::placing::{Placing, WorkCoordinates};
 use crate::step::{Beside, Step, View};
 use crate::time::{Clock, Timing};
 use drawing::{Alarm, Kind, Point};
+use drive::{Drive, Drives, four_digits};
 
 /// Points kept of a run for the page, when the caller does not say otherwise. More are thinned.
 pub const MAX_POINTS: usize = 500_000;
@@ -58,6 +62,13 @@ pub struct Plot {
     thinned: Option<Thinned>,
     /// Lines of blocks at which the control would stop.
     alarms: Vec<Alarm>,
+    drives: Drives,
+    /// Index of the one of the move under way.
+    drive: u16,
+    /// Rotary axes that turned: A, B, C.
+    rotary: [bool; 3],
+    /// File and line of each block that changes the tool, each once.
+    changes: Vec<(u8, u32)>,
     /// The end of the last move as it is drawn.
     last: Option<Seen>,
     /// Moves that are drawn where the block aims, and not where the axes go: along a tilting tool, and beside a contour.
@@ -65,8 +76,12 @@ pub struct Plot {
     on_contour: u64,
 }
 
+/// Blocks that change the tool; further ones begin no part of the path.
+const MOST_CHANGES: usize = 1_000;
 /// Alarms that are marked.
 const MOST_ALARMS: usize = 1_000;
+/// In the order in which points have them.
+const ROTARY: [Axis; 3] = [Axis::A, Axis::B, Axis::C];
 
 impl Plot {
     /// At the begin of a run, with the work coordinates in effect there. At most `limit` points are kept ([`MAX_POINTS`]).
@@ -93,6 +108,10 @@ impl Plot {
             pockets: 0,
             thinned: None,
             alarms: Vec::new(),
+            drives: Drives::default(),
+            drive: 0,
+            rotary: [false; 3],
+            changes: Vec::new(),
             last: None,
             posted: 0,
             on_contour: 0,
@@ -121,6 +140,7 @@ impl Plot {
             Event::ToolChange(tool) | Event::SetToolNumber(tool) => {
                 self.tool_number = *tool;
                 self.tool = None;
+                self.note_change(step);
                 self.stand(step);
             }
             Event::Cleared(clearing) => {
@@ -213,8 +233,20 @@ impl Plot {
             pockets: self.pockets,
             thinned: self.thinned,
             alarms: self.alarms,
+            drives: self.drives.into_all(),
+            rotary: self.rotary,
+            changes: self.changes,
             posted: self.posted,
             on_contour: self.on_contour,
+        }
+    }
+
+    /// The tool is another one from this block on.
+    fn note_change(&mut self, step: &Step<'_>) {
+        self.find_file(step.file);
+        let place = (self.file as u8, step.line);
+        if self.changes.len() < MOST_CHANGES && !self.changes.contains(&place) {
+            self.changes.push(place);
         }
     }
 
@@ -236,7 +268,10 @@ impl Plot {
         let to = self.placing.placed(&seen.to);
         self.last = Some(Seen { to, ..seen });
         let is_still = |axis: Axis| motion.from.raw(axis).to_bits() == motion.to.raw(axis).to_bits();
-        self.turned |= [Axis::A, Axis::B, Axis::C].into_iter().any(|axis| !is_still(axis));
+        for (turns, axis) in self.rotary.iter_mut().zip(ROTARY) {
+            *turns |= !is_still(axis);
+        }
+        self.turned |= self.rotary.contains(&true);
         let kind = match motion.way {
             Way::Rapid => Kind::Rapid,
             Way::Probe => Kind::Probe,
@@ -245,7 +280,9 @@ impl Plot {
             Way::Feed => Kind::Feed,
         };
         let seconds = self.clock.motion(step, motion).map(|seconds| seconds.0);
-        let seconds = seconds.ok().filter(|seconds| seconds.is_finite()).unwrap_or_else(|| {
+        let known = seconds.ok().filter(|seconds| seconds.is_finite());
+        self.find_drive(step, motion, known);
+        let seconds = known.unwrap_or_else(|| {
             let length = distance(&from, &to);
             self.untimed |= length > 0.0;
             if length.is_finite() { length / PLAYED_FEED * 60.0 } else { 0.0 }
@@ -270,6 +307,26 @@ impl Plot {
         self.include(&from, cuts);
         self.include(&to, cuts);
         self.push(step, &to, self.seconds, kind);
+    }
+
+    /// Feed and speed of a move that takes so many seconds, if that is known.
+    fn find_drive(&mut self, step: &Step<'_>, motion: &Motion, seconds: Option<f64>) {
+        let rpm = self.clock.rpm(step, motion);
+        let rpm = if self.clock.surface_speed().is_some() { four_digits(rpm) } else { rpm };
+        let drive = match self.clock.feed_of(step, motion) {
+            // The feed comes back with the next cut.
+            None => Drive { rpm, ..self.drives.last() },
+            Some((feed, mode)) => {
+                let along = match (cover(motion).0, seconds) {
+                    (Cover::Length(length), Some(seconds)) if seconds > 0.0 => length / seconds * 60.0,
+                    _ => f64::NAN,
+                };
+                // A helix that is fed along its circle is faster by a trifle, which would be a feed of its own.
+                let is_feed = mode == FeedMode::PerMinute && (along / feed - 1.0).abs() < 0.005;
+                Drive { feed, mode, along: if is_feed { feed } else { four_digits(along) }, rpm }
+            }
+        };
+        self.drive = self.drives.index(drive);
     }
 
     /// Where a move is drawn: at the tip of a tool that tilts, and where the block aims when nobody knows the path beside the
@@ -339,6 +396,8 @@ impl Plot {
             kind,
             tool: tool as u8,
             file: self.file as u8,
+            drive: self.drive,
+            rotary: ROTARY.map(|axis| at.raw(axis) as f32),
         });
         if self.points.len() >= 4 * self.limit {
             self.thin();

@@ -2,10 +2,11 @@
 
 mod step_maker;
 
-use gcheck_engine::{Event, Position, TravelKind};
+use gcheck_engine::{Axis, Event, FeedMode, Position, TravelKind};
 use gcheck_geometry::Plane;
-use gcheck_toolpath::plot::{Drawing, Plot};
+use gcheck_toolpath::plot::{Drawing, Heading, Plot};
 use gcheck_toolpath::{Names, WorkCoordinates};
+use serde_json::json;
 use step_maker::{Run, point, timing, xyz};
 
 fn draw(run: &Run, limit: usize) -> Drawing {
@@ -14,10 +15,8 @@ fn draw(run: &Run, limit: usize) -> Drawing {
     plot.finish()
 }
 
-/// An array of the data, as its bytes.
-fn bytes(drawing: &Drawing, field: &str) -> Vec<u8> {
-    let data = drawing.to_json(&Names::NONE);
-    let text = data.get(field).and_then(|value| value.as_str()).unwrap_or_default();
+/// The numbers of an array of the data: groups of seven bits in base64.
+fn numbers(text: &str) -> Vec<u64> {
     // Six bits a letter.
     let six = |letter: u8| match letter {
         b'A'..=b'Z' => letter - b'A',
@@ -33,14 +32,41 @@ fn bytes(drawing: &Drawing, field: &str) -> Vec<u8> {
         let bits = bits << (6 * (4 - group.len()));
         bytes.extend(bits.to_be_bytes().into_iter().skip(1).take(group.len() - 1));
     }
-    bytes
+    let groups = bytes.split_inclusive(|byte| byte & 0x80 == 0);
+    groups.map(|group| group.iter().rev().fold(0, |sum, byte| sum << 7 | u64::from(byte & 0x7F))).collect()
 }
 
-fn points(drawing: &Drawing) -> Vec<[f32; 3]> {
-    let numbers = |bytes: &[u8]| -> Vec<f32> {
-        bytes.chunks(4).filter_map(|four| Some(f32::from_le_bytes(four.try_into().ok()?))).collect()
-    };
-    bytes(drawing, "points").chunks(12).filter_map(|three| numbers(three).try_into().ok()).collect()
+fn text(drawing: &Drawing, field: &str) -> String {
+    let data = drawing.to_json(&Names::NONE, &[]);
+    data.get(field).and_then(|value| value.as_str()).unwrap_or_default().to_owned()
+}
+
+/// Numbers that are told by their differences, `width` of them a point.
+fn differences(packed: &str, width: usize) -> Vec<i64> {
+    let mut last = vec![0_i64; width];
+    let mut all = Vec::new();
+    for row in numbers(packed).chunks(width) {
+        for (number, value) in row.iter().zip(&mut last) {
+            let half = (number / 2).cast_signed();
+            *value += if number % 2 == 1 { -half - 1 } else { half };
+            all.push(*value);
+        }
+    }
+    all
+}
+
+/// Numbers that are told by how often they come.
+fn runs(drawing: &Drawing, field: &str) -> Vec<u64> {
+    let pairs = numbers(&text(drawing, field));
+    let pairs = pairs.chunks(2).filter_map(|pair| <[u64; 2]>::try_from(pair).ok());
+    pairs.flat_map(|[length, value]| vec![value; length as usize]).collect()
+}
+
+fn points(drawing: &Drawing) -> Vec<[f64; 3]> {
+    let steps = differences(&text(drawing, "points"), 3);
+    let steps = steps.into_iter().filter_map(|steps| i32::try_from(steps).ok());
+    let all: Vec<f64> = steps.map(|steps| f64::from(steps) / 1e4).collect();
+    all.chunks(3).filter_map(|three| three.try_into().ok()).collect()
 }
 
 #[test]
@@ -49,7 +75,7 @@ fn moves_from_unknown_places_are_not_drawn() {
     run.at = Position::UNKNOWN;
     run.block().travel(TravelKind::Rapid, {
         let mut at = Position::UNKNOWN;
-        at.set(gcheck_engine::Axis::X, 10.0);
+        at.set(Axis::X, 10.0);
         at.set(gcheck_engine::Axis::Y, 5.0);
         at
     });
@@ -58,8 +84,8 @@ fn moves_from_unknown_places_are_not_drawn() {
     run.block().feed(10.0, 5.0, -1.0);
     let drawing = draw(&run, 1_000);
     assert_eq!(points(&drawing), [[10.0, 5.0, 2.0], [10.0, 5.0, -1.0]]);
-    assert_eq!(bytes(&drawing, "kinds"), [0, 2]);
-    assert_eq!(bytes(&drawing, "lines"), [2, 0, 0, 0, 3, 0, 0, 0]);
+    assert_eq!(runs(&drawing, "kinds"), [0, 2]);
+    assert_eq!(differences(&text(&drawing, "lines"), 1), [2, 3]);
     assert_eq!(drawing.notes(), Vec::<String>::new());
 }
 
@@ -98,9 +124,9 @@ fn arcs_are_round_and_their_extents_exact() {
     let drawing = draw(&run, 1_000);
     let points = points(&drawing);
     assert!(points.len() > 60 && points.len() < 400, "{}", points.len());
-    assert!(points.iter().all(|[x, y, _]| (x.hypot(*y) - 10.0).abs() < 1e-4));
-    let data = drawing.to_json(&Names::NONE);
-    assert_eq!(data["cut"], serde_json::json!([[-10.0, -10.0, -3.0], [10.0, 10.0, 0.0]]));
+    assert!(points.iter().all(|[x, y, _]| (x.hypot(*y) - 10.0).abs() < 2e-4));
+    let data = drawing.to_json(&Names::NONE, &[]);
+    assert_eq!(data["cut"], json!([[-10.0, -10.0, -3.0], [10.0, 10.0, 0.0]]));
 }
 
 #[test]
@@ -127,7 +153,80 @@ fn tools_beyond_all_counting_share_the_last_colour() {
     }
     let drawing = draw(&run, 10_000);
     assert_eq!(drawing.tools().len(), 255);
-    let data = drawing.to_json(&Names::NONE);
+    let data = drawing.to_json(&Names::NONE, &[]);
     assert_eq!(data["tools"][0]["number"], 1);
-    assert_eq!(bytes(&drawing, "toolOf").last(), Some(&254));
+    assert_eq!(runs(&drawing, "toolOf").last(), Some(&254));
+}
+
+#[test]
+fn a_feed_is_told_once_and_rapid_moves_keep_it() {
+    let mut run = Run::new();
+    run.feed = 600.0;
+    run.rpm = 1_000.0;
+    run.block().rapid(0.0, 0.0, 5.0).feed(10.0, 0.0, 5.0).feed(20.0, 0.0, 5.0).rapid(0.0, 0.0, 5.0);
+    run.block().feed(10.0, 0.0, 5.0);
+    run.feed_mode = FeedMode::PerRevolution;
+    run.feed = 0.2;
+    run.block().feed(20.0, 0.0, 5.0);
+    let drawing = draw(&run, 1_000);
+    let data = drawing.to_json(&Names::NONE, &[]);
+    let driven: Vec<_> =
+        runs(&drawing, "driveOf").into_iter().map(|ix| data["drives"][ix as usize].clone()).collect();
+    let per_minute = json!({ "feed": 600.0, "mode": "minute", "along": 600.0, "rpm": 1000.0 });
+    assert_eq!(
+        driven[2..6],
+        [per_minute.clone(), per_minute.clone(), per_minute.clone(), per_minute],
+        "{data}"
+    );
+    assert_eq!(driven[6], json!({ "feed": 0.2, "mode": "turn", "along": 200.0, "rpm": 1000.0 }));
+}
+
+#[test]
+fn only_axes_that_turn_have_angles() {
+    let mut run = Run::new();
+    run.feed = 600.0;
+    for axis in [Axis::A, Axis::C] {
+        run.at.set(axis, 0.0);
+    }
+    run.block().turn(TravelKind::Feed, Axis::C, 90.0).turn(TravelKind::Feed, Axis::A, -0.5);
+    let data = draw(&run, 1_000).to_json(&Names::NONE, &[]);
+    assert_eq!(data["rotary"]["axes"], "AC");
+    // One axis after the other.
+    let angles = differences(data["rotary"]["values"].as_str().unwrap(), 1);
+    assert_eq!(angles, [0, 0, -5_000, 0, 900_000, 900_000]);
+
+    let mut still = Run::new();
+    still.block().feed(10.0, 0.0, 0.0);
+    assert_eq!(draw(&still, 1_000).to_json(&Names::NONE, &[])["rotary"], json!(null));
+}
+
+#[test]
+fn a_surface_takes_less_than_twelve_bytes_a_point_on_the_wire() {
+    let mut run = Run::new();
+    run.feed = 2_000.0;
+    for at in 0..4_000_u32 {
+        let along = f64::from(at % 100) * 0.45;
+        run.block().feed(along, f64::from(at / 100) * 0.3, -3.0 + (along * 0.2).sin());
+    }
+    let drawing = draw(&run, 10_000);
+    let arrays =
+        ["points", "seconds", "lines", "kinds", "toolOf", "driveOf"].map(|field| text(&drawing, field).len());
+    assert!(
+        arrays.iter().sum::<usize>() < 12 * drawing.points(),
+        "{arrays:?} for {} points",
+        drawing.points()
+    );
+}
+
+#[test]
+fn headings_go_with_the_files_that_are_drawn() {
+    let mut run = Run::new();
+    run.feed = 600.0;
+    run.block().change(1).feed(1.0, 0.0, 0.0);
+    let drawing = draw(&run, 1_000);
+    let file = drawing.files()[0].clone();
+    let heading = |file| Heading { file, line: 7, name: "FINISH" };
+    let data = drawing.to_json(&Names::NONE, &[heading(&file), heading("another.nc")]);
+    assert_eq!(data["headings"], json!([{ "file": 0, "line": 7, "name": "FINISH" }]));
+    assert_eq!(data["changes"].as_array().map(Vec::len), Some(1), "{data}");
 }

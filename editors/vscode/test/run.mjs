@@ -126,14 +126,40 @@ async function picture(name) {
   }
 }
 
-/** Clicks from the left edge of the toolpath towards its middle, until the editor's cursor goes to another line. */
-async function clickPath() {
+/** The canvas of the toolpath and the frame around it. */
+async function toolpath() {
   const found = await Promise.all(page.frames().map((frame) => frame.$("#canvas").catch(() => null)));
   const canvas = found.find((element) => element !== null);
   const frame = await canvas?.ownerFrame();
   if (!canvas || !frame) {
     throw new Error("no frame shows a toolpath");
   }
+  return { canvas, frame };
+}
+
+/** Does something in the page of the toolpath, and gives what a part of it says or has as its value: `do` is click, choose, fill, press, ground or nothing. */
+async function inToolpath({ do: what, at, with: value, read }) {
+  const { frame } = await toolpath();
+  if (at !== undefined) await frame.locator(at).first().scrollIntoViewIfNeeded();
+  if (what === "click") await frame.locator(at).first().click();
+  if (what === "choose") await frame.locator(at).first().selectOption(value);
+  if (what === "fill") await frame.locator(at).first().fill(value);
+  if (what === "press") await frame.locator(at).first().press(value);
+  if (what === "ground") {
+    // A corner of the drawing, as red, green and blue.
+    return frame.evaluate(() => {
+      const paper = document.createElement("canvas").getContext("2d");
+      paper.drawImage(document.getElementById("canvas"), 0, 0);
+      return [...paper.getImageData(2, 2, 1, 1).data].slice(0, 3).join(",");
+    });
+  }
+  if (read === undefined) return null;
+  return frame.locator(read).first().evaluate((element) => (element.matches("select, input") ? element.value : element.innerText));
+}
+
+/** Clicks from the left edge of the toolpath towards its middle, until the editor's cursor goes to another line. */
+async function clickPath() {
+  const { canvas, frame } = await toolpath();
   await frame.selectOption("#view", "top");
   await frame.click("#fit");
   // VS Code says where the cursor is while the text has the focus, not while the toolpath has it.
@@ -169,6 +195,7 @@ async function widgets() {
       help: text(".parameter-hints-widget.visible"),
       hover: text(".monaco-hover:not(.hidden)"),
       lenses: seen(".codelens-decoration").map((lens) => lens.innerText),
+      dialog: seen(".quick-input-widget").length > 0,
       messages: text(".notification-toast, .monaco-dialog-box"),
     };
   });
@@ -195,7 +222,7 @@ async function frames() {
 }
 
 /** What tests ask of the browser. */
-const deeds = { screenshot: picture, clickPath, press, widgets, colors, frames };
+const deeds = { screenshot: picture, clickPath, inToolpath, press, widgets, colors, frames };
 
 /** A line of the log: for the reader, a question of a test, or of VS Code itself. */
 async function logged(line) {

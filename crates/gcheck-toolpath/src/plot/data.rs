@@ -2,17 +2,36 @@
 //!
 //! Knows: names and encoding of the fields. Must not know: what the viewer makes of them.
 
-use base64::Engine as _;
-use base64::engine::general_purpose::STANDARD;
-use gcheck_engine::Units;
+use gcheck_engine::{FeedMode, Units};
 use serde::Serialize;
 use serde_json::Value;
 
-use super::drawing::{Drawing, Kind, Point};
+use super::drawing::{Drawing, Kind};
+use super::drive::Drive;
+use super::packed::{differences, runs};
 use crate::summary::Names;
 
 /// Version of the data's form.
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
+/// Steps of lengths, millimetres: as fine as single precision at a metre.
+const LENGTH_STEP: f64 = 1e-4;
+/// Steps of angles, degrees.
+const ANGLE_STEP: f64 = 1e-4;
+/// Steps of times, seconds.
+const TIME_STEP: f64 = 1e-3;
+/// An angle that is not known, degrees: further than any axis turns.
+const UNKNOWN_ANGLE: f64 = 1e9;
+
+/// What a comment on a line of its own calls the moves after it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Heading<'a> {
+    /// Name of the file, as steps of the run have it.
+    pub file: &'a str,
+    /// Line of the first block after the comment, from 1.
+    pub line: u32,
+    /// What the comment says.
+    pub name: &'a str,
+}
 
 #[derive(Debug, Serialize)]
 #[serde(rename_all = "camelCase")]
@@ -30,10 +49,36 @@ pub(super) struct ViewerData<'d> {
     kinds: String,
     tool_of: String,
     file_of: Option<String>,
+    drive_of: String,
+    drives: Vec<DriveData>,
+    rotary: Option<RotaryData>,
+    headings: Vec<HeadingData<'d>>,
+    changes: &'d [(u8, u32)],
     thinned: bool,
     cut: Option<[[f64; 3]; 2]>,
     all: Option<[[f64; 3]; 2]>,
     alarms: Vec<AlarmData>,
+}
+
+#[derive(Debug, Serialize)]
+struct DriveData {
+    feed: Option<f64>,
+    mode: &'static str,
+    along: Option<f64>,
+    rpm: Option<f64>,
+}
+
+#[derive(Debug, Serialize)]
+struct RotaryData {
+    axes: String,
+    values: String,
+}
+
+#[derive(Debug, Serialize)]
+struct HeadingData<'d> {
+    file: usize,
+    line: u32,
+    name: &'d str,
 }
 
 #[derive(Debug, Serialize)]
@@ -51,22 +96,15 @@ struct ToolData {
 }
 
 impl Drawing {
-    /// The drawing for the viewer of `plot/viewer.js`, which says at its top what is in it.
-    pub fn to_json(&self, names: &Names<'_>) -> Value {
+    /// The drawing for the viewer of `plot/viewer.js`, which says at its top what is in it; `headings` in the order of their
+    /// files.
+    pub fn to_json(&self, names: &Names<'_>, headings: &[Heading<'_>]) -> Value {
         // Only maps without string keys cannot be values, and there are none.
-        serde_json::to_value(self.viewer_data(names)).unwrap_or_default()
+        serde_json::to_value(self.viewer_data(names, headings)).unwrap_or_default()
     }
 
-    pub(super) fn viewer_data(&self, names: &Names<'_>) -> ViewerData<'_> {
-        let bytes =
-            |of: &dyn Fn(&Point) -> u8| STANDARD.encode(self.points.iter().map(of).collect::<Vec<u8>>());
-        let words = |of: &dyn Fn(&Point) -> [u8; 4]| {
-            STANDARD.encode(self.points.iter().flat_map(of).collect::<Vec<u8>>())
-        };
-        let mut coordinates = Vec::with_capacity(self.points.len() * 12);
-        for value in self.points.iter().flat_map(|point| point.at) {
-            coordinates.extend_from_slice(&value.to_le_bytes());
-        }
+    pub(super) fn viewer_data<'d>(&'d self, names: &Names<'_>, headings: &[Heading<'d>]) -> ViewerData<'d> {
+        let points = || self.points.iter();
         ViewerData {
             version: VERSION,
             units: match self.units {
@@ -86,12 +124,17 @@ impl Drawing {
                 .collect(),
             files: &self.files,
             count: self.points.len(),
-            points: STANDARD.encode(coordinates),
-            seconds: words(&|point| point.seconds.to_le_bytes()),
-            lines: words(&|point| point.line.to_le_bytes()),
-            kinds: bytes(&|point: &Point| kind_number(point.kind)),
-            tool_of: bytes(&|point| point.tool),
-            file_of: (self.files.len() > 1).then(|| bytes(&|point| point.file)),
+            points: differences(points().map(|point| point.at.map(f64::from)), LENGTH_STEP),
+            seconds: differences(points().map(|point| [f64::from(point.seconds)]), TIME_STEP),
+            lines: differences(points().map(|point| [f64::from(point.line)]), 1.0),
+            kinds: runs(points().map(|point| kind_number(point.kind))),
+            tool_of: runs(points().map(|point| point.tool.into())),
+            file_of: (self.files.len() > 1).then(|| runs(points().map(|point| point.file.into()))),
+            drive_of: runs(points().map(|point| point.drive)),
+            drives: self.drives.iter().map(drive_data).collect(),
+            rotary: self.rotary_data(),
+            headings: self.heading_data(headings),
+            changes: &self.changes,
             thinned: self.thinned.is_some(),
             cut: self.cut,
             all: self.all,
@@ -104,7 +147,43 @@ impl Drawing {
     }
 }
 
+impl Drawing {
+    /// The axes that turn, with their angles.
+    fn rotary_data(&self) -> Option<RotaryData> {
+        let turning = || "ABC".chars().zip(self.rotary).enumerate().filter(|(_, (_, turns))| *turns);
+        let axes: String = turning().map(|(_, (name, _))| name).collect();
+        // One axis after the other: angles change little from point to point.
+        let values = turning().flat_map(|(ix, _)| {
+            self.points.iter().map(move |point| point.rotary.get(ix).copied().map_or(f64::NAN, f64::from))
+        });
+        let values = values.map(|angle| [if angle.is_finite() { angle } else { UNKNOWN_ANGLE }]);
+        (!axes.is_empty()).then(|| RotaryData { axes, values: differences(values, ANGLE_STEP) })
+    }
+
+    fn heading_data<'d>(&self, headings: &[Heading<'d>]) -> Vec<HeadingData<'d>> {
+        let known = headings.iter().filter_map(|heading| {
+            let file = self.files.iter().position(|file| file == heading.file)?;
+            Some(HeadingData { file, line: heading.line, name: heading.name })
+        });
+        known.collect()
+    }
+}
+
+fn drive_data(drive: &Drive) -> DriveData {
+    let known = |value: f64| value.is_finite().then_some(value);
+    DriveData {
+        feed: known(drive.feed),
+        mode: match drive.mode {
+            FeedMode::PerMinute => "minute",
+            FeedMode::PerRevolution => "turn",
+            FeedMode::InverseTime => "inverse",
+        },
+        along: known(drive.along),
+        rpm: known(drive.rpm),
+    }
+}
+
 /// The number of a kind in the data.
-const fn kind_number(kind: Kind) -> u8 {
-    kind as u8
+const fn kind_number(kind: Kind) -> u16 {
+    kind as u16
 }

@@ -6,6 +6,7 @@ use std::fmt::Write as _;
 
 use gcheck_engine::Units;
 
+use super::drive::Drive;
 use super::palette;
 use crate::step::View;
 
@@ -36,6 +37,10 @@ pub(super) struct Point {
     pub(super) tool: u8,
     /// Index of the file.
     pub(super) file: u8,
+    /// Index of the feed and the spindle's speed on the way to it.
+    pub(super) drive: u16,
+    /// Where the rotary axes A, B, C are, degrees.
+    pub(super) rotary: [f32; 3],
 }
 
 /// A block at which the control would stop.
@@ -107,6 +112,12 @@ pub struct Drawing {
     pub(super) pockets: u64,
     pub(super) thinned: Option<Thinned>,
     pub(super) alarms: Vec<Alarm>,
+    /// Feeds and speeds, by the index that points have.
+    pub(super) drives: Vec<Drive>,
+    /// Rotary axes that turn: A, B, C.
+    pub(super) rotary: [bool; 3],
+    /// File and line of each block that changes the tool, in the order of the run, each once.
+    pub(super) changes: Vec<(u8, u32)>,
     /// Moves drawn where the program was posted, and on the contour that compensation runs beside.
     pub(super) posted: u64,
     pub(super) on_contour: u64,

@@ -1,23 +1,21 @@
-// The page around the viewer: program text, findings, legend, play.
+// The page around the viewer: program text, findings, play, the panel.
 //
-// Knows: the elements of page.html, the page's data. Must not know: how the path is drawn (`createViewer` stands before this
-// in the same script). Every text of the program goes into the page as text, never as markup.
+// Knows: the elements of page.html, the page's data. Must not know: how the path is drawn. Every text of the program goes into
+// the page as text, never as markup.
+
+import { THEMES, createViewer, placeText, speedsFor } from "./viewer.js";
+import { createPanel, make } from "./panel.js";
+import { axesOf, coordinateText, timeText } from "./viewer/words.js";
 
 const LINE = 18;
 const page = JSON.parse(document.getElementById("data").textContent);
 const byId = (id) => document.getElementById(id);
-const make = (name, properties = {}, ...children) => {
-  const element = Object.assign(document.createElement(name), properties);
-  element.append(...children);
-  return element;
-};
 
 const sources = page.sources.map(({ name, text }) => {
   const lines = text === null ? null : text.split(/\r\n|\r|\n/);
   if (lines?.at(-1) === "" && lines.length > 1) lines.pop();
   return { name, lines };
 });
-const units = page.toolpath.units;
 const SEVERITIES = ["hint", "info", "warning", "error"];
 // By file and line: the findings there, the worst one first.
 const found = new Map();
@@ -29,27 +27,22 @@ for (const finding of page.findings) {
 for (const list of found.values()) list.sort((a, b) => SEVERITIES.indexOf(b.severity) - SEVERITIES.indexOf(a.severity));
 
 let viewer = null;
+let panel = null;
 let shown = 0;            // the file in the list
 let chosen = null;        // { file, line }
 let now = null;           // where the tool is: { file, line }
 
-// On most lathes there is no Y.
-const AXES = [0, 1, 2].filter((axis) => axis !== 1 || !page.toolpath.lathe || page.toolpath.all?.some((end) => end[1] !== 0));
-const coordinate = (value, axis) => lengthText(axis === 0 && page.toolpath.diameter ? 2 * value : value, units);
-const timeText = (seconds) => {
-  const whole = Math.round(seconds), pad = (n) => String(n).padStart(2, "0");
-  const [hours, minutes] = [Math.floor(whole / 3600), Math.floor(whole / 60) % 60];
-  return hours ? `${hours}:${pad(minutes)}:${pad(whole % 60)}` : `${minutes}:${pad(whole % 60)}`;
-};
+const coordinate = (value, axis) => coordinateText(page.toolpath, value, axis);
 
 byId("title").textContent = page.title;
-byId("summary").textContent = [
+const facts = [
   page.control,
   `${page.moves.toLocaleString("en")} moves`,
   timeText(page.seconds),
-  ...(page.toolpath.cut ? AXES.map((axis) => `${"XYZ"[axis]} ${coordinate(page.toolpath.cut[0][axis], axis)} to ${coordinate(page.toolpath.cut[1][axis], axis)}`) : []),
-  units,
-].join(" · ");
+  ...(page.toolpath.cut ? axesOf(page.toolpath).map((axis) => `${"XYZ"[axis]} ${coordinate(page.toolpath.cut[0][axis], axis)} to ${coordinate(page.toolpath.cut[1][axis], axis)}`) : []),
+  page.toolpath.units,
+];
+byId("summary").append(...facts.flatMap((words, i) => [i ? " · " : "", make("span", { textContent: words })]));
 if (page.notes.length) {
   byId("notes").hidden = false;
   byId("notes").append(...page.notes.map((note) => make("li", { textContent: note })));
@@ -185,16 +178,10 @@ function nextFinding(by) {
 
 // --- The view
 
-const KINDS = ["", "rapid", "feed", "arc", "probe", "with the spindle"];
-
 function say(place) {
-  const tool = place.tool?.number == null ? "" : ` · T${place.tool.number}`;
-  byId("readout").replaceChildren(
-    make("b", { textContent: `line ${place.line}` }),
-    ` ${KINDS[place.kind]} to `,
-    make("b", { textContent: AXES.map((axis) => `${"XYZ"[axis]}${coordinate(place.point[axis], axis)}`).join(" ") }),
-    `${tool} · ${timeText(place.seconds)}`,
-  );
+  const strong = ["line", "point"];
+  const parts = placeText(viewer.data(), place, viewer.duration());
+  byId("readout").replaceChildren(...parts.flatMap(({ is, words }, i) => [i ? " · " : "", strong.includes(is) ? make("b", { textContent: words }) : words]));
 }
 
 const slider = byId("time");
@@ -206,7 +193,7 @@ const callbacks = {
   },
   onProgress(place) {
     slider.value = place.seconds;
-    byId("clock").textContent = `${timeText(place.seconds)} / ${timeText(viewer.duration())}`;
+    showClock(place.seconds);
     say(place);
     now = { file: place.file, line: place.line };
     showFile(place.file);
@@ -214,19 +201,42 @@ const callbacks = {
     drawLines();
   },
   onPlay(isPlaying) { byId("play").textContent = isPlaying ? "Pause" : "Play"; },
+  onMeasure(state) { panel?.measured(state); },
+  onLook() { panel?.look(); },
 };
 
-let dark = matchMedia("(prefers-color-scheme: dark)").matches;
+function showClock(seconds) {
+  const words = `${timeText(seconds)} / ${timeText(viewer?.duration() ?? 0)}`;
+  byId("clock").textContent = words;
+  slider.setAttribute("aria-valuetext", words);
+}
+
+/** Gives a picture to the browser's downloads. */
+function save(name, blob) {
+  const link = make("a", { href: URL.createObjectURL(blob), download: name });
+  document.body.append(link);
+  link.click();
+  link.remove();
+  setTimeout(() => URL.revokeObjectURL(link.href), 60000);
+}
+
+const LOOKS = { light: "light", dark: "dark", contrast: "high contrast, dark", contrastLight: "high contrast, light" };
+const [strong, forced, dark] = ["(prefers-contrast: more)", "(forced-colors: active)", "(prefers-color-scheme: dark)"].map((what) => matchMedia(what));
+/** What the system asks for. */
+const lookOfSystem = () => strong.matches || forced.matches ? (dark.matches ? "contrast" : "contrastLight") : dark.matches ? "dark" : "light";
+let look = lookOfSystem(), isChosenLook = false;
+for (const query of [strong, forced, dark]) query.addEventListener("change", () => { if (!isChosenLook) { look = lookOfSystem(); setTheme(); } });
 function setTheme() {
-  document.documentElement.dataset.theme = dark ? "dark" : "light";
-  viewer?.setTheme(dark ? THEMES.dark : THEMES.light);
+  document.documentElement.dataset.theme = look;
+  byId("theme").title = `Theme: ${LOOKS[look]}`;
+  viewer?.setTheme(THEMES[look]);
 }
 setTheme();
 try {
   viewer = createViewer(byId("canvas"), page.toolpath, callbacks);
-  page.toolpath = { ...page.toolpath, points: null, seconds: null, lines: null, kinds: null, toolOf: null, fileOf: null };
   setTheme();
   viewer.setMarks(page.findings);
+  panel = createPanel(byId("choices"), viewer, { save });
   if (page.toolpath.count === 0) byId("stage").append(make("div", { className: "message", textContent: page.notes[0] ?? "" }));
 } catch (error) {
   byId("stage").append(make("div", { className: "message", textContent: `The path cannot be drawn: ${error.message}.` }));
@@ -235,33 +245,29 @@ try {
 const VIEW_NAMES = page.toolpath.lathe ? [["lathe", "ZX"], ["front", "XZ"], ["top", "XY"], ["iso", "3D"]] : [["top", "Top"], ["front", "Front"], ["side", "Side"], ["iso", "3D"]];
 byId("views").append(
   ...VIEW_NAMES.map(([name, words]) => make("button", { textContent: words, onclick: () => viewer?.setView(name) })),
-  make("button", { textContent: "Fit", title: "Fit (F)", onclick: () => viewer?.fit() }),
+  make("button", { textContent: "Fit", title: "Fit all that is shown (F)", onclick: () => viewer?.fit() }),
+  make("button", { textContent: "Zoom to chosen", title: "Fit the moves that are chosen (Z)", onclick: () => viewer?.fitSelection() }),
 );
-const legend = byId("legend");
-const entry = (words, color, className, change) => {
-  const box = make("input", { type: "checkbox", checked: true, onchange: (event) => change(event.target.checked) });
-  const bar = make("i", { className });
-  bar.style.borderColor = color;
-  legend.append(make("label", {}, box, bar, make("span", { textContent: words })));
-  return box;
-};
-page.toolpath.tools.forEach((tool, i) => {
-  const number = tool.number === null ? "unknown tool" : tool.number === 0 ? "no tool" : `T${tool.number}`;
-  entry(tool.name ? `${number} ${tool.name}` : number, tool.color, "", (yes) => viewer?.showTool(i, yes));
-});
-const rapids = entry("rapid moves", "#7d8894", "dashed", (yes) => viewer?.showRapids(yes));
+const panelButton = byId("panel");
+function showPanel(yes) {
+  byId("choices").hidden = !yes;
+  panelButton.setAttribute("aria-expanded", yes);
+}
+panelButton.addEventListener("click", () => showPanel(byId("choices").hidden));
+// Where there is room for the path beside it.
+const wide = matchMedia("(min-width: 1001px)");
+wide.addEventListener("change", () => showPanel(wide.matches));
+showPanel(wide.matches);
 
 // --- Play
 
 const duration = viewer?.duration() ?? 0;
 slider.max = duration;
 slider.value = duration;
-byId("clock").textContent = `${timeText(duration)} / ${timeText(duration)}`;
-const speeds = [0.5, 1, 2, 5, 10, 20, 50, 100, 500, 1000];
-// As fast as shows the whole in about half a minute.
-const usual = speeds.find((speed) => duration / speed <= 40) ?? speeds.at(-1);
-byId("speed").append(...speeds.map((speed) => make("option", { value: speed, textContent: `${speed}×`, selected: speed === usual })));
-viewer?.setSpeed(usual);
+showClock(duration);
+const speeds = speedsFor(duration);
+byId("speed").append(...speeds.map(({ factor, words, usual }) => make("option", { value: factor, textContent: words, selected: usual })));
+viewer?.setSpeed(Number(byId("speed").value));
 byId("speed").addEventListener("change", (event) => viewer?.setSpeed(Number(event.target.value)));
 slider.addEventListener("input", () => { viewer?.pause(); viewer?.goToTime(Number(slider.value)); });
 const toggle = () => viewer && (viewer.isPlaying() ? viewer.pause() : viewer.play());
@@ -272,15 +278,24 @@ byId("forth").addEventListener("click", () => step(1));
 
 // --- Keys and theme
 
-byId("theme").addEventListener("click", () => { dark = !dark; setTheme(); });
+byId("theme").addEventListener("click", () => {
+  const looks = Object.keys(LOOKS);
+  look = looks[(looks.indexOf(look) + 1) % looks.length];
+  isChosenLook = true;
+  setTheme();
+});
 byId("help").addEventListener("click", () => byId("keys").showModal());
+const leave = () => (viewer?.measure.state().isOn ? viewer.measure.stop() : chooseNothing());
 document.addEventListener("keydown", (event) => {
   if (event.ctrlKey || event.metaKey || event.altKey || byId("keys").open) return;
-  const isField = event.target.matches("select, input");
-  const isButton = event.target.matches("button, input[type=checkbox]");
+  const isField = event.target.matches("select, input:not([type=checkbox])");
+  const isButton = event.target.matches("button, summary, input[type=checkbox]");
+  // A number is typed, and a list is searched by letters.
+  if (isField && event.key !== "Escape" && event.target.type !== "range") return;
   const keys = {
     ",": () => step(-1), ".": () => step(1), n: () => nextFinding(1), p: () => nextFinding(-1),
-    f: () => viewer?.fit(), r: () => rapids.click(), "?": () => byId("keys").showModal(), Escape: chooseNothing,
+    f: () => viewer?.fit(), z: () => viewer?.fitSelection(), m: () => viewer?.measure.toggle(), r: () => panel?.toggleRapids(),
+    o: () => showPanel(byId("choices").hidden), "?": () => byId("keys").showModal(), Escape: leave,
     1: () => viewer?.setView("top"), 2: () => viewer?.setView("front"), 3: () => viewer?.setView("side"),
     4: () => viewer?.setView("iso"), 5: () => viewer?.setView("lathe"),
     ...(isButton ? {} : { " ": toggle }),

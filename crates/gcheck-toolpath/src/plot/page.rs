@@ -8,7 +8,7 @@ use std::io::{self, Write};
 use serde::Serialize;
 use serde_json::ser::{CompactFormatter, Formatter};
 
-use super::data::ViewerData;
+use super::data::{Heading, ViewerData};
 use super::drawing::Drawing;
 use super::svg::escaped;
 use crate::summary::Names;
@@ -18,8 +18,24 @@ const MAX_TEXT: usize = 32 << 20;
 /// Lines of a file that a page shows; browsers can scroll no further.
 const MAX_LINES: usize = 1_500_000;
 
-const VIEWER: &str = include_str!("viewer.js");
-const SCRIPT: &str = include_str!("page.js");
+/// The modules of the page, each after those that it imports: as one script their names are one another's.
+const MODULES: [&str; 15] = [
+    include_str!("viewer/geometry.js"),
+    include_str!("viewer/data.js"),
+    include_str!("viewer/former.js"),
+    include_str!("viewer/colors.js"),
+    include_str!("viewer/words.js"),
+    include_str!("viewer/camera.js"),
+    include_str!("viewer/painter.js"),
+    include_str!("viewer/paper.js"),
+    include_str!("viewer/annotate.js"),
+    include_str!("viewer/measure.js"),
+    include_str!("viewer/picture.js"),
+    include_str!("viewer/pick.js"),
+    include_str!("viewer.js"),
+    include_str!("panel.js"),
+    include_str!("page.js"),
+];
 const STYLE: &str = include_str!("page.css");
 const BODY: &str = include_str!("page.html");
 
@@ -37,6 +53,8 @@ pub struct Page<'a> {
     pub sources: &'a [Source<'a>],
     /// What is marked.
     pub findings: &'a [Finding<'a>],
+    /// What comments call the moves after them.
+    pub headings: &'a [Heading<'a>],
     /// Further sentences about the drawing, after its own.
     pub notes: &'a [String],
 }
@@ -112,7 +130,11 @@ impl Drawing {
         )?;
         let data = self.page_data(page, names);
         data.serialize(&mut serde_json::Serializer::with_formatter(&mut *out, Harmless(CompactFormatter)))?;
-        write!(out, "</script>\n<script type=\"module\">\n{VIEWER}\n{SCRIPT}</script>\n</body>\n</html>\n")
+        write!(out, "</script>\n<script type=\"module\">\n")?;
+        for line in MODULES.iter().flat_map(|module| module.lines()).filter(|line| !is_import(line)) {
+            writeln!(out, "{line}")?;
+        }
+        write!(out, "</script>\n</body>\n</html>\n")
     }
 
     fn page_data<'a>(&'a self, page: &Page<'a>, names: &Names<'_>) -> PageData<'a> {
@@ -148,9 +170,14 @@ impl Drawing {
             notes,
             findings: findings.collect(),
             sources,
-            toolpath: self.viewer_data(names),
+            toolpath: self.viewer_data(names, page.headings),
         }
     }
+}
+
+/// Does a line of a module take names from another, or pass them on? Each such statement has its own line.
+fn is_import(line: &str) -> bool {
+    line.starts_with("import ") || line.starts_with("export {")
 }
 
 /// JSON without `<`, so that no text of a program can end the script that holds it.

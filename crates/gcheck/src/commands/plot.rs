@@ -10,7 +10,7 @@ use std::path::Path;
 use gcheck_engine::{Fault, RunResult};
 use gcheck_report::LineIndex;
 use gcheck_syntax::SourceText;
-use gcheck_toolpath::plot::{Drawing, MAX_POINTS, Page, Plot, Source};
+use gcheck_toolpath::plot::{Drawing, Heading, MAX_POINTS, Page, Plot, Source};
 use gcheck_toolpath::{Names, Step, WorkCoordinates};
 
 use crate::args::{Global, PlotOptions};
@@ -113,11 +113,19 @@ fn page(
     }
     let sources: Vec<Source<'_>> = texts.iter().map(|(name, text)| Source { name, text }).collect();
     let findings: Vec<_> = found.findings(shown).collect();
+    let text = session.prepared.source.text();
+    let index = LineIndex::new(text);
+    let headings: Vec<Heading<'_>> = session
+        .headings
+        .iter()
+        .map(|heading| Heading { file: shown, line: index.line(heading.from), name: &heading.name })
+        .collect();
     let page = Page {
         title: shown,
         control: &session.prepared.choice.name,
         sources: &sources,
         findings: &findings,
+        headings: &headings,
         notes,
     };
     // The page is written in small pieces.

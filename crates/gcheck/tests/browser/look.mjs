@@ -4,55 +4,15 @@
 //
 // TOOLS is the folder with `node_modules/playwright-core`; pictures for people go to FOLDER.
 
-import { createRequire } from "node:module";
-import { pathToFileURL } from "node:url";
-import path from "node:path";
+import { open, pixels } from "./browser.mjs";
 
 const [tools, executablePath, file, pictures] = process.argv.slice(2);
-const { chromium } = createRequire(path.resolve(tools, "package.json"))("playwright-core");
-
-// Without a graphics card the browser draws by itself.
-const args = ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
-const browser = await chromium.launch({ executablePath, headless: true, args });
-const seen = { problems: [], requests: [] };
+const { browser, page, seen, rest, picture, colors, text } = await open(tools, executablePath, file, pictures);
 try {
-  const page = await browser.newPage({ viewport: { width: 1200, height: 800 }, colorScheme: "light" });
-  page.setDefaultTimeout(60000);
-  page.on("console", (message) => { if (message.type() === "error") seen.problems.push(message.text()); });
-  page.on("pageerror", (error) => seen.problems.push(error.message));
-  page.on("request", (request) => seen.requests.push(request.url().split("/").pop()));
-
-  const rest = () => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
-  const picture = async (name) => {
-    await rest();
-    return page.screenshot({ path: path.join(pictures, `${name}.png`), timeout: 60000 });
-  };
-  // Colours of the view with how often each is seen, the most frequent first.
-  const colors = async (name) => {
-    const png = (await picture(name)).toString("base64");
-    return page.evaluate(async (png) => {
-      const image = new Image(), paper = document.createElement("canvas").getContext("2d");
-      image.src = `data:image/png;base64,${png}`;
-      await image.decode();
-      const { x, y, width, height } = document.getElementById("canvas").getBoundingClientRect();
-      paper.canvas.width = width; paper.canvas.height = height;
-      paper.drawImage(image, -x, -y);
-      const counts = new Map(), { data } = paper.getImageData(0, 0, width, height);
-      for (let i = 0; i < data.length; i += 4) {
-        const key = `${data[i]},${data[i + 1]},${data[i + 2]}`;
-        counts.set(key, (counts.get(key) ?? 0) + 1);
-      }
-      return [...counts].sort((a, b) => b[1] - a[1]);
-    }, png);
-  };
-  const text = (selector) => page.locator(selector).innerText();
-
-  await page.goto(pathToFileURL(file).href);
-  await page.waitForSelector(".source .line");
   await picture("first");
   seen.title = await page.title();
   seen.summary = await text("#summary");
-  seen.legend = (await text("#legend")).split("\n");
+  seen.tools = await page.locator("#choices .tools label").allInnerTexts();
   seen.notes = await page.locator("#notes").innerText();
   seen.message = await page.locator(".message").count();
   seen.boldElements = await page.locator(".source b, header b, #findings b").count();
@@ -106,18 +66,14 @@ try {
   await page.keyboard.press("End");
 
   // A tool is hidden: its colour is gone from the view; the background changes with the theme.
-  // The legend is blue in places as well.
-  const blues = (counts) => counts.reduce((sum, [color, count]) => {
-    const [red, green, blue] = color.split(",").map(Number);
-    return blue > 180 && blue > red + 100 && green > red ? sum + count : sum;
-  }, 0);
+  const blues = (counts) => pixels(counts, (red, green, blue) => blue > 140 && blue > red + 90 && green > red);
   await page.keyboard.press("1");
   const shown = await colors("tools");
   seen.backgroundLight = shown[0][0];
   seen.blueWithTool = blues(shown);
-  await page.locator("#legend input").first().uncheck();
+  await page.locator("#choices .tools input").first().uncheck();
   seen.blueWithoutTool = blues(await colors("hidden"));
-  await page.locator("#legend input").first().check();
+  await page.locator("#choices .tools input").first().check();
   await page.locator("#theme").click();
   seen.theme = await page.evaluate(() => document.documentElement.dataset.theme);
   await page.keyboard.press("4");

@@ -174,6 +174,8 @@ fn a_page_needs_nothing_else() {
     assert_eq!(shop.gcheck("plot plate.nc --control fanuc-mill -o plate.html").code, 0);
     let page = shop.read("plate.html");
     assert!(page.contains("Content-Security-Policy\" content=\"default-src 'none'"));
+    // The name of the elements of SVG looks like an address, and nobody asks for it.
+    let page = page.replace("http://www.w3.org/2000/svg", "");
     for address in ["http://", "https://", "src=", "@import", "fetch("] {
         assert!(!page.contains(address), "{address}");
     }
@@ -204,49 +206,68 @@ const BROWSERS: [&str; 4] = [
     "/usr/bin/google-chrome-stable",
 ];
 
-#[test]
-fn a_page_works_in_a_browser() {
+/// What a script of `tests/browser` sees on a page, which loads nothing else; `None` where the tools are missing.
+fn look(script: &str, page: &Path) -> Option<Value> {
+    let seen = run_script(script, page)?;
+    let name = page.file_name().unwrap().to_str().unwrap();
+    assert_eq!(seen["requests"], serde_json::json!([name]), "nothing else is loaded");
+    Some(seen)
+}
+
+/// What a script of `tests/browser` prints; `None` where the tools are missing.
+fn run_script(script: &str, page: &Path) -> Option<Value> {
     let crate_folder = Path::new(env!("CARGO_MANIFEST_DIR"));
     let tools = crate_folder.join("../../.test-tools");
     let browser = BROWSERS.iter().map(Path::new).find(|path| path.exists());
     let (Some(browser), true) = (browser, tools.join("node_modules/playwright-core").exists()) else {
         eprintln!(
-            "skipped: a_page_works_in_a_browser (no Chromium, or no playwright-core in {}; `cargo xtask test` installs both)",
+            "skipped: {script} (no Chromium, or no playwright-core in {}; `cargo xtask test` installs both)",
             tools.display()
         );
-        return;
+        return None;
     };
-    let shop = Shop::with(&[("plate.nc", PLATE)]);
-    assert_eq!(shop.gcheck("plot plate.nc --control fanuc-mill -o plate.html").code, 0);
     // Pictures of the last run stay for people to look at.
     let pictures = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("plot-pictures");
     fs::create_dir_all(&pictures).unwrap();
     let output = Command::new("node")
-        .arg(crate_folder.join("tests/browser/look.mjs"))
-        .args([tools.as_path(), browser, &shop.path("plate.html"), &pictures])
+        .arg(crate_folder.join("tests/browser").join(script))
+        .args([tools.as_path(), browser, page, &pictures])
         .output()
         .unwrap();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let seen: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(seen["problems"], Value::Array(Vec::new()), "{seen:#}");
+    Some(seen)
+}
+
+#[test]
+fn a_page_works_in_a_browser() {
+    let shop = Shop::with(&[("plate.nc", PLATE)]);
+    assert_eq!(shop.gcheck("plot plate.nc --control fanuc-mill -o plate.html").code, 0);
+    let Some(seen) = look("look.mjs", &shop.path("plate.html")) else { return };
     let text = |key: &str| seen[key].as_str().unwrap_or_else(|| panic!("{key}: {seen:#}")).to_owned();
 
-    assert_eq!(seen["problems"], Value::Array(Vec::new()), "{seen:#}");
-    assert_eq!(seen["requests"], serde_json::json!(["plate.html"]), "nothing else is loaded");
     assert_eq!(seen["message"], 0, "the path is drawn");
     assert_eq!(text("title"), "plate.nc");
     assert!(
         text("summary").starts_with("fanuc-mill") && text("summary").contains("X -60.000 to 60.000"),
         "{seen:#}"
     );
-    assert_eq!(seen["legend"][0], "T1 FACE MILL 40");
+    assert_eq!(seen["tools"][0], "T1 FACE MILL 40");
 
     assert_eq!(seen["lines"][1], "O0101 (PLATE)");
     assert_eq!(seen["lines"][12], "G0 Z25. (</script><b>BOLD</b> & \"QUOTED\")");
     assert_eq!(seen["boldElements"], 0);
 
-    assert_eq!(text("readoutOfLine8"), "line 8 feed to X60.000 Y-30.000 Z-0.500 · T1 · 0:14");
+    assert_eq!(
+        text("readoutOfLine8"),
+        "line 8 · feed · X60.000 Y-30.000 Z-0.500 · F1200 mm/min · S2000 · T1 · 0:14 · 1:02 left"
+    );
     assert_eq!(text("chosen"), "8");
-    assert_eq!(text("picked"), "line 8 feed to X60.000 Y-30.000 Z-0.500 · T1 · 0:14");
+    assert_eq!(
+        text("picked"),
+        "line 8 · feed · X60.000 Y-30.000 Z-0.500 · F1200 mm/min · S2000 · T1 · 0:14 · 1:02 left"
+    );
 
     assert!(seen["findings"].as_array().unwrap().len() == 1 && seen["marked"] == 1, "{seen:#}");
     assert_eq!(text("lineOfFinding"), "27");
@@ -264,4 +285,135 @@ fn a_page_works_in_a_browser() {
         "a hidden tool is not drawn: {seen:#}"
     );
     assert_eq!(seen["scrollsSideways"], false);
+}
+
+#[test]
+fn the_options_of_a_page_work_in_a_browser() {
+    let shop = Shop::with(&[("plate.nc", PLATE)]);
+    assert_eq!(shop.gcheck("plot plate.nc --control fanuc-mill -o plate.html").code, 0);
+    let Some(seen) = look("options.mjs", &shop.path("plate.html")) else { return };
+    let text = |key: &str| seen[key].as_str().unwrap_or_else(|| panic!("{key}: {seen:#}")).to_owned();
+    let count = |key: &str| seen[key].as_u64().unwrap_or_else(|| panic!("{key}: {seen:#}"));
+    let words = |key: &str| {
+        let all = seen[key].as_array().unwrap_or_else(|| panic!("{key}: {seen:#}"));
+        all.iter().map(|word| word.as_str().unwrap_or_default().to_owned()).collect::<Vec<_>>()
+    };
+
+    assert_eq!(
+        text("readout"),
+        "line 10 · feed · X-60.000 Y0.000 Z-0.500 · F1200 mm/min · S2000 · T1 · 0:21 · 0:54 left"
+    );
+    assert_eq!(words("speeds").last().map(String::as_str), Some("all in 1 min"));
+
+    // Colours, with the numbers of their legends.
+    assert!(count("redOfRapids") > 100 && count("redWithoutRapids") == 0, "rapid moves are red: {seen:#}");
+    assert_eq!(words("feeds"), ["Feed along the path, mm/min", "250", "600", "800", "900", "1200"]);
+    let of_feeds = seen["pixelsOfFeeds"].as_array().unwrap();
+    assert!(of_feeds.len() == 5 && of_feeds.iter().all(|count| count.as_u64() > Some(10)), "{seen:#}");
+    assert_eq!(words("heights"), ["Z, mm", "25.000", "15.250", "5.500", "-4.250", "-14.000"]);
+    assert_eq!(words("times"), ["Time, min:s", "1:15", "0:56", "0:38", "0:19", "0:00"]);
+    assert!(count("colorsByTime") > 10, "{seen:#}");
+    assert_eq!(words("spindle"), ["Spindle, turns/min", "0", "2000", "6000"]);
+
+    // What is hidden is not drawn, and comes back.
+    assert!(count("drawnAboveZero") * 5 < count("drawnAtAllHeights") * 4, "{seen:#}");
+    assert_eq!(count("drawnAtAllHeights"), count("drawnAtAllHeightsAgain"));
+    assert_eq!(text("numberOfHeight"), "0.000");
+    assert!(text("sliderOfHeight").ends_with(" mm") && text("sliderOfHeight") != "0.000 mm", "{seen:#}");
+    assert_eq!(words("operations")[1], "T2 END MILL 8\nT2, lines 15 to 23, 0:33");
+    assert!(count("drawnWithNone") < count("drawnWithoutOne"), "{seen:#}");
+    assert!(count("drawnWithoutOne") < count("drawnWithAll"), "{seen:#}");
+    assert_eq!(count("drawnWithAll"), count("drawnWithAllAgain"));
+
+    // Measures by key and by click.
+    assert_eq!(text("measureBegins"), "true");
+    let from_to = ["from end", "X60.000 Y-30.000 Z-0.500", "to end", "X60.000 Y0.000 Z-0.500"];
+    assert_eq!(words("measured")[..4], from_to);
+    let between = ["ΔX", "0.000 mm", "ΔY", "30.000 mm", "ΔZ", "0.000 mm", "distance", "30.000 mm"];
+    assert_eq!(words("measured")[4..], between);
+    assert_eq!(words("centre"), ["from centre of the arc, R 18.000", "X0.000 Y0.000 Z-3.000"]);
+    assert_eq!(text("noCentre"), "The chosen move has no centre: choose another.");
+    assert_eq!((text("measureEnds").as_str(), count("nothingMeasured")), ("false", 0));
+    assert_eq!(words("clicked")[..2], from_to[..2]);
+    let grown = &seen["chosenGrows"];
+    assert!(grown[1].as_u64() > grown[0].as_u64().map(|before| 2 * before), "{seen:#}");
+
+    // Pictures to keep.
+    assert_eq!(seen["png"]["name"], "plate.png");
+    assert_eq!(seen["png"]["start"], serde_json::json!([0x89, 0x50, 0x4E, 0x47, 0x0D, 0x0A, 0x1A, 0x0A]));
+    assert!(count("inkOfPng").abs_diff(count("inkOfView")) * 20 < count("inkOfView"), "{seen:#}");
+    for svg in seen["svgs"].as_array().unwrap() {
+        assert_eq!((&svg["name"], &svg["dashed"]), (&"plate.svg".into(), &true.into()), "{svg:#}");
+        assert_eq!(svg["covered"], serde_json::json!([]), "words cover each other");
+    }
+    let first = seen["svgs"][0]["words"].as_array().unwrap();
+    assert!(
+        ["X 120.000", "Y 60.000", "Z 39.000"].iter().all(|size| first.contains(&Value::from(*size))),
+        "{seen:#}"
+    );
+
+    // For everybody.
+    assert_eq!(words("contrast"), ["contrast", "0,0,0"]);
+    assert_eq!(words("themesOfSystem"), ["contrastLight", "contrast", "contrastLight", "dark", "light"]);
+    for key in ["nameless", "ringless", "overlapsWhenNarrow", "overlapsInOptions"] {
+        assert_eq!(words(key), Vec::<String>::new(), "{key}");
+    }
+    assert_eq!(seen["closedByItself"], true, "the options make room for the path");
+    assert!(count("steps") <= 5, "{seen:#}");
+    assert_eq!((&seen["scrollsSideways"], &seen["optionsOfNarrow"]), (&false.into(), &true.into()));
+}
+
+/// What an editor does with the viewer: it shows one text after the other, of which some make no move.
+#[test]
+fn the_viewer_takes_other_data_and_comes_to_an_end() {
+    let shop = Shop::with(&[("plate.nc", PLATE)]);
+    assert_eq!(shop.gcheck("plot plate.nc --control fanuc-mill -o plate.html").code, 0);
+    let Some(seen) = run_script("viewer.mjs", &shop.path("plate.html")) else { return };
+    let count = |key: &str| seen[key].as_u64().unwrap_or_else(|| panic!("{key}: {seen:#}"));
+
+    assert_eq!(seen["short"], "toolpath data end before their last point");
+    assert!(
+        seen["endless"].as_str().unwrap().starts_with("toolpath data with a run from 0 to 0 of "),
+        "{seen:#}"
+    );
+
+    // After its end nothing is drawn, and the graphics card has its memory back.
+    for key in ["texturesAfterwards", "inkAfterwards", "inkLater", "overlaysAfterwards"] {
+        assert_eq!(count(key), 0, "{key}: {seen:#}");
+    }
+
+    assert!(count("operations") > 1 && count("uploadsOfNone") == 1, "{seen:#}");
+    assert!(count("hovers") > 1 && count("newsOfHover") == 0, "{seen:#}");
+
+    assert_eq!((count("inkOfNothing"), count("piecesOfNothing")), (0, 0), "{seen:#}");
+    let kept = serde_json::json!({ "coloring": "feed", "isTicked": false, "isAsBefore": true });
+    assert_eq!(seen["afterNothing"], kept, "{seen:#}");
+
+    assert_eq!(seen["lost"], "No picture is saved: the graphics card is lost.");
+    assert_eq!(seen["inkIsBack"], true, "{seen:#}");
+
+    assert_eq!(seen["switches"], serde_json::json!(["T1", "Rapid moves", "Former path"]));
+    let former = serde_json::json!({
+        "isInSvg": true, "isInSvgWithoutSwitch": false, "isSeen": true, "staysWithoutNews": true,
+        "isInSvgOfAnotherProgram": false,
+    });
+    assert_eq!(seen["former"], former, "{seen:#}");
+
+    assert_eq!(
+        seen["turning"],
+        serde_json::json!([2.5, 22.5]),
+        "a quarter of the way, a quarter of the turn"
+    );
+    assert_eq!((&seen["turned"], &seen["turningFromUnknown"]), (&90.into(), &90.into()));
+}
+
+/// On a lathe X is a diameter, in differences too.
+#[test]
+fn a_lathe_is_measured_in_diameters() {
+    let shop = Shop::with(&[("shaft.nc", SHAFT)]);
+    assert_eq!(shop.gcheck("plot shaft.nc --control fanuc-lathe -o shaft.html").code, 0);
+    let Some(seen) = look("lathe.mjs", &shop.path("shaft.html")) else { return };
+    let expected = ["ΔX (diameter)", "10.000 mm", "ΔZ", "-10.000 mm", "distance", "11.180 mm"];
+    assert_eq!(seen["measured"], serde_json::json!(expected), "{seen:#}");
+    assert_eq!(seen["feed"], "F0.15 mm/turn");
 }

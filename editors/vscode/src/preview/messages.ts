@@ -30,7 +30,8 @@ export interface Alarm {
 }
 
 export type ToPage =
-  | { kind: "toolpath"; name: string; toolpath: Toolpath }
+  /** The path of the program with this address. */
+  | { kind: "toolpath"; uri: string; toolpath: Toolpath }
   | { kind: "nothing"; why: string; alarms: Alarm[]; notes: string[] }
   | { kind: "lines"; first: number; last: number };
 
@@ -39,5 +40,7 @@ export type FromPage =
   | { kind: "line"; file: string; line: number }
   /** The tool of a run that is played or stepped is at this line. */
   | { kind: "at"; file: string; line: number }
+  /** A picture of the view, to be saved. */
+  | { kind: "save"; name: string; bytes: Uint8Array }
   /** For tests: what is drawn. */
   | { kind: "drawn"; pieces: number; alarms: number };

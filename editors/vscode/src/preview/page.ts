@@ -1,8 +1,8 @@
 // The page of the preview: the viewer, and its controls.
 
-import { createViewer, type Drawing, lengthText, type Place, THEMES, type Viewer } from "gcheck-viewer";
+import { createPanel, type Panel } from "gcheck-panel";
+import { createViewer, type Drawing, lengthText, type Place, placeText, speedsFor, THEMES, timeText, type Viewer } from "gcheck-viewer";
 
-import { clock } from "./clock";
 import type { Alarm, FromPage, ToPage, Toolpath } from "./messages";
 
 declare function acquireVsCodeApi(): { postMessage(message: FromPage): void };
@@ -21,26 +21,35 @@ const canvas = element<HTMLCanvasElement>("canvas");
 const nothing = element("nothing");
 const figures = element("figures");
 const alarms = element("alarms");
-const tools = element("tools");
+const notes = element("notes");
+const choices = element("choices");
+const side = element("side");
+const options = element<HTMLButtonElement>("options");
 const play = element<HTMLButtonElement>("play");
 const time = element<HTMLInputElement>("time");
 const speed = element<HTMLSelectElement>("speed");
 const view = element<HTMLSelectElement>("view");
-const rapids = element<HTMLInputElement>("rapids");
 const readout = element("readout");
 
 let viewer: Viewer | undefined;
+let panel: Panel | undefined;
 let drawing: Drawing | undefined;
 
-function theme(): Record<string, string> {
-  const isLight = document.body.classList.contains("vscode-light") || document.body.classList.contains("vscode-high-contrast-light");
-  const own = isLight ? THEMES.light : THEMES.dark;
+function theme(): Record<string, string | number> {
+  const has = (name: string) => document.body.classList.contains(name);
+  const isLight = has("vscode-light") || has("vscode-high-contrast-light");
+  const isContrast = has("vscode-high-contrast") || has("vscode-high-contrast-light");
+  const own = isContrast ? (isLight ? THEMES.contrastLight : THEMES.contrast) : isLight ? THEMES.light : THEMES.dark;
   const background = getComputedStyle(document.body).getPropertyValue("--vscode-editor-background").trim();
   return /^#[0-9a-f]{6}$/i.test(background) ? { ...own, background } : own;
 }
 
-function show(toolpath: Toolpath): void {
+/** The address of the program that was drawn last. */
+let shown = "";
+
+function show(uri: string, toolpath: Toolpath): void {
   nothing.textContent = "";
+  choices.hidden = false;
   drawing = toolpath.data;
   if (viewer === undefined) {
     viewer = createViewer(canvas, drawing, {
@@ -59,35 +68,59 @@ function show(toolpath: Toolpath): void {
         play.textContent = isPlaying ? "⏸" : "▶";
         play.ariaLabel = isPlaying ? "Pause" : "Play";
       },
+      onMeasure(state) {
+        panel?.measured(state);
+      },
+      onLook() {
+        panel?.look();
+      },
     });
     viewer.setTheme(theme());
-    viewer.setSpeed(Number(speed.value));
-    if (drawing.lathe) {
-      view.value = "lathe";
-    }
+    view.value = drawing.lathe ? "lathe" : "iso";
+    panel = createPanel(choices, viewer, { save, hasFormer: true });
   } else {
-    viewer.setData(drawing);
+    // While somebody types the picture is seen from where it was.
+    const keep = uri === shown;
+    viewer.setData(drawing, { keep, former: keep });
+    if (!keep) {
+      view.value = drawing.lathe ? "lathe" : "iso";
+    }
+    panel?.refresh({ keep });
   }
-  viewer.showRapids(rapids.checked);
+  shown = uri;
+  // The tool is at the end of the new path.
+  time.value = "1000";
+  time.ariaValueText = null;
+  readout.textContent = "";
+  offerSpeeds(viewer.duration());
   describe(toolpath);
-  legend(drawing);
   list(toolpath.alarms);
   host.postMessage({ kind: "drawn", pieces: viewer.pieces(), alarms: alarms.childElementCount });
 }
 
+/** The editor asks where to, and writes the picture. */
+async function save(name: string, blob: Blob): Promise<void> {
+  host.postMessage({ kind: "save", name, bytes: new Uint8Array(await blob.arrayBuffer()) });
+}
+
+let chosenSpeed: string | undefined;
+
+/** Speeds that fit the length of the run; the one that somebody chose stays. */
+function offerSpeeds(duration: number): void {
+  const speeds = speedsFor(duration);
+  speed.replaceChildren(...speeds.map(({ factor, words }) => Object.assign(document.createElement("option"), { value: String(factor), textContent: words })));
+  const wanted = speeds.find(({ words }) => words === chosenSpeed) ?? speeds.find(({ usual }) => usual);
+  speed.selectedIndex = wanted === undefined ? 0 : speeds.indexOf(wanted);
+  viewer?.setSpeed(Number(speed.value));
+}
+
 /** Where the tool is, and how long it has been on its way. */
 function read(place: Place, duration: number): void {
-  if (drawing === undefined) {
-    return;
+  if (drawing !== undefined) {
+    const parts = placeText(drawing, place, duration);
+    readout.textContent = parts.map(({ words }) => words).join("  ");
+    time.ariaValueText = `${timeText(place.seconds)} of ${timeText(duration)}`;
   }
-  const { units, diameter } = drawing;
-  const axes = ["X", "Y", "Z"].map((axis, index) => {
-    const value = (place.point[index] ?? 0) * (axis === "X" && diameter ? 2 : 1);
-    return `${axis} ${lengthText(value, units)}`;
-  });
-  const tool = place.tool?.number == null ? [] : [`T${place.tool.number}`];
-  const left = clock(Math.max(duration - place.seconds, 0));
-  readout.textContent = [`line ${place.line}`, ...axes, ...tool, `${clock(place.seconds)}, ${left} left`].join("  ");
 }
 
 /** Milliseconds between two lines that the editor is told while the run is played. */
@@ -124,9 +157,9 @@ function list(passed: Alarm[]): void {
   }
 }
 
-/** Extents of the cut, time, and what a reader has to know. */
+/** Extents of the cut, time, and what a reader has to know whether the options are open or not. */
 function describe(toolpath: Toolpath): void {
-  const { data, travel, seconds, notes } = toolpath;
+  const { data, travel, seconds } = toolpath;
   const lines: string[] = [];
   const box = data.cut ?? data.all;
   ["X", "Y", "Z"].forEach((axis, index) => {
@@ -146,42 +179,28 @@ function describe(toolpath: Toolpath): void {
     }
   });
   if (seconds > 0) {
-    lines.push(`time ${clock(seconds)}`);
+    lines.push(`time ${timeText(seconds)}`);
   }
-  figures.replaceChildren(
-    ...[...lines, ...notes].map((line) => Object.assign(document.createElement("div"), { textContent: line })),
-  );
-}
-
-function legend(drawing: Drawing): void {
-  const rows = drawing.tools.map((tool, index) => {
-    const label = document.createElement("label");
-    const box = Object.assign(document.createElement("input"), { type: "checkbox", checked: true });
-    box.addEventListener("change", () => viewer?.showTool(index, box.checked));
-    const swatch = document.createElement("span");
-    swatch.className = "swatch";
-    swatch.style.background = tool.color;
-    const name = [tool.number === null ? "no tool" : `T${tool.number}`, tool.name].filter(Boolean).join(" ");
-    label.append(box, swatch, ` ${name}`);
-    return label;
-  });
-  tools.replaceChildren(...rows);
+  const rows = (texts: string[]) => texts.map((textContent) => Object.assign(document.createElement("div"), { textContent }));
+  figures.replaceChildren(...rows(lines));
+  notes.replaceChildren(...rows(toolpath.notes));
 }
 
 window.addEventListener("message", (event: MessageEvent<ToPage>) => {
   const message = event.data;
   switch (message.kind) {
     case "toolpath":
-      show(message.toolpath);
+      show(message.uri, message.toolpath);
       break;
     case "nothing":
-      // What was drawn before belongs to another text.
-      viewer?.destroy();
-      viewer = undefined;
+      // What was drawn before belongs to another text. View, colours and filters stay for the next one: a block is half typed.
+      viewer?.clear();
       drawing = undefined;
-      canvas.getContext("webgl2")?.clear(WebGL2RenderingContext.COLOR_BUFFER_BIT);
-      tools.replaceChildren();
+      choices.hidden = true;
+      time.value = "1000";
+      readout.textContent = "";
       figures.replaceChildren();
+      notes.replaceChildren();
       nothing.textContent = [message.why, ...message.notes].join("\n");
       list(message.alarms);
       break;
@@ -193,10 +212,25 @@ window.addEventListener("message", (event: MessageEvent<ToPage>) => {
 
 play.addEventListener("click", () => (viewer?.isPlaying() ? viewer.pause() : viewer?.play()));
 time.addEventListener("input", () => viewer?.goToTime((Number(time.value) / 1000) * viewer.duration()));
-speed.addEventListener("change", () => viewer?.setSpeed(Number(speed.value)));
+speed.addEventListener("change", () => {
+  chosenSpeed = speed.selectedOptions[0]?.textContent ?? undefined;
+  viewer?.setSpeed(Number(speed.value));
+});
 view.addEventListener("change", () => viewer?.setView(view.value));
-rapids.addEventListener("change", () => viewer?.showRapids(rapids.checked));
 element("fit").addEventListener("click", () => viewer?.fit());
+element("zoom").addEventListener("click", () => viewer?.fitSelection());
+
+function showOptions(yes: boolean): void {
+  side.hidden = !yes;
+  options.ariaExpanded = String(yes);
+}
+
+options.addEventListener("click", () => showOptions(side.hidden));
+// Where there is room for the path beside it.
+const wide = window.matchMedia("(min-width: 561px)");
+wide.addEventListener("change", () => showOptions(wide.matches));
+showOptions(wide.matches);
+
 const KEYS: Record<string, () => void> = {
   " ": () => play.click(),
   ",": () => viewer?.step(-1),
@@ -205,6 +239,8 @@ const KEYS: Record<string, () => void> = {
   PageDown: () => viewer?.stepBlock(1),
   T: () => viewer?.stepTool(-1),
   t: () => viewer?.stepTool(1),
+  r: () => panel?.toggleRapids(),
+  o: () => options.click(),
 };
 canvas.addEventListener("keydown", (event) => {
   const act = event.ctrlKey || event.metaKey || event.altKey ? undefined : KEYS[event.key];
@@ -216,6 +252,13 @@ canvas.addEventListener("keydown", (event) => {
 element("back").addEventListener("click", () => viewer?.stepBlock(-1));
 element("on").addEventListener("click", () => viewer?.stepBlock(1));
 element("next-tool").addEventListener("click", () => viewer?.stepTool(1));
+// The panel is left with Escape, and a measure is ended wherever the keyboard is.
+document.addEventListener("keydown", (event) => {
+  if (event.key === "Escape" && viewer?.measure.state().isOn) {
+    viewer.measure.stop();
+    canvas.focus();
+  }
+});
 new MutationObserver(() => viewer?.setTheme(theme())).observe(document.body, { attributes: true, attributeFilter: ["class"] });
 
 host.postMessage({ kind: "ready" });

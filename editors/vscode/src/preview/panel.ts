@@ -42,7 +42,7 @@ export class ToolpathPreview implements vscode.Disposable {
       vscode.window.onDidChangeTextEditorSelection((change) => {
         const selection = change.selections[0];
         if (change.textEditor.document === this.document && selection !== undefined) {
-          this.post({ kind: "lines", first: selection.start.line + 1, last: selection.end.line + 1 });
+          this.choose(selection);
         }
       }),
     ];
@@ -97,10 +97,12 @@ export class ToolpathPreview implements vscode.Disposable {
 <link rel="stylesheet" href="${style}">
 </head>
 <body>
-<div id="scene"><canvas id="canvas" tabindex="0" aria-label="Toolpath"></canvas></div>
-<p id="nothing" role="status"></p>
-<div id="figures" aria-live="polite"></div>
-<div id="side"><div id="tools"></div><div id="alarms" role="status"></div></div>
+<div id="work">
+<div id="scene"><canvas id="canvas" tabindex="0" role="img" aria-label="Toolpath in three dimensions; arrows turn it, Shift and arrows move it"></canvas>
+<p id="nothing" role="status"></p></div>
+<div id="side"><div id="figures"></div><div id="choices" role="group" aria-label="Options"></div></div>
+</div>
+<div id="told"><div id="alarms" role="status"></div><div id="notes" aria-live="polite"></div></div>
 <div id="readout" role="status"></div>
 <div id="controls">
 <button id="back" title="Back a block (Page Up); a move: ," aria-label="Back a block">‹</button>
@@ -108,15 +110,14 @@ export class ToolpathPreview implements vscode.Disposable {
 <button id="on" title="On a block (Page Down); a move: ." aria-label="On a block">›</button>
 <button id="next-tool" title="To the end of the next tool (T)" aria-label="Next tool">T›</button>
 <input id="time" type="range" min="0" max="1000" value="1000" aria-label="Place in the run">
-<select id="speed" aria-label="Speed">
-<option value="1">1×</option><option value="10" selected>10×</option><option value="100">100×</option>
-</select>
+<select id="speed" aria-label="Speed"></select>
 <select id="view" aria-label="View">
 <option value="iso">Isometric</option><option value="top">Top (XY)</option><option value="front">Front (XZ)</option>
 <option value="side">Side (YZ)</option><option value="lathe">Lathe (ZX)</option>
 </select>
-<label><input id="rapids" type="checkbox" checked> rapids</label>
 <button id="fit" title="Show all (F)">Fit</button>
+<button id="zoom" title="Zoom to the moves of the chosen lines (Z)">Zoom</button>
+<button id="options" title="Colours, tools, range of Z, measures (O)" aria-controls="side" aria-expanded="true">Options</button>
 </div>
 <script src="${script}"></script>
 </body>
@@ -135,6 +136,9 @@ export class ToolpathPreview implements vscode.Disposable {
       case "at":
         this.follow(message.file, message.line);
         break;
+      case "save":
+        void this.save(message.name, message.bytes);
+        break;
       case "drawn":
         this.drawnEmitter.fire({ pieces: message.pieces, alarms: message.alarms });
         break;
@@ -143,9 +147,8 @@ export class ToolpathPreview implements vscode.Disposable {
 
   /** The cursor goes along with a run that is played or stepped, where its file is visible; the keyboard stays with the picture. */
   private follow(file: string, line: number): void {
-    const isMeant = (document: vscode.TextDocument) =>
-      file === "" ? document === this.document : path.basename(document.fileName) === path.basename(file);
-    const editor = vscode.window.visibleTextEditors.find((editor) => isMeant(editor.document));
+    const wanted = this.addressOf(file)?.toString();
+    const editor = vscode.window.visibleTextEditors.find((editor) => editor.document.uri.toString() === wanted);
     if (editor !== undefined) {
       const start = new vscode.Position(Math.min(Math.max(line - 1, 0), editor.document.lineCount - 1), 0);
       editor.selection = new vscode.Selection(start, start);
@@ -153,14 +156,21 @@ export class ToolpathPreview implements vscode.Disposable {
     }
   }
 
+  /** The address of a file as the path names it: nothing for the program itself, else a path from its folder. */
+  private addressOf(file: string): vscode.Uri | undefined {
+    const own = this.document?.uri;
+    if (own === undefined || file === "") {
+      return own;
+    }
+    return path.isAbsolute(file) ? vscode.Uri.file(file) : vscode.Uri.joinPath(own, "..", file);
+  }
+
   /** Shows the line of a move; that of a called program is opened. */
   private async reveal(file: string, line: number): Promise<void> {
-    if (this.document === undefined) {
+    const uri = this.addressOf(file);
+    if (uri === undefined) {
       return;
     }
-    const isOwn = file === "" || path.basename(file) === path.basename(this.document.fileName);
-    const folder = path.dirname(this.document.fileName);
-    const uri = isOwn ? this.document.uri : vscode.Uri.file(path.resolve(folder, file));
     const document = await vscode.workspace.openTextDocument(uri);
     const column = vscode.window.visibleTextEditors.find((editor) => editor.document === document)?.viewColumn;
     const range = document.lineAt(Math.min(Math.max(line - 1, 0), document.lineCount - 1)).range;
@@ -169,6 +179,26 @@ export class ToolpathPreview implements vscode.Disposable {
       selection: range,
       preserveFocus: false,
     });
+  }
+
+  /** Asks where a picture of the view is to be, and writes it. */
+  private async save(suggested: string, bytes: Uint8Array): Promise<void> {
+    const stem = this.document === undefined ? "toolpath" : path.parse(this.document.fileName).name;
+    const name = `${stem}${path.extname(suggested)}`;
+    const folder = this.document?.uri.scheme === "file" || this.document?.uri.scheme === "vscode-remote"
+      ? vscode.Uri.joinPath(this.document.uri, "..")
+      : vscode.workspace.workspaceFolders?.[0]?.uri;
+    const filters: Record<string, string[]> = name.endsWith(".svg") ? { "SVG picture": ["svg"] } : { "PNG picture": ["png"] };
+    const defaultUri = folder === undefined ? undefined : vscode.Uri.joinPath(folder, name);
+    const uri = await vscode.window.showSaveDialog({ defaultUri, filters, title: "Save the view" });
+    if (uri === undefined) {
+      return;
+    }
+    try {
+      await vscode.workspace.fs.writeFile(uri, bytes);
+    } catch (error) {
+      void vscode.window.showErrorMessage(`The picture could not be saved: ${String(error)}`);
+    }
   }
 
   private refreshSoon(): void {
@@ -199,7 +229,12 @@ export class ToolpathPreview implements vscode.Disposable {
         const notes = (toolpath?.notes ?? []).filter((note) => note !== toolpath?.stopped);
         this.nothing([why, toolpath?.stopped].filter(Boolean).join("\n"), toolpath?.alarms, notes);
       } else {
-        this.post({ kind: "toolpath", name, toolpath });
+        this.post({ kind: "toolpath", uri: document.uri.toString(), toolpath });
+        // What is chosen in the text is chosen in the new path as well.
+        const editor = vscode.window.visibleTextEditors.find((editor) => editor.document === document);
+        if (editor !== undefined) {
+          this.choose(editor.selection);
+        }
       }
     } catch (error) {
       if (!asking.token.isCancellationRequested) {
@@ -211,6 +246,11 @@ export class ToolpathPreview implements vscode.Disposable {
       }
       asking.dispose();
     }
+  }
+
+  /** The moves of the lines of a selection are the chosen ones. */
+  private choose(selection: vscode.Selection): void {
+    this.post({ kind: "lines", first: selection.start.line + 1, last: selection.end.line + 1 });
   }
 
   private nothing(why: string, alarms: Alarm[] = [], notes: string[] = []): void {

@@ -1,11 +1,12 @@
 // The features of the protocol, each once, with the real server.
 
 import * as assert from "node:assert/strict";
+import * as fs from "node:fs";
 import * as path from "node:path";
 
 import * as vscode from "vscode";
 
-import { api, askList, browser, edit, finding, focus, goTo, hoverText, open, picture, place, type Test, until } from "./harness";
+import { api, askList, browser, closeAll, create, edit, finding, focus, folder, goTo, hoverText, open, picture, place, press, type Test, until, widgets } from "./harness";
 
 const aFindingAppears: Test = [
   "a finding appears, with a link to its page",
@@ -164,6 +165,96 @@ export const trusted: Test[] = [
       subscription.dispose();
       goTo(editor, "G03");
       await picture("vscode-toolpath");
+    },
+  ],
+  [
+    "the options of the toolpath colour, cut, measure and save it",
+    async () => {
+      const editor = vscode.window.visibleTextEditors.find(({ document }) => document.fileName.endsWith("pocket.nc"));
+      assert.ok(editor, "the program is shown");
+      const inToolpath = (what: object) => browser<string>("inToolpath", what);
+      // The page is too narrow for them to be open from the start.
+      await inToolpath({ do: "click", at: "#options" });
+      const legend = await inToolpath({ do: "choose", at: "#choices select", with: "feed", read: "#choices .legend" });
+      assert.match(legend, /^Feed along the path, mm\/min\n/);
+      await picture("vscode-toolpath-feed");
+      await inToolpath({ do: "choose", at: "#choices select", with: "height" });
+      await picture("vscode-toolpath-height");
+      await inToolpath({ do: "choose", at: "#choices select", with: "tool" });
+      // The centre of a circle, by the line that the cursor is in.
+      goTo(editor, "G03 I-20.");
+      await until("the line to be chosen", async () => {
+        const said = await inToolpath({ do: "click", at: "#choices button:text-is('Centre')", read: "#choices .measured" });
+        return said.includes("centre of the arc, R 20.000") ? true : undefined;
+      });
+      await inToolpath({ do: "press", at: "#canvas", with: "Escape" });
+      assert.equal(await inToolpath({ read: "#choices .result" }), "", "Escape ends the measure");
+      const wanted = path.join(path.dirname(editor.document.fileName), "pocket.png");
+      await inToolpath({ do: "click", at: "#choices button:text-is('PNG')" });
+      await until("the dialog", async () => ((await widgets()).dialog ? true : undefined));
+      await picture("vscode-toolpath-save");
+      await press(["Enter"]);
+      const bytes = await until("the picture", () => (fs.existsSync(wanted) ? fs.readFileSync(wanted) : undefined));
+      assert.deepEqual([...bytes.subarray(1, 4)], [..."PNG"].map((letter) => letter.charCodeAt(0)));
+      fs.rmSync(wanted);
+      await inToolpath({ do: "click", at: "#options" });
+    },
+  ],
+  [
+    "a program that makes no move for a while keeps the options of its toolpath",
+    async () => {
+      const { preview } = await api();
+      const editor = await open("pocket.nc");
+      const whole = editor.document.getText();
+      const inToolpath = (what: object) => browser<string>("inToolpath", what);
+      const replace = (text: string) =>
+        editor.edit((edit) => edit.replace(new vscode.Range(0, 0, editor.document.lineCount, 0), text));
+      let pieces = 0;
+      const subscription = preview.onDrawn((drawn) => (pieces = drawn.pieces));
+      await vscode.commands.executeCommand("gcheck.showToolpath");
+      await until("the drawing", () => (pieces > 20 ? true : undefined));
+      await inToolpath({ do: "choose", at: "#view", with: "top" });
+      await inToolpath({ do: "click", at: "#options" });
+      await inToolpath({ do: "choose", at: "#choices select", with: "feed" });
+      await inToolpath({ do: "press", at: "#canvas", with: " " });
+      await replace("%\nO1006\n(gcheck: control=haas-mill)\nM30\n%\n");
+      await until("the message", async () =>
+        (await inToolpath({ read: "#nothing" })).startsWith("The program makes no move.") ? true : undefined);
+      assert.equal(await inToolpath({ read: "#readout" }), "", "nothing is played");
+      pieces = 0;
+      await replace(whole.replace("G03 I-20.", "G03 I-19."));
+      await until("the drawing to come back", () => (pieces > 20 ? true : undefined));
+      assert.match(await inToolpath({ read: "#choices .legend" }), /^Feed along the path, mm\/min\n/);
+      assert.match(await inToolpath({ read: "#choices .tools" }), /Former path/);
+      assert.equal(await inToolpath({ read: "#view" }), "top");
+      await picture("vscode-toolpath-former");
+      await inToolpath({ do: "choose", at: "#choices select", with: "tool" });
+      await inToolpath({ do: "click", at: "#options" });
+      subscription.dispose();
+      await vscode.commands.executeCommand("workbench.action.files.revert");
+    },
+  ],
+  [
+    "programs of one name in two folders have a view each",
+    async () => {
+      const { preview } = await api();
+      const program = (y: number) => `%\nO1\n(gcheck: control=haas-mill)\nG21 G90 G54\nT1 M6\nG0 X0. Y0. S900 M3\nG43 H1 Z5.\nG1 Z-1. F100.\nY${y}.\nG0 Z50.\nM30\n%\n`;
+      const inToolpath = (what: object) => browser<string>("inToolpath", what);
+      let drawings = 0;
+      const subscription = preview.onDrawn(() => drawings++);
+      await create("one/same.nc", program(10));
+      await vscode.commands.executeCommand("gcheck.showToolpath");
+      await until("the drawing", () => (drawings > 0 ? true : undefined));
+      await inToolpath({ do: "choose", at: "#view", with: "top" });
+      drawings = 0;
+      await create("two/same.nc", program(20));
+      await until("the other drawing", () => (drawings > 0 ? true : undefined));
+      assert.equal(await inToolpath({ read: "#view" }), "iso");
+      subscription.dispose();
+      await closeAll();
+      for (const name of ["one", "two"]) {
+        fs.rmSync(path.join(folder(), name), { recursive: true });
+      }
     },
   ],
   [

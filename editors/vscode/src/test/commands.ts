@@ -446,7 +446,7 @@ export const commands: Test[] = [
     },
   ],
   [
-    "gcheck.trace.server writes what is said",
+    "gcheck.trace.server writes the messages",
     async () => {
       await withSetting("trace.server", "messages", async () => {
         const { document } = await open("part.nc");

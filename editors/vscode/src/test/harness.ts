@@ -77,6 +77,8 @@ export interface Widgets {
   lenses: string[];
   /** Messages and dialogs. */
   messages: string;
+  /** A list or a field to type into is open above the text. */
+  dialog: boolean;
 }
 
 export async function widgets(): Promise<Widgets> {
@@ -122,7 +124,7 @@ export async function closeAll(): Promise<void> {
   await vscode.commands.executeCommand("workbench.action.closeAllEditors");
 }
 
-/** Where a text stands in a program; `within` counts from there. */
+/** Where a text is in a program; `within` counts from there. */
 export function place(document: vscode.TextDocument, text: string, within = 0): vscode.Position {
   const at = document.getText().indexOf(text);
   assert.ok(at >= 0, `the program has ${text}`);

@@ -58,7 +58,32 @@ async function colorsOf(words: string[]): Promise<Record<string, string>> {
   });
 }
 
+/** The ground of the toolpath in each of the themes: red, green and blue. */
+const GROUNDS: Record<string, (parts: number[]) => boolean> = {
+  dark: (parts) => Math.max(...parts) < 60,
+  light: (parts) => Math.min(...parts) > 235,
+  contrast: (parts) => Math.max(...parts) === 0,
+};
+
 export const looks: Test[] = [
+  ...THEMES.map(([name, theme]): Test => [
+    `the toolpath has the colours of ${theme}`,
+    async () => {
+      await withTheme(theme, async () => {
+        for (const [kind, program] of PROGRAMS) {
+          await open(copied(program));
+          await vscode.commands.executeCommand("gcheck.showToolpath");
+          const isRight = GROUNDS[name] ?? (() => false);
+          await until("the ground", async () => {
+            const ground = await browser<string>("inToolpath", { do: "ground" }).catch(() => "");
+            return ground !== "" && isRight(ground.split(",").map(Number)) ? true : undefined;
+          });
+          await picture(`vscode-toolpath-${kind}-${name}`);
+          await closeAll();
+        }
+      });
+    },
+  ]),
   ...THEMES.map(([name, theme]): Test => [
     `rapid, feed, arc and cycle have colours of their own in ${theme}`,
     async () => {
