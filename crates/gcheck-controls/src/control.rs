@@ -62,6 +62,8 @@ pub struct Control {
     pub(crate) by_number: [Vec<CodeIx>; 2],
     pub(crate) letters: Vec<Option<LetterEntry>>,
     pub(crate) variables: Vec<VariableEntry>,
+    /// First numbers of stretches of variables, rising, with the entry of `variables` that holds for the stretch.
+    pub(crate) numbered: Vec<(u32, Option<usize>)>,
     pub(crate) functions: Vec<FunctionEntry>,
     pub(crate) settings: Vec<SettingEntry>,
     pub(crate) alarms: Vec<AlarmOfRule>,
@@ -308,12 +310,10 @@ impl Control {
 
     /// A numbered macro variable.
     pub fn variable(&self, number: u32) -> Variable<'_> {
-        // Later entries are more special than earlier ones, and a narrower range beats a wider one.
-        self.variables
-            .iter()
-            .filter(|v| v.range.is_some_and(|[first, last]| (first..=last).contains(&number)))
-            .min_by_key(|v| v.range.map_or(u32::MAX, |[first, last]| last - first))
-            .map_or(Variable::Unlisted, Variable::Known)
+        let next = self.numbered.partition_point(|(first, _)| *first <= number);
+        let row = next.checked_sub(1).and_then(|row| self.numbered.get(row));
+        let entry = row.and_then(|(_, entry)| self.variables.get((*entry)?));
+        entry.map_or(Variable::Unlisted, Variable::Known)
     }
 
     /// A predefined named parameter, by its name without brackets, any case.
@@ -383,6 +383,9 @@ impl Control {
                 one_of: Vec::new(),
                 not_together: Vec::new(),
                 choice_confidence: None,
+                reads_comment: Vec::new(),
+                refused_with: Vec::new(),
+                disputed: Vec::new(),
                 forbidden: Vec::new(),
                 requires: Vec::new(),
                 recommends: Vec::new(),

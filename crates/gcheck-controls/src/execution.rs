@@ -390,6 +390,9 @@ pub struct Semantics {
     pub return_to: ReturnTo,
     /// The word that repeats a call.
     pub call_repeats: Option<char>,
+    /// The word that repeats a cut (`G1`, `G2`, `G3`): under increments each goes on from the last.
+    #[serde(default)]
+    pub cut_repeats: Option<char>,
     /// `L0` calls nothing; else it calls once.
     pub zero_repeats_skip: bool,
     /// Loops (`DO`) nest this deep in one program.
@@ -435,6 +438,9 @@ pub struct Semantics {
     /// The fastest feed that the manual lets a probing move have.
     #[serde(default)]
     pub probe_feed: Option<ProbeFeed>,
+    /// Outputs that switch the probes on and off.
+    #[serde(default)]
+    pub probe_outputs: Option<ProbeOutputs>,
     /// Codes that `M2` and `M30` bring into effect.
     #[serde(default)]
     pub at_end: Vec<String>,
@@ -473,8 +479,14 @@ pub struct Semantics {
     pub increments: BTreeMap<String, String>,
     /// X counts diameters at power-on.
     pub diameter: bool,
+    /// X counts radii while moves of X and Y are those of X and a rotary axis.
+    #[serde(default)]
+    pub polar_interpolation_by_radius: bool,
     /// What `G52` and `G92` are to each other.
     pub local_shift: LocalShift,
+    /// The setting that decides whether the end of a program clears the shift of `G52`, with the values that do.
+    #[serde(default)]
+    pub shift_cleared_at_end: Option<crate::SettingValues>,
     /// A reference return (`G28`) without axis words returns all axes.
     pub reference_without_axes: bool,
     /// The first reference position is the machine's zero, from which `G53` counts.
@@ -530,6 +542,16 @@ impl Semantics {
         };
         self.mirrored_variables.iter().find_map(of).unwrap_or(number)
     }
+}
+
+/// The outputs that choose a probe and switch it on and off.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ProbeOutputs {
+    /// Chooses the probe on the table, which measures tools, in place of the one in the spindle.
+    pub table: u32,
+    /// Switches the chosen probe on.
+    pub on: u32,
 }
 
 /// The fastest feed of a probing move, in the units of the program a minute.
@@ -623,6 +645,10 @@ pub enum ReturnTo {
 /// How circles are judged. Lengths in millimetres.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[expect(
+    clippy::struct_excessive_bools,
+    reason = "independent yes/no facts of a control, named one by one in data"
+)]
 pub struct ArcRules {
     /// Start and end radius may differ by this much…
     pub radius_difference: f64,
@@ -649,6 +675,10 @@ pub struct ArcRules {
     /// Without centre and radius the move is straight, unless this setting says `alarm`; refused where no setting is named.
     #[serde(default)]
     pub straight_setting: Option<String>,
+    /// A chamfer or rounding is between two straight cuts in two directions: an arc does not end it, nor does a cut that goes
+    /// straight on.
+    #[serde(default)]
+    pub corner_needs_lines: bool,
     /// How sure the tolerances are.
     pub confidence: Confidence,
 }

@@ -38,10 +38,11 @@ pub use letter_set::{Letter, LetterSet};
 pub use loader::{LoadError, fallback, load, names};
 pub use motion::{CornerRules, Halt, MotionRules, RapidRules, SpindleWaitRules, TapRules};
 pub use schema::{
-    Access, AlarmEntry, Beside, BlockRules, CodeEntry, CodeList, Confidence, Ends, FormatCustoms,
-    FunctionEntry, Handling, Hint, LetterCase, LetterEntry, Limits, LineCounts, Machine, ModalGroup, Motion,
-    Need, NumberRules, OverrideSwitch, Reference, Semicolon, SettingEntry, SyntaxRules, Unpointed,
-    VariableEntry, VariableKind, WordEntry, WordKind,
+    Access, AlarmEntry, Beside, BlockRules, CodeEntry, CodeList, CommentForm, CommentRead, Confidence,
+    DisputedWord, Ends, FormatCustoms, FunctionEntry, Handling, Hint, LetterCase, LetterEntry, Limits,
+    LineCounts, Machine, ModalGroup, Motion, Need, NumberRules, OverrideSwitch, PackedPart, RapidSwitch,
+    Reference, Semicolon, SettingEntry, SettingValues, SyntaxRules, Unpointed, VariableEntry, VariableKind,
+    WordEntry, WordKind,
 };
 pub use unsupported::{UnsupportedDialect, unsupported_dialect};
 pub use validate::problems;

@@ -260,6 +260,7 @@ fn finish(layers: Layers) -> Result<Control, LoadError> {
         codes: Vec::with_capacity(layers.codes.len()),
         by_number: [Vec::new(), Vec::new()],
         letters: vec![None; Letter::COUNT],
+        numbered: numbered(&layers.variables),
         variables: layers.variables,
         functions: layers.functions,
         settings: layers.settings,
@@ -293,6 +294,20 @@ fn finish(layers: Layers) -> Result<Control, LoadError> {
     Ok(control)
 }
 
+/// Which entry holds for each variable: the one with the narrowest range, of several the first.
+fn numbered(variables: &[VariableEntry]) -> Vec<(u32, Option<usize>)> {
+    let ranges = || variables.iter().enumerate().filter_map(|(ix, entry)| Some((ix, entry.range?)));
+    let mut starts: Vec<u32> =
+        ranges().flat_map(|(_, [first, last])| [first, last.saturating_add(1)]).collect();
+    starts.sort_unstable();
+    starts.dedup();
+    let entry_of = |number: u32| {
+        let holds = ranges().filter(|(_, [first, last])| (first..=last).contains(&&number));
+        holds.min_by_key(|(_, [first, last])| last - first).map(|(ix, _)| ix)
+    };
+    starts.into_iter().map(|start| (start, entry_of(start))).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use std::fs;
@@ -302,6 +317,25 @@ mod tests {
         AlarmsFile, CodesFile, ControlFile, ExecutionFile, GroupsFile, LettersFile, SettingsFile,
         VariablesFile,
     };
+
+    #[test]
+    fn a_variable_is_that_of_the_narrowest_range() {
+        for name in crate::names() {
+            let control = crate::load(name).unwrap();
+            let ranges = || control.variables().iter().filter_map(|entry| Some((entry, entry.range?)));
+            for number in
+                ranges().flat_map(|(_, [first, last])| [first.saturating_sub(1), first, last, last + 1])
+            {
+                let holds = ranges().filter(|(_, [first, last])| (first..=last).contains(&&number));
+                let narrowest = holds.min_by_key(|(_, [first, last])| last - first).map(|(entry, _)| entry);
+                let found = match control.variable(number) {
+                    crate::Variable::Known(entry) => Some(entry),
+                    crate::Variable::Unlisted => None,
+                };
+                assert_eq!(found, narrowest, "#{number} of {name}");
+            }
+        }
+    }
 
     /// The embedded form has lost its line numbers; this is where an author of data learns the line.
     #[test]

@@ -73,6 +73,9 @@ pub struct SyntaxRules {
     pub o_words: bool,
     /// `IF … GOTO`, `WHILE … DO … END`, `DPRNT`.
     pub macro_statements: bool,
+    /// `#1`, and `[…]` for a value.
+    #[serde(default = "yes")]
+    pub variables: bool,
     /// `#<name>`.
     pub named_parameters: bool,
     /// An expression after `=` may be without brackets: `#1=#2+3`.
@@ -105,6 +108,9 @@ pub struct SyntaxRules {
     /// A pair of `%` lines ends the program where no code does.
     #[serde(default)]
     pub tape_marks_end: bool,
+    /// Programs need no code that ends them: they are sent line by line, and the sender stops after the last one.
+    #[serde(default)]
+    pub program_end_optional: bool,
     /// A `%` is refused wherever it is.
     #[serde(default)]
     pub tape_marks_refused: bool,
@@ -196,6 +202,12 @@ pub struct Limits {
     /// Highest `N`.
     #[serde(default)]
     pub max_sequence_number: Option<u32>,
+    /// Codes that cannot be made calls of programs.
+    #[serde(default)]
+    pub never_aliased: Vec<String>,
+    /// Highest number of a code that can be made a call of a program.
+    #[serde(default)]
+    pub alias_codes_to: Option<u16>,
     /// Lowest and highest program number.
     #[serde(default)]
     pub program_numbers: Option<[u32; 2]>,
@@ -205,6 +217,9 @@ pub struct Limits {
     /// The switch that changes feeds while a program runs.
     #[serde(default)]
     pub feed_override: Option<OverrideSwitch>,
+    /// The switch that slows down rapid moves.
+    #[serde(default)]
+    pub rapid_override: Option<RapidSwitch>,
     /// The source of the limits.
     #[serde(default)]
     pub source: Option<String>,
@@ -246,6 +261,32 @@ impl OverrideSwitch {
     /// Its positions: `0 to 150 percent in steps of 10`.
     pub fn positions(&self) -> String {
         format!("{} to {} percent in steps of {}", self.min, self.max, self.step)
+    }
+}
+
+/// The positions of the switch for rapid moves, percent.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct RapidSwitch {
+    /// Its positions, rising.
+    pub positions: Vec<f64>,
+    /// Its source.
+    pub source: String,
+}
+
+impl RapidSwitch {
+    /// Has the switch this position?
+    pub fn takes(&self, percent: f64) -> bool {
+        self.positions.iter().any(|position| (position - percent).abs() < 1e-9)
+    }
+
+    /// Its positions: `5, 25, 50 and 100 percent`.
+    pub fn positions(&self) -> String {
+        let shown: Vec<String> = self.positions.iter().map(f64::to_string).collect();
+        match shown.split_last() {
+            Some((last, rest)) if !rest.is_empty() => format!("{} and {last} percent", rest.join(", ")),
+            _ => format!("{} percent", shown.concat()),
+        }
     }
 }
 
@@ -381,7 +422,7 @@ pub struct Hint {
     pub code: Option<String>,
     /// A form of syntax: `o-word`, `named-parameter`, `macro-statement`, `semicolon-comment`, `program-number`, `tape-mark`,
     /// `packed-tool` (`T0101` or `T101` without a tool change code), `packed-tool-short` (`T101`), `incremental-words` (`U`, `W`),
-    /// `turning-cycle-one-block` (`G71 P Q D`, `G76 K D`), `turning-cycle-two-blocks` (`G71 U R`), `lower-case` (words in lower case),
+    /// `turning-cycle-one-block` (`G71 P Q D`, `G76 K D`), `turning-cycle-two-blocks` (`G71 U R`, `G76 P Q R`), `lower-case` (words in lower case),
     /// `five-digit-program` (`O00123`), `packed-tool-with-change` (`T0707 M06`: station and offset alike), `turning-words`
     /// (several blocks with `X` and with `Z`, none with `Y`, and `G50`, `G96` or `G97`), `system-command` (`$H`, `$110=500`),
     /// `turning-system-b` and `turning-system-c` (turning words and `G95`, without codes that only system A of lathes has),
@@ -494,6 +535,15 @@ pub struct CodeEntry {
     /// Confidence of `one-of` and `not-together` where it differs from the entry's.
     #[serde(default)]
     pub choice_confidence: Option<Confidence>,
+    /// Comments that must be in the block, because the control reads them.
+    #[serde(default)]
+    pub reads_comment: Vec<CommentRead>,
+    /// Settings with which the code cannot be used.
+    #[serde(default)]
+    pub refused_with: Vec<SettingValues>,
+    /// Words that some pages of the code list, and others do not.
+    #[serde(default)]
+    pub disputed: Vec<DisputedWord>,
     /// Letters that must not be in the block with this code, though another code could use them.
     #[serde(default)]
     pub forbidden: Vec<String>,
@@ -571,7 +621,8 @@ pub struct WordEntry {
     /// For `need = "conditional"`: it must be in the block unless a comment is, which may name a file.
     #[serde(default)]
     pub unless_comment: bool,
-    /// For `need = "conditional"`: words beside which it must be in the block, with their values: `["L2", "L20"]`.
+    /// For `need = "conditional"`: words beside which it must be in the block, with their values (`["L2", "L20"]`), or letters
+    /// beside which it must be whatever their value (`["J"]`).
     #[serde(default)]
     pub required_with: Vec<String>,
     /// Words of which any makes this one unnecessary: a peck cycle takes `Q`, or `I`, `J` and `K`.
@@ -601,6 +652,12 @@ pub struct WordEntry {
     /// For integers: the control refuses a number that is not whole, instead of rounding it.
     #[serde(default)]
     pub whole: bool,
+    /// What groups of its digits hold, from the first digit of a full number to the last.
+    #[serde(default)]
+    pub packed: Vec<PackedPart>,
+    /// Letters beside which the number is not packed, though the word is given: `XZUW`.
+    #[serde(default)]
+    pub packed_without: String,
     /// What holds of it beside other words of the block, by their values.
     #[serde(default)]
     pub beside: Vec<Beside>,
@@ -642,6 +699,65 @@ pub struct Beside {
     /// The value must be greater than this.
     #[serde(default)]
     pub above: Option<f64>,
+}
+
+/// A group of digits in a number that holds several: the angle in `P` of a threading cycle.
+#[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct PackedPart {
+    /// What the digits are.
+    pub is: String,
+    /// How many digits.
+    pub digits: u8,
+    /// The values that the control takes; any when empty.
+    #[serde(default)]
+    pub values: Vec<u32>,
+}
+
+/// Values of a setting that decide something.
+#[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct SettingValues {
+    /// As the control calls it.
+    pub setting: String,
+    /// The values of which any decides.
+    pub values: Vec<String>,
+}
+
+/// A word that some pages of a code list, and others do not: the code is judged without it, and nothing that rests on it is
+/// certain.
+#[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct DisputedWord {
+    /// The address.
+    pub letter: String,
+    /// Which pages list it, and which do not.
+    pub why: String,
+}
+
+/// A comment that the control reads as part of a code: the text to engrave.
+#[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct CommentRead {
+    /// What it holds: "the text to engrave".
+    pub is: String,
+    /// The words beside which it is read, with their values (`["P0"]`); every time when empty.
+    #[serde(default)]
+    pub with: Vec<String>,
+    /// How it is written.
+    pub form: CommentForm,
+}
+
+/// How a comment that the control reads is written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum CommentForm {
+    /// Any text that is not blank.
+    Text,
+    /// `08:30`.
+    HoursAndMinutes,
+    /// The name of a picture or film: `PART.PNG`.
+    MediaFile,
 }
 
 /// Must a word be in the block?
@@ -861,6 +977,9 @@ pub struct VariableEntry {
     /// Holds the sequence number of a block, so that programs which read it hang on their numbers.
     #[serde(default)]
     pub sequence_number: bool,
+    /// It switches something off for every program, so a program sets it back to 0 before it ends.
+    #[serde(default)]
+    pub zero_at_end: bool,
     /// The manual keeps it for the builder: programs leave it alone.
     #[serde(default)]
     pub reserved: bool,

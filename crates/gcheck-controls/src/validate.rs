@@ -119,10 +119,9 @@ impl Problems<'_> {
                 self.say(code, format!("refers to `{item}`, which is not a code or group here"));
             }
         }
-        let is_word = |item: &str| {
-            let (letter, value) = item.split_at_checked(1).unwrap_or_default();
-            Letter::parse(letter).is_some() && !value.is_empty() && value.bytes().all(|b| b.is_ascii_digit())
-        };
+        let seen_letter =
+            |item: &str| entry.words.iter().any(|word| word.letter == item) && Letter::parse(item).is_some();
+        self.around(code, entry);
         for item in &entry.cancelled_by {
             if !self.resolves(item) && !is_word(item) {
                 self.say(code, format!("is cancelled by `{item}`, which is not a code, group or word here"));
@@ -142,8 +141,9 @@ impl Problems<'_> {
                     self.say(code, format!("`{letter}` instead of `{}` is not an address here", word.letter));
                 }
             }
+            self.packed(code, word);
             for item in &word.required_with {
-                if !is_word(item) || word.need != crate::Need::Conditional {
+                if !(is_word(item) || seen_letter(item)) || word.need != crate::Need::Conditional {
                     self.say(code, format!("word `{}` cannot be required with `{item}`", word.letter));
                 }
             }
@@ -172,6 +172,49 @@ impl Problems<'_> {
             }
         }
         self.effect(entry);
+    }
+
+    /// What a code takes beside its words: settings, comments, words about which pages differ.
+    fn around(&mut self, code: &str, entry: &crate::CodeEntry) {
+        for row in &entry.refused_with {
+            let listed = self.control.setting(&row.setting).map(|setting| setting.values.as_slice());
+            if !listed.is_some_and(|listed| row.values.iter().all(|value| listed.contains(value))) {
+                self.say(code, format!("is refused with a value that setting {} does not have", row.setting));
+            }
+        }
+        for word in &entry.disputed {
+            let is_listed = entry.words.iter().any(|own| own.letter == word.letter);
+            if is_listed || !self.is_letter(&word.letter) || word.why.trim().is_empty() {
+                self.say(code, format!("disputes `{}`, which it lists or does not explain", word.letter));
+            }
+        }
+        for comment in &entry.reads_comment {
+            if comment.is.trim().is_empty() || !comment.with.iter().all(|item| is_word(item)) {
+                self.say(code, "reads a comment, and does not say what it is, or beside which words");
+            }
+        }
+    }
+
+    /// Groups of digits fit into a number, and have values that fit into the group.
+    fn packed(&mut self, code: &str, word: &crate::WordEntry) {
+        let are_letters = word.packed_without.chars().all(|letter| self.is_letter(&letter.to_string()));
+        if !are_letters || word.packed.is_empty() && !word.packed_without.is_empty() {
+            self.say(
+                code,
+                format!("word `{}` is not packed beside something that is not an address", word.letter),
+            );
+        }
+        let digits: u32 = word.packed.iter().map(|part| u32::from(part.digits)).sum();
+        if digits > 8 || word.packed.iter().any(|part| part.digits == 0) {
+            self.say(code, format!("word `{}` packs too many digits, or none", word.letter));
+            return;
+        }
+        let fits = |part: &crate::PackedPart| {
+            part.values.iter().all(|value| *value < 10_u32.pow(u32::from(part.digits)))
+        };
+        if !word.packed.iter().all(fits) {
+            self.say(code, format!("word `{}` has a value that its digits do not hold", word.letter));
+        }
     }
 
     /// An effect that switches a mode belongs to a code of that mode's group.
@@ -238,6 +281,17 @@ impl Problems<'_> {
         }
         if control.limits().m_codes_per_block.is_some() && control.limits().m_codes_confidence.is_none() {
             self.say("limits", "`m-codes-per-block` needs `m-codes-confidence`");
+        }
+        for code in &control.limits().never_aliased {
+            if CodeNumber::parse(code).is_none() {
+                self.say("limits", format!("`{code}` in `never-aliased` is not a code"));
+            }
+        }
+        if let Some(switch) = &control.limits().rapid_override {
+            self.source("rapid-override", &switch.source);
+            if !switch.positions.is_sorted() || switch.positions.last() != Some(&100.0) {
+                self.say("rapid-override", "positions do not rise to 100 percent");
+            }
         }
         if let Some(switch) = &control.limits().feed_override {
             self.source("feed-override", &switch.source);
@@ -615,6 +669,12 @@ fn group_of(effect: Effect) -> Option<&'static str> {
         E::CycleCancel => "canned-cycle",
         _ => return None,
     })
+}
+
+/// A word with a whole value, as data writes it: `H0`.
+fn is_word(item: &str) -> bool {
+    let (letter, value) = item.split_at_checked(1).unwrap_or_default();
+    Letter::parse(letter).is_some() && !value.is_empty() && value.bytes().all(|b| b.is_ascii_digit())
 }
 
 #[cfg(test)]

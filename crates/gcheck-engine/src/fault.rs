@@ -81,6 +81,8 @@ pub enum Fault {
     NoAxisWords,
     /// An arc: see [`ArcFault`].
     Arc(ArcFault),
+    /// A chamfer or rounding of a corner: see [`CornerFault`].
+    Corner(CornerFault),
     /// A canned cycle: see [`CycleFault`].
     Cycle(CycleFault),
     /// Cutter compensation: see [`CompensationFault`].
@@ -114,6 +116,24 @@ pub enum Fault {
     NoProgramEnd,
     /// `#3000`: the program raises an alarm itself.
     Alarm(i64),
+}
+
+/// Why a corner cannot be chamfered or rounded.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum CornerFault {
+    /// No cut in the plane comes after it, or none that can end it.
+    NoCutAfter,
+    /// A rapid move comes after it.
+    RapidAfter,
+    /// The cut after it goes on in the same direction.
+    NoTurn,
+    /// It takes more of one of the two cuts than there is.
+    TooLong {
+        /// Millimetres from the corner to where it begins; infinite where the second cut goes straight back.
+        needed: f64,
+        /// Millimetres of the shorter of the two cuts.
+        available: f64,
+    },
 }
 
 /// Why an arc cannot be cut.
@@ -156,6 +176,8 @@ pub enum CycleFault {
     RBelowBottom,
     /// A word that must be positive.
     NotPositive(Letter),
+    /// A distance or an angle of a pattern that is zero, so that all its holes would lie on each other.
+    Zero(Letter),
     /// `L0`.
     ZeroRepeats,
     /// Rotary words.

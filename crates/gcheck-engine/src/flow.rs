@@ -359,12 +359,11 @@ pub fn flow_from<O: FlowObserver>(
     from: Option<Checkpoint>,
     observer: &mut O,
 ) -> Leg {
-    let mut flow = Flow::new(program, model, machine, task, observer, At { file: 0, block: 0 });
-    let Checkpoint { at, state, trace, parted, taken } = from.unwrap_or_else(|| flow.beginning());
+    let at = from.as_ref().map_or(At { file: 0, block: 0 }, |checkpoint| checkpoint.at);
+    let mut flow = Flow::new(program, model, machine, task, observer, at);
+    let Checkpoint { at: _, state, trace, parted, taken } = from.unwrap_or_else(|| flow.beginning());
     trace.begin_leg();
     let facts = trace.clone();
-    flow.chunk = flow.executor.chunk_of(at.block);
-    flow.last_offer = at.block;
     flow.parted = parted;
     flow.taken = taken;
     flow.pending.insert(Key::of(at, &state), Pending { state: Rc::new(state), trace });
@@ -493,7 +492,7 @@ impl<'a, 'p, 'o, 'd, O: FlowObserver> Flow<'a, 'p, 'o, 'd, O> {
     /// The first block, in the state in which the machine is switched on.
     fn beginning(&mut self) -> Checkpoint {
         Checkpoint {
-            at: At { file: 0, block: 0 },
+            at: self.at,
             state: start_state::<Abstract>(
                 self.executor.model,
                 self.executor.machine,

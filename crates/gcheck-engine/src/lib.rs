@@ -28,7 +28,7 @@ mod words;
 pub use assumption::{Assumption, Unsettled};
 pub use cylinder::Cylinder;
 pub use event::*;
-pub use fault::{ArcFault, CompensationFault, CycleFault, Fault, ValueFault};
+pub use fault::{ArcFault, CompensationFault, CornerFault, CycleFault, Fault, ValueFault};
 pub use flow::{
     Branch, Budget, Checkpoint, Choice, Decision, Fact, Facts, FlowCx, FlowObserver, FlowResult, GivenUp,
     Leg, Limit, MOST_EXACT_TURNS, Parting, Reach, Task, Trace, flow, flow_branch, flow_from,

@@ -11,6 +11,7 @@ use rustc_hash::FxHashMap;
 use crate::event::Units;
 use crate::position::Axis;
 use crate::step::contract::{BlockContract, CodeContract};
+use crate::step::corner::CornerWords;
 
 /// What a code's modal group decides, where the engine follows it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -190,6 +191,8 @@ pub struct Model<'c> {
     pub(crate) axes: Vec<Axis>,
     /// Addresses that name an axis or its increment.
     pub(crate) axis_letters: LetterSet,
+    /// The words of a straight cut that shape its end or give its direction.
+    pub(crate) corners: CornerWords,
     /// Addresses of offset numbers that stay for a later code when no code of their block reads them: `D01` before `G41`.
     pub(crate) lasting: LetterSet,
     pub(crate) argument_letters: Vec<(Letter, u32)>,
@@ -202,6 +205,19 @@ pub struct Model<'c> {
     pub(crate) cycle_cancel: CodeIx,
     /// Canned cycles and motion are one modal group, so that a cycle replaces the motion mode.
     pub cycles_are_motion: bool,
+}
+
+/// By letter: the kind of the addresses whose numbers count least increments without a point.
+fn scaled_kinds(control: &Control) -> [Option<WordKind>; Letter::COUNT] {
+    let mut scaled = [None; Letter::COUNT];
+    for (index, slot) in scaled.iter_mut().enumerate() {
+        let letter = (0..=u8::MAX)
+            .filter_map(|b| Letter::new(b).or_else(|| Letter::sign(b)))
+            .chain([Letter::CORNER_R, Letter::CORNER_C, Letter::CORNER_A])
+            .find(|letter| letter.index() == index);
+        *slot = letter.and_then(|l| control.letter(l)).filter(|entry| entry.scaled).map(|entry| entry.kind);
+    }
+    scaled
 }
 
 impl<'c> Model<'c> {
@@ -224,15 +240,6 @@ impl<'c> Model<'c> {
                 across: across.contains(&code.number()),
             })
             .collect();
-        let mut scaled = [None; Letter::COUNT];
-        for (index, slot) in scaled.iter_mut().enumerate() {
-            let letter = (0..=u8::MAX)
-                .filter_map(|b| Letter::new(b).or_else(|| Letter::sign(b)))
-                .chain([Letter::CORNER_R, Letter::CORNER_C, Letter::CORNER_A])
-                .find(|letter| letter.index() == index);
-            *slot =
-                letter.and_then(|l| control.letter(l)).filter(|entry| entry.scaled).map(|entry| entry.kind);
-        }
         let increments: Vec<(Letter, Axis)> = semantics
             .increments
             .iter()
@@ -268,10 +275,11 @@ impl<'c> Model<'c> {
             speed_rank: rank("spindle-speed"),
             tool_rank: rank("tool-select"),
             motion_rank: rank("motion"),
-            scaled,
+            scaled: scaled_kinds(control),
             axis_of,
             axes,
             axis_letters,
+            corners: CornerWords::default(),
             lasting: lasting_letters(control),
             argument_letters,
             numbered: Vec::new(),
@@ -284,6 +292,9 @@ impl<'c> Model<'c> {
         };
         model.index_system_variables(&semantics.system_variables);
         model.cycle_cancel = model.code_with(Effect::CycleCancel);
+        if let Some(cut) = control.code_at(model.code_with(Effect::Linear)) {
+            model.corners = CornerWords::of(&cut.entry().words, model.axis_letters);
+        }
         let group = |effect| model.code(model.code_with(effect)).map(|code| code.group);
         // A control without cycles says by its cancelling code alone that no motion mode is left.
         let cancel = control.code_at(model.cycle_cancel);

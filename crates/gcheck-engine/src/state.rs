@@ -432,6 +432,17 @@ impl<D: Domain> State<D> {
         }
     }
 
+    /// Do words of X count diameters? On some controls they count radii while X and a rotary axis share the moves of X and Y.
+    pub fn words_are_diameters(&self, model: &Model<'_>) -> Option<bool> {
+        if model.semantics().polar_interpolation_by_radius {
+            match self.effect(Role::PolarInterpolation, model)? {
+                Effect::PolarInterpolationOn => return Some(false),
+                _ => return self.is_diameter(model),
+            }
+        }
+        self.is_diameter(model)
+    }
+
     /// The active canned cycle's code; `Some(CodeIx::NONE)` when none is.
     pub fn active_cycle(&self, model: &Model<'_>) -> Option<CodeIx> {
         let code = self.mode(Role::Cycle).only()?;

@@ -8,6 +8,7 @@ mod arc;
 pub(crate) mod bar;
 pub(crate) mod compensation;
 pub(crate) mod contract;
+pub(crate) mod corner;
 mod cycle;
 mod cylinder;
 mod flow_control;
@@ -154,6 +155,8 @@ pub(crate) struct Executor<'a, 'p, D: Domain, O: Observer<D>> {
     pending: Vec<(Assignee, D::Value)>,
     /// Words of the block that begin before this byte of its chunk have acted.
     acted_to: u32,
+    /// The words that are read belong to a block after the one under way.
+    looks_ahead: bool,
     /// Variables that were written, and whether the control lets programs do that.
     writable: FxHashMap<u32, bool>,
     /// Bar feeds so far.
@@ -185,6 +188,7 @@ enum Flow<D: Domain> {
 }
 
 /// The chunk that execution is in, so that the next block costs no look-up.
+#[derive(Clone)]
 struct Cursor<'a> {
     file_index: u32,
     file: Rc<ProgramFile<'a>>,
@@ -237,6 +241,7 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
             stroke_buffer: Vec::new(),
             pending: Vec::new(),
             acted_to: 0,
+            looks_ahead: false,
             writable: FxHashMap::default(),
             bar_feeds: 0,
         }
@@ -987,7 +992,9 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
         });
         let written = if is_probed { Truth::False } else { state.variables.written(number) };
         if written == Truth::True {
-            return Ok(state.variables.get(number));
+            let value = state.variables.get(number);
+            self.tell_vacant(number, &value, state);
+            return Ok(value);
         }
         if let Some((variable, row, column)) = system {
             let mut value = self.read_system(variable, row, column, state)?;
@@ -1023,7 +1030,8 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
     }
 
     fn tell_vacant(&mut self, number: u32, value: &D::Value, state: &State<D>) {
-        if self.model.semantics().unset == Unset::Vacant && D::is_vacant(value) == Truth::True {
+        let is_vacant = self.model.semantics().unset == Unset::Vacant && D::is_vacant(value) == Truth::True;
+        if is_vacant && !self.looks_ahead {
             self.observer.vacant_read(self.origin, state, number);
         }
     }

@@ -149,11 +149,11 @@ fn x_and_a_rotary_axis_share_the_moves_of_polar_interpolation() {
         "XYZC",
         "G0 G54 X20. Z1. C30.\nG112\nG1 X5. Y5. Z-1. F100.\nG113\nG0 X20. C0\nM30",
         &expect![[r#"
-        G0 G54 X20. Z1. C30. | X10 Y? Z1 C30 | X-90 Y? Z-199 C30
-        G112 | X? Y? Z1 C? | X? Y? Z-199 C?
-        G1 X5. Y5. Z-1. F100. | X2.5 Y5 Z-1 C? | X? Y? Z-201 C?
-        G113 | X? Y? Z-1 C? | X? Y? Z-201 C?
-        G0 X20. C0 | X10 Y? Z-1 C0 | X-90 Y? Z-201 C0
-        M30 | X10 Y? Z-1 C0 | X-90 Y? Z-201 C0"#]],
+            G0 G54 X20. Z1. C30. | X10 Y? Z1 C30 | X-90 Y? Z-199 C30
+            G112 | X? Y? Z1 C? | X? Y? Z-199 C?
+            G1 X5. Y5. Z-1. F100. | X5 Y5 Z-1 C? | X? Y? Z-201 C?
+            G113 | X? Y? Z-1 C? | X? Y? Z-201 C?
+            G0 X20. C0 | X10 Y? Z-1 C0 | X-90 Y? Z-201 C0
+            M30 | X10 Y? Z-1 C0 | X-90 Y? Z-201 C0"#]],
     );
 }

@@ -58,6 +58,46 @@ fn a_code_that_moves_in_its_own_block_leaves_the_mode() {
 }
 
 #[test]
+fn a_centre_alone_turns_a_full_circle_while_arcs_are_the_mode() {
+    check(
+        "haas-mill",
+        "G0 X2. Y0. Z0.\nG3 I-2. F100.\nI-2. J0\nG1 X0.\nI-2.",
+        &expect![[r#"
+        rapid x2 y0 z0
+        ccw x2 y0 z0 about 0 0
+        ccw x2 y0 z0 about 0 0
+        feed x0 y0 z0
+        at x0 y0 z0"#]],
+    );
+}
+
+#[test]
+fn a_cut_is_repeated_and_goes_on_in_increments() {
+    check(
+        "haas-mill",
+        "G0 X2. Y0. Z0.\nG91 G3 I-2. Z1. L3 F100.\nG1 X5. L2\nG90",
+        &expect![[r#"
+            rapid x2 y0 z0
+            ccw x2 y0 z1 about 0 0
+            ccw x2 y0 z2 about 0 0
+            ccw x2 y0 z3 about 0 0
+            feed x7 y0 z3
+            feed x12 y0 z3
+            at x12 y0 z3"#]],
+    );
+    check(
+        "haas-mill",
+        "G0 X2. Y0. Z0.\nG3 I-2. L2 F100.\nG0 X3.",
+        &expect![[r#"
+            rapid x2 y0 z0
+            ccw x2 y0 z0 about 0 0
+            ccw x2 y0 z0 about 0 0
+            rapid x3 y0 z0
+            at x3 y0 z0"#]],
+    );
+}
+
+#[test]
 fn machine_coordinates_are_reached_in_rapid_or_as_the_mode_says() {
     check(
         "fanuc-mill",

@@ -23,6 +23,21 @@ fn oracle(text: &str, expected: &Expect) {
     expected.assert_eq(&shown_on("linuxcnc", "XZ", &machine(0.0), &text));
 }
 
+#[test]
+fn x_counts_radii_while_moves_of_x_and_y_turn_the_part() {
+    // Half a circle of radius 1 inch: its centre is the axis of the spindle.
+    one_block(
+        "G98 G0 X4. Z.1\nG17\nG112\nG1 X1. Y0 F10.\nG2 X-1. Y0 I-1. J0\nG113\nG0 X4.",
+        &expect![[r#"
+            rapid x27.94 z2.54
+            rapid x50.8 z2.54
+            feed x25.4 z2.54
+            cw x-25.4 z2.54 about 0 0
+            rapid x50.8 z2.54
+            at x50.8 z2.54"#]],
+    );
+}
+
 // ---- one pass ----
 
 #[test]

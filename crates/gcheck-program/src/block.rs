@@ -224,7 +224,9 @@ impl BlockTable {
 
     /// The statements of a block in text order.
     pub fn statements(&self, ix: BlockIx) -> impl Iterator<Item = &Statement> {
-        of_block(&self.statements, ix)
+        // Most blocks have none.
+        let has_some = self.block(ix).flags.contains(BlockFlags::STATEMENT);
+        of_block(if has_some { &self.statements } else { &[] }, ix)
     }
 
     /// All statements with their blocks.

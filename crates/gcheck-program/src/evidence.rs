@@ -189,7 +189,9 @@ impl Scan {
         if seen.plain_tool && seen.valued.contains(Letter::of('D')) && !seen.tool_change {
             self.form("tool-with-d");
         }
-        if seen.turning_cycle && !has('P') && has('R') && (has('U') || has('W')) {
+        let prepares = !seen.letters.intersects(LetterSet::of("XZUWKF"));
+        let prepares_thread = seen.threading_cycle && has('P') && has('Q') && prepares;
+        if seen.turning_cycle && !has('P') && has('R') && (has('U') || has('W')) || prepares_thread {
             self.form("turning-cycle-two-blocks");
         }
         if seen.increment && !seen.macro_call {
@@ -471,7 +473,7 @@ mod tests {
             &expect![[r#"
 
                 M6 G76
-                tool-with-d turning-cycle-one-block
+                tool-with-d turning-cycle-one-block turning-cycle-two-blocks
             "#]],
         );
     }

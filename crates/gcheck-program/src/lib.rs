@@ -6,8 +6,10 @@
 //! Everything but [`Survey`] depends on one chunk alone.
 
 mod block;
+mod control_comment;
 mod evidence;
 mod expression;
+mod headings;
 mod line_length;
 mod loaded;
 mod lower;
@@ -19,8 +21,10 @@ mod survey;
 mod tool_names;
 
 pub use block::{Block, BlockFlags, BlockIx, BlockTable, Value, Word};
+pub use control_comment::{ControlComment, control_comment};
 pub use evidence::{EVIDENCE_BYTES, collect_evidence, evidence_of_file};
 pub use expression::{BinaryOp, Expr, ExprIx, Function, Op};
+pub use headings::{Heading, Headings, is_comment_alone, is_name};
 pub use line_length::{counted_characters, places_that_count};
 pub use loaded::{Loaded, Place, Touched};
 pub use lower::{Dialect, lower, lower_tree, profile};

@@ -329,6 +329,7 @@ pub fn profile(control: &Control) -> SyntaxProfile {
         blanks_in_numbers: syntax.blanks_in_numbers,
         o_words: syntax.o_words,
         macro_statements: syntax.macro_statements,
+        variables: syntax.variables,
         named_parameters: syntax.named_parameters,
         bare_expressions: syntax.bare_expressions,
         logic_binds_last: syntax.logic_binds_last,

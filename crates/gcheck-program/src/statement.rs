@@ -103,7 +103,7 @@ pub enum Target {
 }
 
 /// The label of an O-word.
-#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum OLabel {
     /// `O100`.
     Number(u32),

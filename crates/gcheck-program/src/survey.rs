@@ -4,6 +4,7 @@
 
 use std::collections::HashSet;
 use std::ops::Range;
+use std::sync::OnceLock;
 
 use gcheck_controls::{CodeIx, CodeNumber, Ends, Letter, LetterSet, WordKind};
 
@@ -106,6 +107,8 @@ pub struct Jump {
     pub target: Option<u32>,
     /// The code that jumps; [`CodeIx::NONE`] for `GOTO`.
     pub code: CodeIx,
+    /// Only under a condition or block delete, or a code that does more than jump.
+    pub conditional: bool,
     /// Bytes of the file: the word or statement that names the target.
     pub range: Range<u32>,
 }
@@ -161,6 +164,8 @@ pub struct EndMark {
     pub ends: Ends,
     /// Only under a condition or block delete.
     pub conditional: bool,
+    /// The block names where to go on: a main program jumps there.
+    pub jumps: bool,
     /// Bytes of the file.
     pub range: Range<u32>,
 }
@@ -227,20 +232,65 @@ pub struct Survey {
     pub blocks: usize,
     /// What `codes` and `assigned` hold, for the question "seen before?".
     seen: (HashSet<CodeNumber>, HashSet<u32>),
+    /// See [`Survey::is_called_from_elsewhere`].
+    is_called: Answer,
+}
+
+/// An answer that is worked out when somebody first asks. Whether somebody has, makes no two surveys differ.
+#[derive(Debug, Clone, Default)]
+struct Answer(OnceLock<bool>);
+
+impl PartialEq for Answer {
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
 }
 
 impl Survey {
     /// The first program of the file returns (`M99`) before it ends the job, if it does: other programs call it, and give
     /// it its variables and modes.
     pub fn is_called_from_elsewhere(&self) -> bool {
+        *self.is_called.0.get_or_init(|| self.returns_first())
+    }
+
+    fn returns_first(&self) -> bool {
         let second = self.programs.get(1).map_or(u32::MAX, |second| second.range.start);
-        let first = self.ends.iter().find(|end| end.range.start < second && !end.conditional);
+        let first = self.first_end(second);
         let any = first.or_else(|| self.ends.iter().find(|end| end.range.start < second));
         any.is_some_and(|end| end.ends == Ends::Subprogram)
     }
 
+    /// The first end before `limit` that the first program comes to if no condition holds: not one that `GOTO` leads over.
+    fn first_end(&self, limit: u32) -> Option<&EndMark> {
+        // A program of jumps alone is followed for a while only.
+        const FOLLOWED: usize = 32;
+        // A return to a block is a jump in a program that ends the job itself.
+        let ends_job = |end: &EndMark| end.ends == Ends::Program && end.range.start < limit;
+        let has_job = self.ends.iter().any(ends_job);
+        let mut jumps = self.jumps.iter().filter(|jump| !jump.conditional).take(FOLLOWED);
+        let mut at = 0;
+        loop {
+            let is_ahead = |start: u32| (at..limit).contains(&start);
+            let end = self
+                .ends
+                .iter()
+                .find(|end| is_ahead(end.range.start) && !end.conditional && !(end.jumps && has_job));
+            let before = end.map_or(limit, |end| end.range.start);
+            let jump = jumps.find(|jump| is_ahead(jump.range.start));
+            let Some(jump) = jump.filter(|jump| end.is_some() && jump.range.start < before) else {
+                return end;
+            };
+            // A jump back, or to nowhere, leads over no end.
+            let to = self.labels.iter().find(|label| {
+                Some(label.number) == jump.target && (jump.range.end..limit).contains(&label.range.start)
+            });
+            at = to.map_or(jump.range.end, |label| label.range.start);
+        }
+    }
+
     /// Adds the next chunk; `base` is its offset in the file, `end` the end of the region that the control reads.
     pub fn add(&mut self, table: &BlockTable, base: u32, end: u32, dialect: &Dialect<'_>) {
+        self.is_called = Answer::default();
         if table.flags().is_empty() && table.blocks.last().is_some_and(|last| base + last.range.start < end) {
             self.add_plain(table, base, dialect);
             return;
@@ -294,6 +344,7 @@ impl Survey {
 
     /// Adds the next chunk by what it holds; `base` is its offset in the file.
     pub fn join(&mut self, chunk: &Self, base: u32, dialect: &Dialect<'_>) {
+        self.is_called = Answer::default();
         let moved = |range: &Range<u32>| shift(range, base);
         self.labels.extend(chunk.labels.iter().map(|l| Label { range: moved(&l.range), ..*l }));
         self.programs.extend(chunk.programs.iter().map(|p| ProgramNumber { range: moved(&p.range), ..*p }));
@@ -394,6 +445,7 @@ impl Survey {
                     self.jumps.push(Jump {
                         target: constant(*target).and_then(whole),
                         code: CodeIx::NONE,
+                        conditional: is_conditional(table, ix, block),
                         range,
                     });
                 }
@@ -454,11 +506,13 @@ impl Survey {
                 }
             }
             if let Some(ends) = entry.ends {
-                let conditional = block.delete > 0
-                    || table
-                        .statements(ix)
-                        .any(|s| matches!(s.kind, StatementKind::If { .. } | StatementKind::Guard { .. }));
-                self.ends.push(EndMark { ends, conditional, range: shift(&word.range(), base) });
+                let conditional = is_conditional(table, ix, block);
+                let is_target = |word: &gcheck_controls::WordEntry| {
+                    word.kind == WordKind::Label
+                        && Letter::parse(&word.letter).is_some_and(|letter| block.letters.contains(letter))
+                };
+                let jumps = entry.words.iter().any(is_target);
+                self.ends.push(EndMark { ends, conditional, jumps, range: shift(&word.range(), base) });
             }
             if !dialect.refers(word.code) {
                 continue;
@@ -474,7 +528,8 @@ impl Survey {
                 let range = shift(&found.range(), base);
                 match target.kind {
                     WordKind::Label => {
-                        self.jumps.push(Jump { target: found.integer(), code: word.code, range });
+                        let target = found.integer();
+                        self.jumps.push(Jump { target, code: word.code, conditional: true, range });
                     }
                     WordKind::Program => {
                         let target = found.integer().map_or(CallKind::Unknown, CallKind::Program);
@@ -534,9 +589,18 @@ fn shift(range: &Range<u32>, base: u32) -> Range<u32> {
     range.start + base..range.end + base
 }
 
+/// Does a condition or block delete decide whether the block is executed?
+fn is_conditional(table: &BlockTable, ix: BlockIx, block: &Block) -> bool {
+    block.delete > 0
+        || table
+            .statements(ix)
+            .any(|statement| matches!(statement.kind, StatementKind::If { .. } | StatementKind::Guard { .. }))
+}
+
 #[cfg(test)]
 mod tests {
-    use super::{TapeMarks, code_region};
+    use super::{Survey, TapeMarks, code_region};
+    use crate::Dialect;
 
     fn region(text: &str) -> &str {
         // However the file is cut into chunks of whole lines, it is the same.
@@ -557,6 +621,25 @@ mod tests {
     fn what_stands_behind_the_closing_tape_mark_is_not_read() {
         assert_eq!(region("%\nG0\n%\nnotes\n"), "%\nG0\n%\n");
         assert_eq!(region("\n  %\nG0\n % \nnotes"), "\n  %\nG0\n % \n");
+    }
+
+    #[test]
+    fn a_return_that_a_jump_leads_over_ends_no_program() {
+        let is_called = |text: &str| {
+            let Ok(control) = gcheck_controls::load("haas-mill") else { panic!("a control of ours") };
+            let dialect = Dialect::new(&control);
+            let table = crate::lower(text, &dialect);
+            let mut survey = Survey::default();
+            survey.add(&table, 0, text.len() as u32, &dialect);
+            survey.is_called_from_elsewhere()
+        };
+        assert!(is_called("O1\nG0 X1.\nM99\n"));
+        assert!(!is_called("O1\nGOTO3\nN1 G0 X1.\nM99\nN3 M97 P1\nM30\n"));
+        assert!(is_called("O1\nIF [#1 EQ 2] GOTO3\nN1 G0 X1.\nM99\nN3 M97 P1\nM30\n"));
+        assert!(is_called("O1\nN3 G0 X1.\nGOTO3\nM99\n"));
+        assert!(is_called("O1\nGOTO3\nN2 M30\nN3 M99\n"));
+        assert!(!is_called("O1\nG0 X1.\nM99 P7\nN7 M30\n"));
+        assert!(is_called("O1\nG0 X1.\nM99 P7\n"));
     }
 
     #[test]

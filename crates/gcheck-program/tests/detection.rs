@@ -42,3 +42,14 @@ fn a_lathe_is_of_another_system_of_codes_only_where_that_is_decisive() {
         assert_eq!(guess(&format!("{head}{body}")).as_deref(), Some(control), "{head}");
     }
 }
+
+#[test]
+fn a_threading_cycle_of_two_blocks_outweighs_a_number_of_five_digits() {
+    let program = |cycle: &str| {
+        format!("O20111\nT0404\nG97 S600 M3\nG0 X28. Z6.\n{cycle}G0 X100. Z100.\nG28 U0. W0.\nM30\n")
+    };
+    let two = "G76 P020060 Q50 R0.02\nG76 X21.546 Z-30. P1227 Q300 F2.\n";
+    assert_eq!(guess(&program(two)).as_deref(), Some("fanuc-lathe"));
+    let one = "G76 X.4056 Z-.9 K.0472 D.012 F.0769\n";
+    assert_eq!(guess(&program(one)).as_deref(), Some("haas-lathe"));
+}

@@ -66,6 +66,10 @@ pub enum ForeignForm {
     OWord,
     /// `IF […] GOTO`, `WHILE […] DO1`, `DPRNT[…]`.
     MacroStatement,
+    /// `#1`.
+    Variable,
+    /// `[…]` for a value.
+    Expression,
     /// `#<name>`.
     NamedParameter,
     /// `**`.

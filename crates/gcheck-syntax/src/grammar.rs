@@ -1029,7 +1029,13 @@ fn primary<S: Sink>(p: &mut Parser<'_, S>) {
 /// `#1`, `#<name>`, `##1`, `#[#1+2]`, and on RS274/NGC controls `#FIX[#1]`.
 fn variable<S: Sink>(p: &mut Parser<'_, S>) {
     match p.current() {
-        Some(Token::Variable) => p.bump(),
+        Some(Token::Variable) => {
+            if !p.profile.variables {
+                let range = p.offset()..p.tokens.get(p.at).map_or(0, |l| l.end);
+                p.foreign(ForeignForm::Variable, range);
+            }
+            p.bump();
+        }
         Some(Token::NamedVariable) => {
             if !p.profile.named_parameters {
                 let range = p.offset()..p.tokens.get(p.at).map_or(0, |l| l.end);
@@ -1059,6 +1065,9 @@ fn variable<S: Sink>(p: &mut Parser<'_, S>) {
 fn group<S: Sink>(p: &mut Parser<'_, S>) {
     deeper(p, |p| {
         let open = p.offset();
+        if !p.profile.variables {
+            p.foreign(ForeignForm::Expression, open..open + 1);
+        }
         p.sink.start_node(SyntaxKind::GROUP);
         p.bump();
         p.skip_blanks();

@@ -17,6 +17,8 @@ pub struct SyntaxProfile {
     pub o_words: bool,
     /// `IF […] GOTO`, `WHILE […] DO1`, `DPRNT[…]`.
     pub macro_statements: bool,
+    /// `#1`, and `[…]` for a value.
+    pub variables: bool,
     /// `#<name>`.
     pub named_parameters: bool,
     /// `#1=#2+3` without brackets.
@@ -38,6 +40,7 @@ impl SyntaxProfile {
         blanks_in_numbers: false,
         o_words: false,
         macro_statements: true,
+        variables: true,
         named_parameters: false,
         bare_expressions: true,
         logic_binds_last: false,
@@ -52,6 +55,7 @@ impl SyntaxProfile {
         blanks_in_numbers: true,
         o_words: true,
         macro_statements: false,
+        variables: true,
         named_parameters: true,
         bare_expressions: false,
         logic_binds_last: true,

@@ -45,7 +45,7 @@ pub fn bolt_arc(
         return Err(CycleError::Unknown);
     }
     if between.abs() <= Degrees::ZERO {
-        return Err(CycleFault::Missing(Letter::of('K')).into());
+        return Err(CycleFault::Zero(Letter::of('K')).into());
     }
     on_circle(centre, radius, radius, first, between.0, holes)
 }
@@ -93,7 +93,7 @@ fn check(length: Mm, angle: Degrees, holes: u32) -> Result<(), CycleError> {
         return Err(CycleError::TooManyStrokes);
     }
     if length.abs() <= Mm::ZERO {
-        return Err(CycleFault::Missing(Letter::of('I')).into());
+        return Err(CycleFault::Zero(Letter::of('I')).into());
     }
     Ok(())
 }
@@ -152,8 +152,8 @@ mod tests {
     fn nothing_to_drill_is_refused() {
         let origin = (Mm(0.0), Mm(0.0));
         assert_eq!(shown(bolt_circle(origin, Mm(5.0), Degrees(0.0), 0)), "Fault(ZeroRepeats)");
-        assert_eq!(shown(bolt_line(origin, Mm(0.0), Degrees(0.0), 2)), "Fault(Missing(I))");
-        assert_eq!(shown(bolt_arc(origin, Mm(1.0), Degrees(0.0), Degrees(0.0), 2)), "Fault(Missing(K))");
+        assert_eq!(shown(bolt_line(origin, Mm(0.0), Degrees(0.0), 2)), "Fault(Zero(I))");
+        assert_eq!(shown(bolt_arc(origin, Mm(1.0), Degrees(0.0), Degrees(0.0), 2)), "Fault(Zero(K))");
         assert_eq!(shown(bolt_line(origin, Mm(f64::NAN), Degrees(0.0), 2)), "Unknown");
         assert_eq!(shown(bolt_line(origin, Mm(1.0), Degrees(0.0), u32::MAX)), "TooManyStrokes");
     }

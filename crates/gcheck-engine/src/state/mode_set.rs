@@ -23,6 +23,8 @@ pub struct ModeSet {
 enum Beside {
     /// Nothing else.
     Nothing,
+    /// Nothing else, if a program that is not here left it as it was.
+    Kept,
     /// What a program left that is not here.
     Left,
     /// Any code.
@@ -49,19 +51,34 @@ impl ModeSet {
     /// The code, if there is only one alternative. `Some(CodeIx::NONE)` says that none is in effect.
     pub const fn only(&self) -> Option<CodeIx> {
         match (self.len, self.beside) {
-            (1, Beside::Nothing) => Some(self.codes[0]),
+            (1, Beside::Nothing | Beside::Kept) => Some(self.codes[0]),
             _ => None,
         }
     }
 
     /// May the code be in effect?
     pub fn may_be(&self, code: CodeIx) -> bool {
-        self.beside != Beside::Nothing || self.named().contains(&code)
+        !self.is_named() || self.named().contains(&code)
     }
 
     /// The alternatives; empty when it may be any.
     pub fn alternatives(&self) -> &[CodeIx] {
-        if self.beside == Beside::Nothing { self.named() } else { &[] }
+        if self.is_named() { self.named() } else { &[] }
+    }
+
+    /// Was a program executed that is not here, of which an execution takes for granted that it left the mode as it was?
+    pub fn is_taken_for_kept(&self) -> bool {
+        self.beside == Beside::Kept
+    }
+
+    /// The same, after a program that is not here.
+    pub(crate) fn kept(&self) -> Self {
+        Self { beside: self.beside.max(Beside::Kept), ..*self }
+    }
+
+    /// Is it one of the codes that are named?
+    fn is_named(&self) -> bool {
+        self.beside <= Beside::Kept
     }
 
     /// May a code be in effect of which this holds? What a program left that is not here is taken to be none of them.
@@ -117,7 +134,9 @@ impl Lattice for ModeSet {
     fn covers(&self, inner: &Self) -> bool {
         self.beside == Beside::Any
             || self.beside == Beside::Left && inner.beside != Beside::Any
-            || inner.beside == Beside::Nothing && inner.named().iter().all(|code| self.named().contains(code))
+            || inner.is_named()
+                && inner.beside <= self.beside
+                && inner.named().iter().all(|code| self.named().contains(code))
     }
 
     fn same(&self, other: &Self) -> bool {

@@ -57,9 +57,8 @@ impl Modes {
                     | Role::PolarInterpolation
                     | Role::DynamicOffset
             );
-            if !stays {
-                self.put(role, ModeSet::ANY);
-            }
+            let left = if stays { self.of(role).kept() } else { ModeSet::ANY };
+            self.put(role, left);
         }
     }
 

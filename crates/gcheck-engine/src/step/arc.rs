@@ -27,6 +27,15 @@ pub(super) fn plane_axes(plane: Plane) -> ([Axis; 3], [Letter; 3]) {
     (all.map(|(axis, _)| axis), all.map(|(_, centre)| centre))
 }
 
+/// The axes that lie in a plane; of a plane that is not known any of the three may.
+pub(super) fn axes_of_plane(plane: Option<Plane>) -> impl Iterator<Item = Axis> {
+    let normal = plane.map(|plane| {
+        let ([_, _, normal], _) = plane_axes(plane);
+        normal
+    });
+    [Axis::X, Axis::Y, Axis::Z].into_iter().filter(move |axis| normal != Some(*axis))
+}
+
 #[expect(clippy::unnecessary_wraps, reason = "handlers of effects share one signature")]
 impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// `G2`, `G3`.
@@ -84,11 +93,24 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if !arc.is_known() {
             return self.unknown_arc(counter_clockwise, target, state);
         }
+        self.along_arc(&arc, turns, target, false, state)
+    }
+
+    /// A move along an arc that is known, from the programmed point.
+    pub(super) fn along_arc(
+        &mut self,
+        arc: &Arc,
+        turns: u32,
+        target: &Position,
+        expanded: bool,
+        state: &mut State<D>,
+    ) -> Step {
+        let (plane, counter_clockwise) = (arc.plane(), arc.direction() == ArcDirection::Ccw);
         self.announce_inverse_time(|_| arc.length().0, state);
         let sign = if counter_clockwise { 1 } else { -1 };
         let turns = sign * i32::try_from(turns).unwrap_or(i32::MAX);
         if state.compensation.is_followed() {
-            return self.compensated_arc(&arc, *target, turns, state);
+            return self.compensated_arc(arc, *target, turns, state);
         }
         if !state.compensation.left.is_no() {
             self.leave_compensation(true, state)?;
@@ -99,16 +121,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let to = self.axes_of(target, state);
         let (centre, turns) = self.arc_of_axes(plane, arc.centre(), turns, state);
         let sweep = if (turns > 0) == counter_clockwise { arc.sweep() } else { -arc.sweep() };
-        let event = ArcMove {
-            plane,
-            from: *state.actual(),
-            programmed: *target,
-            to,
-            centre,
-            turns,
-            sweep,
-            expanded: false,
-        };
+        let event =
+            ArcMove { plane, from: *state.actual(), programmed: *target, to, centre, turns, sweep, expanded };
         state.points.actual = to;
         state.points.position = *target;
         self.emit(state, Event::Arc(event));
@@ -171,12 +185,16 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// The centre in the plane's axes, programmed coordinates.
     fn centre(&self, state: &State<D>, axes: [Axis; 2], letters: [Letter; 2]) -> Step<(Mm, Mm)> {
         let absolute = state.effect(Role::ArcCentre, self.model) == Some(Effect::ArcCentreAbsolute);
-        let diameter = state.is_diameter(self.model) == Some(true);
+        let half = match state.words_are_diameters(self.model) {
+            Some(true) => 2.0,
+            Some(false) => 1.0,
+            None => f64::NAN,
+        };
         let mut centre = [Mm(0.0); 2];
         for ((slot, axis), letter) in centre.iter_mut().zip(axes).zip(letters) {
             let from = state.position().raw(axis);
             *slot = Mm(match (self.length(letter, state), absolute) {
-                (Some(value), true) if axis == Axis::X && diameter => value / 2.0,
+                (Some(value), true) if axis == Axis::X => value / half,
                 (Some(value), true) => value,
                 (Some(value), false) => from + value,
                 (None, true) => return Err(Fault::MissingWord(letter)),

@@ -10,6 +10,7 @@ use gcheck_geometry::{
     OffsetEvent, OffsetSegment, PathPoint, Plane,
 };
 
+use super::arc::axes_of_plane;
 use super::{Count, Executor, Step};
 use crate::assumption::{Assumption, Unsettled};
 use crate::event::{ArcMove, Event, Travel, TravelKind};
@@ -18,7 +19,7 @@ use crate::lattice::{Flat, Lattice, Perhaps};
 use crate::model::Role;
 use crate::observer::Observer;
 use crate::origin::Origin;
-use crate::position::{Axis, Position};
+use crate::position::Position;
 use crate::state::{Compensation, Course, ModeSet, Programmed, State, ToolData};
 use crate::value::Domain;
 
@@ -173,7 +174,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 state.modes.add(Role::Length, &ModeSet::one(off));
                 self.lose_length(state);
             }
-        } else if self.model.semantics().zero_length_number_cancels && D::known(&value) == Some(0.0) {
+        } else if cancels && D::known(&value) == Some(0.0) {
             self.cancel_length(state);
         }
         Ok(())
@@ -264,14 +265,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             if !state.compensation.on.is_no() && self.refuses_incomplete() {
                 // The programmed point becomes that of the path beside it, which is not followed.
                 let plane = state.plane(self.model);
-                for axis in [Axis::X, Axis::Y, Axis::Z] {
-                    let stays = plane.is_some_and(|plane| {
-                        let [_, _, normal] = plane.to_local([Axis::X, Axis::Y, Axis::Z]);
-                        axis == normal
-                    });
-                    if !stays {
-                        state.points.position.set(axis, f64::NAN);
-                    }
+                for axis in axes_of_plane(plane) {
+                    state.points.position.set(axis, f64::NAN);
                 }
             }
             state.compensation.leave_unknown();
@@ -498,7 +493,7 @@ fn planar(position: &Position, plane: Plane) -> PathPoint {
 }
 
 /// The point with its coordinates in the plane replaced.
-fn above(position: &Position, point: PathPoint, plane: Plane) -> Position {
+pub(super) fn above(position: &Position, point: PathPoint, plane: Plane) -> Position {
     let [_, _, height] = plane.to_local(position.xyz());
     let normal = if height.is_known() { Mm(point.normal) } else { height };
     position.with_xyz(plane.to_xyz([Mm(point.first), Mm(point.second), normal]))

@@ -542,9 +542,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         state.mode(Role::Motion).only().filter(|ix| ix.is_some()).map_or(Acting::Nothing, Acting::InEffect)
     }
 
-    /// A centre without an end, while arcs are the mode: a full circle, on strict controls.
+    /// A centre without an end, while arcs are the mode: a full circle (Haas NGC mill manual 2017, p. 251; observed on
+    /// LinuxCNC). On controls that are not strict, a code of the block may read the words for itself.
     pub(super) fn turns_about_centre(&self, state: &State<D>) -> bool {
-        self.model.contract.strict
+        (self.model.contract.strict || self.words.codes().is_empty())
             && self.words.present().intersects(const { LetterSet::of("IJK") })
             && state.active_cycle(self.model).is_some_and(|cycle| !cycle.is_some())
             && state.mode(Role::Motion).only().is_some_and(|ix| {

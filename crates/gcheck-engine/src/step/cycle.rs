@@ -565,7 +565,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 end.set(second, facts.at.1.0);
                 end.set(depth, f64::NAN);
                 self.end_unfollowed(end, state);
-                self.lose_switches(effect, rules, state);
+                Self::lose_switches(effect, state);
                 Ok(())
             }
         }
@@ -586,8 +586,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     }
 
     /// What strokes that are not followed may have switched.
-    fn lose_switches(&mut self, effect: Effect, rules: &gcheck_controls::CycleRules, state: &mut State<D>) {
-        let _ = rules;
+    fn lose_switches(effect: Effect, state: &mut State<D>) {
         if matches!(effect, Effect::CycleTap | Effect::CycleLeftTap) {
             let either = state.cycle.feed_override_on.join(&Truth::True);
             state.cycle.feed_override_on = either;

@@ -6,7 +6,7 @@ use std::ops::Range;
 use std::rc::Rc;
 
 use gcheck_controls::{CodeIx, Effect, Letter, ReturnTo, Unset};
-use gcheck_program::{BlockTable, ExprIx, OKeyword, OLabel, Place, StatementKind, Value, Word};
+use gcheck_program::{BlockFlags, BlockTable, ExprIx, OKeyword, OLabel, Place, StatementKind, Value, Word};
 
 use super::{Count, Ending, Executor, Flow, Outcome, Step};
 use crate::assumption::{Assumption, Unsettled};
@@ -181,7 +181,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// `M97`, `M98`.
     pub(super) fn call_code(&mut self, effect: Effect, state: &mut State<D>) -> Step {
         let letter = Letter::of('P');
-        let Some(count) = self.count(letter)? else { return Err(Fault::MissingWord(letter)) };
+        let Some(count) = self.count(letter)? else { return self.call_by_comment(letter, state) };
         let mut repeats = match self.call_repeats()? {
             None => 1,
             Some(Count::Known(n)) => n,
@@ -212,6 +212,24 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         };
         self.flow = Some(Flow::Call(Callee::plain(kind, target, repeats - 1)));
         Ok(())
+    }
+
+    /// A call without a number: some codes take the path of the program from a comment, and which program that is, nobody
+    /// looks up.
+    fn call_by_comment(&mut self, letter: Letter, state: &mut State<D>) -> Step {
+        let by_comment = |ix: &CodeIx| {
+            let code = self.model.control().code_at(*ix);
+            code.is_some_and(|code| {
+                let mut words = code.entry().words.iter();
+                words.any(|word| word.unless_comment && Letter::parse(&word.letter) == Some(letter))
+            })
+        };
+        let code = self.words.codes().iter().copied().find(by_comment);
+        let Some(code) = code.filter(|_| self.origin.flags.contains(BlockFlags::COMMENT)) else {
+            return Err(Fault::MissingWord(letter));
+        };
+        self.assumptions.insert(Assumption::Code(code));
+        self.lose_everything(state)
     }
 
     fn call_repeats(&self) -> Step<Option<Count>> {

@@ -112,6 +112,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let held = self.hold_compensation(state)?;
         let mut strokes = Vec::new();
         let result = grooving(effect, state.position().xyz(), &words, &mut |stroke| strokes.push(stroke));
+        let result = if one_block { result } else { with_letters(result, &[('I', 'P'), ('K', 'Q')]) };
         let outcome = self.carry_out(&strokes, result, Plane::Zx, *state.position(), state);
         Self::release_compensation(held, state);
         outcome?;
@@ -135,7 +136,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             let lead = self.lead(state);
             let checked = Self::check_lead(lead, state);
             let lead = Mm(lead.or_else(|| self.modal_lead(state)).unwrap_or(f64::NAN));
-            let words = if present.intersects(LetterSet::of("KD")) {
+            let one_block = present.intersects(LetterSet::of("KD"));
+            let words = if one_block {
                 self.thread_of_one_block(to, lead, state)?
             } else {
                 self.thread_of_two_blocks(to, lead, ix, state)?
@@ -144,6 +146,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             let mut strokes = Vec::new();
             let result =
                 multi_pass_thread(state.position().xyz(), &words, &mut |stroke| strokes.push(stroke));
+            let result = if one_block { result } else { with_letters(result, &[('K', 'P'), ('D', 'Q')]) };
             let outcome = self.carry_out(&strokes, result, Plane::Zx, *state.position(), state);
             Self::release_compensation(held, state);
             outcome?;
@@ -445,6 +448,16 @@ fn keep<D: Domain>(words: &TurningWords, state: &mut State<D>) {
     if state.turning() != *words {
         state.turning = KeptTurningWords::of(words);
     }
+}
+
+/// A fault of a number with the address that another form of the cycle writes it by.
+fn with_letters(
+    result: Result<[Mm; 3], CycleError>,
+    letters: &[(char, char)],
+) -> Result<[Mm; 3], CycleError> {
+    let Err(CycleError::Fault(CycleFault::NotPositive(letter))) = result else { return result };
+    let other = letters.iter().find(|(from, _)| Letter::of(*from) == letter);
+    Err(CycleFault::NotPositive(other.map_or(letter, |(_, to)| Letter::of(*to))).into())
 }
 
 fn missing(letter: char) -> Fault {

@@ -9,8 +9,8 @@ use gcheck_controls::{CodeIx, Effect, Letter, LetterSet};
 use gcheck_geometry::{Bezier, Mm, Plane};
 use nalgebra::Point2;
 
-use super::arc::plane_axes;
-use super::{Executor, Step};
+use super::arc::{axes_of_plane, plane_axes};
+use super::{Count, Executor, Step};
 use crate::assumption::{Assumption, Unsettled};
 use crate::event::{Curve, CurvePiece, Event, FeedMode, Spindle, Travel, TravelKind};
 use crate::fault::{CompensationFault, Fault};
@@ -26,12 +26,57 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// Moves as the active mode says.
     pub(super) fn motion(&mut self, state: &mut State<D>) -> Step {
         self.turn_drawing(state);
-        let moved = self.active_motion(state);
+        let moved = self.repeated_motion(state);
         let moved = self.held(moved)?;
         if !state.calls.modal.is_off() && self.words.present().intersects(self.model.axis_letters) {
             self.modal_call(state);
         }
         moved
+    }
+
+    /// The motion of the block, as many times as it asks for.
+    fn repeated_motion(&mut self, state: &mut State<D>) -> Step {
+        let Some(letter) = self.model.semantics().cut_repeats.map(Letter::of) else {
+            return self.active_motion(state);
+        };
+        if !self.words.has(letter) || !self.repeats_cut(letter, state) {
+            return self.active_motion(state);
+        }
+        let times = match Self::whole(letter, self.words.number(letter).unwrap_or(f64::NAN))? {
+            Count::Known(times) => times.clamp(1, crate::cycles::MAX_STROKES),
+            Count::Unknown => {
+                self.active_motion(state)?;
+                self.emit(state, Event::Unfollowed);
+                return if state.is_incremental(self.model) == Some(false) {
+                    Ok(())
+                } else {
+                    self.lose_position(state)
+                };
+            }
+        };
+        for _ in 0..times {
+            self.active_motion(state)?;
+        }
+        Ok(())
+    }
+
+    /// Does the letter belong to the cut that is made, and to no other code of the block?
+    fn repeats_cut(&self, letter: Letter, state: &State<D>) -> bool {
+        let cuts = state.mode(Role::Motion).only().is_some_and(|mode| {
+            matches!(
+                self.model.effect(mode),
+                Effect::Linear | Effect::ArcClockwise | Effect::ArcCounterClockwise
+            )
+        });
+        let is_others = self.words.codes().iter().any(|ix| {
+            self.model.role(*ix) != Some(Role::Motion)
+                && self
+                    .model
+                    .contracts
+                    .get(ix.index())
+                    .is_some_and(|contract| contract.reads_all || contract.reads.contains(letter))
+        });
+        cuts && !is_others && state.active_cycle(self.model) == Some(CodeIx::NONE)
     }
 
     fn active_motion(&mut self, state: &mut State<D>) -> Step {
@@ -85,6 +130,15 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                     if effect == Effect::Rapid { TravelKind::Rapid } else { TravelKind::Feed },
                     state,
                 )
+            }
+            Effect::Linear if self.has_angle() => {
+                // Where a line that only has its angle ends, the next block says: the point in which the two lines meet.
+                for axis in axes_of_plane(state.plane(self.model)) {
+                    state.points.position.set(axis, f64::NAN);
+                    state.points.actual.set(axis, f64::NAN);
+                }
+                self.emit(state, Event::Unfollowed);
+                Ok(())
             }
             Effect::Rapid | Effect::Linear => Ok(()),
             Effect::None if mode == CodeIx::NONE && has_axes => Err(Fault::NoMotionMode),
@@ -163,8 +217,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             state.probe.forget();
         }
         if turns {
-            let unknown = TurningWords::UNKNOWN;
-            let TurningWords { start, corner, taper, lead, .. } = unknown;
+            let TurningWords { start, corner, taper, lead, .. } = TurningWords::UNKNOWN;
             let words = TurningWords { start, corner, taper, lead, ..state.turning() };
             state.turning = KeptTurningWords::of(&words);
         }
@@ -212,8 +265,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             if !axis.is_rotary() && value != 0.0 {
                 value *= unit;
             }
-            if axis == Axis::X && state.is_diameter(self.model) != Some(false) {
-                value = if state.is_diameter(self.model).is_some() { value / 2.0 } else { f64::NAN };
+            let diameters = state.words_are_diameters(self.model);
+            if axis == Axis::X && diameters != Some(false) {
+                value = if diameters.is_some() { value / 2.0 } else { f64::NAN };
             }
             let value = match (is_increment, incremental) {
                 (true, _) | (false, Some(true)) => target.raw(axis) + value,
@@ -229,12 +283,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         } else if state.may_be(Role::Polar, Effect::PolarOn, self.model) {
             let mut named = [Axis::X, Axis::Y, Axis::Z].into_iter();
             if named.any(|axis| self.words.has(axis.letter())) {
-                // A coordinate, or a radius or an angle; of the axis that stays in a plane only the plane knows.
-                let stays = |axis: Axis| {
-                    let plane = state.plane(self.model).map(plane_axes);
-                    plane.is_some_and(|([_, _, normal], _)| normal == axis)
-                };
-                for axis in [Axis::X, Axis::Y, Axis::Z].into_iter().filter(|axis| !stays(*axis)) {
+                // A coordinate, or a radius or an angle.
+                for axis in axes_of_plane(state.plane(self.model)) {
                     target.set(axis, f64::NAN);
                 }
             }
@@ -303,9 +353,18 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if self.machine_coordinates {
             return self.machine_move(kind, state);
         }
-        let target = self.target(state)?;
+        let mut target = self.target(state)?;
         self.announce_vector(state);
         let checked = self.held(if kind == TravelKind::Feed { self.check_feed(state) } else { Ok(()) })?;
+        if kind == TravelKind::Feed {
+            if self.has_angle() {
+                self.aim(&mut target, state);
+            }
+            if let Some(corner) = self.corner_of_block(state) {
+                self.cut_to_corner(target, corner, state)?;
+                return checked;
+            }
+        }
         self.travel(kind, target, false, state)?;
         checked
     }
@@ -528,6 +587,11 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             self.travel(TravelKind::Thread, target, false, state)?;
             return missing;
         };
+        if by_feed && lead == 0.0 {
+            let missing = self.held(Err(Fault::NoFeed))?;
+            self.travel(TravelKind::Thread, target, false, state)?;
+            return missing;
+        }
         if self.refuses_incomplete() && Self::spindle_turns(state) == Some(false) {
             return Err(Fault::SpindleStopped);
         }

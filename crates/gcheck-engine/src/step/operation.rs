@@ -339,12 +339,12 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             state.cycle.take_back_ijk(&kept);
             return Ok(Some(effect));
         }
-        let active = state.active_cycle(self.model).filter(|ix| ix.is_some());
-        if state.active_cycle(self.model).is_none() {
+        let cycle = state.active_cycle(self.model);
+        if cycle.is_none() {
             // Whether there is one, and which, is not known.
             state.points.lose();
             self.emit(state, Event::Unfollowed);
         }
-        Ok(active.map(|ix| self.model.effect(ix)))
+        Ok(cycle.filter(|ix| ix.is_some()).map(|ix| self.model.effect(ix)))
     }
 }

@@ -57,7 +57,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             kind,
             unit: state.units(self.model).map(Units::in_mm)?,
             incremental: state.is_incremental(self.model)?,
-            diameter: state.is_diameter(self.model)?,
+            diameter: state.words_are_diameters(self.model)?,
             letters: self
                 .model
                 .axes

@@ -111,8 +111,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         }
         let angle = self.words.number(Letter::of('R'));
         let angle = angle.or_else(|| if to_p { self.raw('P', state) } else { None }).unwrap_or(0.0);
-        let way = match self.count(Letter::of('P'))? {
-            _ if to_p => 0,
+        let way = if to_p { None } else { self.count(Letter::of('P'))? };
+        let way = match way {
             Some(Count::Known(way @ 0..=2)) => way as u8,
             Some(Count::Known(_)) if self.refuses_incomplete() => {
                 return Err(Fault::WordRange(Letter::of('P')));

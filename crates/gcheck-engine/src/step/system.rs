@@ -263,6 +263,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                     state.points.position = Position::UNKNOWN;
                 }
                 state.offsets.tables_mut().set_offset(system, offset);
+                if state.work() == Some(system) && !self.refuses_incomplete() {
+                    self.announce_offset(state);
+                }
             }
             SystemValue::Reference1 | SystemValue::Reference2 => {
                 if let Some(axis) = axis {

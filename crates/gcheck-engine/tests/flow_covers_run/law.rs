@@ -32,7 +32,7 @@ pub(crate) struct Case<'a> {
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Counts {
     pub(crate) programs: u64,
-    /// Programs whose analysis was given up, or too large to be kept: nothing is said of them.
+    /// Programs whose analysis was given up or was too large to be kept. The law does not judge them.
     pub(crate) left_out: u64,
     pub(crate) runs: u64,
     /// Runs that came to an end of the program.

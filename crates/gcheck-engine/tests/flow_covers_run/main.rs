@@ -159,16 +159,7 @@ fn all(programs: &[material::Source], runs: u32, fuel: u64) -> Counts {
     let mut counts = Counts::default();
     let mut failures: BTreeMap<String, Vec<String>> = BTreeMap::new();
     for (number, source) in programs.iter().enumerate() {
-        let case = Case {
-            name: &source.name,
-            control: &source.control,
-            text: &source.text,
-            machine: &source.machine,
-            library: &source.folder,
-            work: 200_000,
-            fuel,
-        };
-        match check(&case, runs, &mut Random::new(number as u64)) {
+        match check(&source.case(fuel), runs, &mut Random::new(number as u64)) {
             Ok(seen) => counts.add(seen),
             Err(why) => failures.entry(kind_of(&why)).or_default().push(why),
         }

@@ -9,6 +9,8 @@ use std::rc::Rc;
 use gcheck_engine::{Library, Machine, SourceFile};
 use gcheck_testkit::corpus;
 
+use crate::law::Case;
+
 /// A program on disk or in a test.
 pub(crate) struct Source {
     pub(crate) name: String,
@@ -16,6 +18,21 @@ pub(crate) struct Source {
     pub(crate) text: String,
     pub(crate) machine: Machine,
     pub(crate) folder: Folder,
+}
+
+impl Source {
+    /// The program as a case of the law, with what a run may execute.
+    pub(crate) fn case(&self, fuel: u64) -> Case<'_> {
+        Case {
+            name: &self.name,
+            control: &self.control,
+            text: &self.text,
+            machine: &self.machine,
+            library: &self.folder,
+            work: 200_000,
+            fuel,
+        }
+    }
 }
 
 /// Programs beside a program.

@@ -15,7 +15,7 @@ use gcheck_engine::state_fields;
 
 use crate::draw::Random;
 use crate::generator::Style;
-use crate::law::{Case, Counts, check};
+use crate::law::{Counts, check};
 use crate::programs::{UNSEEN, sources};
 use crate::{GENERATED, generated, generated_law};
 
@@ -40,16 +40,7 @@ fn hold(trial: &Trial) -> (String, Result<Counts, String>) {
     match trial {
         Trial::Own(number) => {
             let source = sources().swap_remove(*number);
-            let case = Case {
-                name: &source.name,
-                control: &source.control,
-                text: &source.text,
-                machine: &source.machine,
-                library: &source.folder,
-                work: 200_000,
-                fuel: 3_000,
-            };
-            let held = check(&case, 24, &mut Random::new(*number as u64));
+            let held = check(&source.case(3_000), 24, &mut Random::new(*number as u64));
             (source.name, held)
         }
         Trial::Random(control, style, seed) => {

@@ -14,6 +14,7 @@ use gcheck_geometry::{Arc, ArcDirection, Mm, Plane};
 use gcheck_program::{BlockFlags, OLabel, Word};
 
 use super::super::arc::{arc_fault, plane_axes};
+use super::super::corner::{Corner, Fit, cut_corner};
 use super::super::{Count, Executor, Flow, Outcome, Statements, Step};
 use super::keep;
 use crate::assumption::Assumption;
@@ -54,18 +55,6 @@ pub(in crate::step) struct ReadProfile {
     pub(in crate::step) complete: bool,
 }
 
-/// What happens at the corner behind a straight piece.
-#[derive(Debug, Clone, Copy)]
-enum Corner {
-    /// A fillet of this radius.
-    Round(f64),
-    /// A chamfer that begins and ends this far from the corner.
-    Chamfer(f64),
-}
-
-/// A corner that is cut: where it begins, its piece, where it ends.
-type CutCorner = ((f64, f64), ProfileSegment, (f64, f64));
-
 impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// `G70` to `G73` of lathes.
     pub(in crate::step) fn profile_cycle(
@@ -80,8 +69,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let (p, q) = (self.raw('P', state), self.raw('Q', state));
         let (first, last) = match (p, q) {
             (None, None) if effect != Effect::FinishProfile => {
-                self.store_first_block(effect, state);
-                return Ok(());
+                return self.store_first_block(effect, state);
             }
             (Some(p), Some(q)) => (p, q),
             (None, _) => return Err(Fault::MissingWord(Letter::of('P'))),
@@ -133,24 +121,32 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     }
 
     /// The first of two blocks: depth and way back, or shift and passes.
-    fn store_first_block(&mut self, effect: Effect, state: &mut State<D>) {
+    fn store_first_block(&mut self, effect: Effect, state: &mut State<D>) -> Step {
+        let not_positive = |letter: char, value: Option<f64>| match value {
+            Some(value) if value <= 0.0 => Err(Fault::Cycle(CycleFault::NotPositive(Letter::of(letter)))),
+            _ => Ok(()),
+        };
         let mut words = state.turning();
         let length = |letter: char| self.length(Letter::of(letter), state);
         let (in_x, in_z, back) = (length('U'), length('W'), length('R'));
         if effect == Effect::RepeatPattern {
             let passes = self.raw('R', state);
+            not_positive('R', passes)?;
             // `R4`, and `R0.004` on controls that want a point, are both four passes.
             let [x, z, count] = &mut words.pattern;
             *x = in_x.or(*x);
             *z = in_z.or(*z);
             *count = passes.or(*count);
         } else {
-            let depth = if effect == Effect::RoughAlongX { in_z } else { in_x };
+            let along_x = effect == Effect::RoughAlongX;
+            let depth = if along_x { in_z } else { in_x };
+            not_positive(if along_x { 'W' } else { 'U' }, depth)?;
             let [kept, retract] = &mut words.roughing;
             *kept = depth.or(*kept);
             *retract = back.or(*retract);
         }
         keep(&words, state);
+        Ok(())
     }
 
     /// `G71` to `G73` between sequence numbers.
@@ -528,11 +524,11 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         };
         let effect = self.model.effect(mode);
         match effect {
-            E::Rapid | E::Linear if has_axes => self.draw_line(mode, effect == E::Rapid, state, drawing)?,
+            E::Rapid | E::Linear if has_axes => self.draw_line(effect == E::Rapid, state, drawing)?,
             E::ArcClockwise | E::ArcCounterClockwise
                 if has_axes && !arc_words && self.is_straight_without_centre() =>
             {
-                self.draw_line(mode, false, state, drawing)?;
+                self.draw_line(false, state, drawing)?;
             }
             E::ArcClockwise | E::ArcCounterClockwise if has_axes || arc_words => {
                 self.draw_arc(effect == E::ArcCounterClockwise, state, drawing)?;
@@ -543,39 +539,11 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         Ok(Drawn::On)
     }
 
-    fn draw_line(&mut self, mode: CodeIx, rapid: bool, state: &mut State<D>, drawing: &mut Drawing) -> Step {
+    fn draw_line(&mut self, rapid: bool, state: &mut State<D>, drawing: &mut Drawing) -> Step {
         let mut target = self.target(state)?;
         let ([first, second, _], _) = plane_axes(drawing.plane);
-        let entry = self.model.control().code_at(mode).map(|code| &code.entry().words);
-        let takes = |letter: &str| entry.is_some_and(|words| words.iter().any(|word| word.letter == letter));
-        let angle = self.words.number(Letter::CORNER_A).or_else(|| {
-            let plain = self.words.number(Letter::of('A'));
-            plain.filter(|_| takes("A"))
-        });
-        if let Some(angle) = angle {
-            // One coordinate and the angle from the first axis give the other coordinate.
-            let tangent = angle.to_radians().tan();
-            match (self.names_axis(first), self.names_axis(second)) {
-                (true, false) => {
-                    let way = target.raw(first) - state.position().raw(first);
-                    target.set(second, state.position().raw(second) + way * tangent);
-                }
-                (false, true) => {
-                    let way = target.raw(second) - state.position().raw(second);
-                    target.set(first, state.position().raw(first) + way / tangent);
-                }
-                _ => {}
-            }
-        }
-        let unit = self.unit(state);
-        let radius = self.words.number(Letter::CORNER_R).or_else(|| {
-            let plain = self.words.number(Letter::of('R'));
-            plain.filter(|_| takes("R"))
-        });
-        let chamfer = self.words.number(Letter::CORNER_C);
-        let corner =
-            radius.map(|r| Corner::Round(r * unit)).or_else(|| chamfer.map(|c| Corner::Chamfer(c * unit)));
-        if let Some(corner) = corner {
+        self.aim(&mut target, state);
+        if let Some(corner) = self.corner_of_block(state) {
             drawing.corners.push((drawing.segments.len(), corner));
         }
         let to = (Mm(target.raw(first)), Mm(target.raw(second)));
@@ -667,13 +635,12 @@ fn with_corners(
             Some(ProfileSegment::Line { to, .. }) => Some((to.0.0, to.1.0)),
             _ => None,
         };
-        let cut = corner.zip(next).and_then(|(corner, next)| cut_corner(at, to, next, corner));
-        match cut {
-            None => {
+        match corner.zip(next).map(|(corner, next)| cut_corner(at, to, next, corner)) {
+            None | Some(Fit::Straight | Fit::TooLong { .. } | Fit::Unknown) => {
                 shaped.push(*piece);
                 at = to;
             }
-            Some((before, piece_of_corner, behind)) => {
+            Some(Fit::Cut((before, piece_of_corner, behind))) => {
                 shaped.push(ProfileSegment::Line { to: (Mm(before.0), Mm(before.1)), rapid });
                 shaped.push(piece_of_corner);
                 at = behind;
@@ -681,33 +648,4 @@ fn with_corners(
         }
     }
     shaped
-}
-
-/// Where a corner begins, its piece, and where it ends.
-fn cut_corner(from: (f64, f64), corner: (f64, f64), to: (f64, f64), shape: Corner) -> Option<CutCorner> {
-    let (before, behind) = ((corner.0 - from.0, corner.1 - from.1), (to.0 - corner.0, to.1 - corner.1));
-    let (length, other) = (before.0.hypot(before.1), behind.0.hypot(behind.1));
-    let (d, e) = ((before.0 / length, before.1 / length), (behind.0 / other, behind.1 / other));
-    let cross = d.0 * e.1 - d.1 * e.0;
-    let dot = d.0 * e.0 + d.1 * e.1;
-    let way = match shape {
-        Corner::Chamfer(size) => size,
-        Corner::Round(radius) => radius * (cross.atan2(dot).abs() / 2.0).tan(),
-    };
-    // Also refuses what is not known.
-    if !(way > 0.0 && way <= length + 1e-6 && way <= other + 1e-6 && cross.abs() > 1e-9) {
-        return None;
-    }
-    let begin = (corner.0 - d.0 * way, corner.1 - d.1 * way);
-    let end = (corner.0 + e.0 * way, corner.1 + e.1 * way);
-    let to = (Mm(end.0), Mm(end.1));
-    let piece = match shape {
-        Corner::Chamfer(_) => ProfileSegment::Line { to, rapid: false },
-        Corner::Round(radius) => {
-            let side = radius * cross.signum();
-            let centre = (Mm(begin.0 - d.1 * side), Mm(begin.1 + d.0 * side));
-            ProfileSegment::Arc { to, centre, ccw: cross > 0.0 }
-        }
-    };
-    Some((begin, piece, end))
 }
