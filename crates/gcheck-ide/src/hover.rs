@@ -682,19 +682,17 @@ mod tests {
             "haas-lathe",
             "O1\nG21 G18 G99 G54 M3 S500\n$0M98 P77\nG0 X1.\nM30\n",
             &expect![[r#"
-            [M98]
-            **M98** subprogram call
+                [M98]
+                **M98** subprogram call
 
-            `G18` → not known, `G390` → not known, `G99` → not known, `G54` → not known, `G64` → not known, `G97` → not known, `S500 rpm` → not known, `spindle clockwise` → `spindle turning or not`
+                `G18` → not known, `G390` → not known, `G99` → not known, `G21` → not known, `G54` → not known, `G64` → not known, `G97` → not known, `G170` → not known, `S500 rpm` → not known, `spindle clockwise` → `spindle turning or not`
 
-            in effect: `G21` `G170`
+                ---
 
-            ---
+                Calls program P; M99 brings it back. *(calls, jumps, questions, for its own block)*
 
-            Calls program P; M99 brings it back. *(calls, jumps, questions, for its own block)*
-
-            may have `P` `L`
-        "#]],
+                may have `P` `L`
+            "#]],
         );
         check(
             "haas-lathe",
@@ -1028,7 +1026,7 @@ mod tests {
 
                 Moves the named axes on a straight line at the programmed feed. *(motion, stays in effect)*
 
-                needs `F`, may have `X` `Y` `Z` `A` `B` `C` `U` `V` `W` `,C` `,R`
+                needs `F`, may have `X` `Y` `Z` `A` `B` `C` `U` `V` `W` `L` `,C` `,R`
             "#]],
         );
     }

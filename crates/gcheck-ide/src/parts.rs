@@ -6,7 +6,9 @@ use std::ops::Range;
 
 use gcheck_controls::{Effect, Letter, LetterSet};
 use gcheck_db::Snapshot;
-use gcheck_program::{Block, BlockFlags, BlockTable, ToolNames, Word, remark};
+use gcheck_program::{
+    Block, BlockFlags, BlockTable, Heading, Headings, ToolNames, Word, is_comment_alone, is_name, remark,
+};
 
 use crate::things::{code_end, program_around};
 
@@ -153,6 +155,20 @@ pub(crate) fn tool_names(snapshot: &Snapshot) -> ToolNames<'_> {
     names
 }
 
+/// What comments on lines of their own call the blocks after them.
+pub(crate) fn headings(snapshot: &Snapshot) -> Vec<Heading> {
+    let end = code_end(snapshot);
+    let mut headings = Headings::default();
+    for chunk in snapshot.chunks().take_while(|chunk| chunk.base < end) {
+        // Most chunks of a large file have no comments, and need not be read.
+        let is_needed = headings.is_waiting() || !is_plain(snapshot, chunk.index);
+        if let Some(table) = is_needed.then(|| snapshot.table(chunk.index)).flatten() {
+            headings.look(chunk.base, &table, chunk.text);
+        }
+    }
+    headings.into_found()
+}
+
 /// Has a chunk neither comments nor tools? Of a large file most have not, and need not be read for its parts.
 fn is_plain(snapshot: &Snapshot, chunk: usize) -> bool {
     snapshot.facts(chunk).is_some_and(|facts| !facts.flags().contains(BlockFlags::COMMENT))
@@ -288,16 +304,4 @@ impl Finder<'_> {
             name: String::new(),
         });
     }
-}
-
-/// A comment, perhaps with a sequence number, and nothing else.
-fn is_comment_alone(block: &Block) -> bool {
-    block.flags.contains(BlockFlags::COMMENT)
-        && !block.flags.intersects(BlockFlags::STATEMENT | BlockFlags::TAPE_MARK | BlockFlags::ERROR)
-        && block.letters.without(LetterSet::of("N")).is_empty()
-}
-
-/// Does a comment name something, other than rules of ours?
-fn is_name(comment: &str) -> bool {
-    comment.chars().any(char::is_alphanumeric) && !comment.trim_start().starts_with("gcheck:")
 }

@@ -41,12 +41,15 @@ impl<'a> Reading<'a> {
 
     /// Does X count diameters?
     pub(crate) fn diameter(&self, state: &State<Abstract>) -> bool {
-        state.is_diameter(self.model).unwrap_or(self.model.semantics().diameter)
+        state.words_are_diameters(self.model).unwrap_or(self.model.semantics().diameter)
     }
 
-    /// The codes that may be in effect for a role, by name; empty for none.
+    /// The codes that may be in effect for a role, by name; empty for none, and when it is not known.
     pub(crate) fn mode(&self, state: &State<Abstract>, role: Role) -> Vec<String> {
         let mode = state.mode(role);
+        if mode.is_taken_for_kept() {
+            return Vec::new();
+        }
         let name = |code: &CodeIx| self.model.control().code_at(*code).map(|code| code.entry().code.clone());
         mode.alternatives().iter().filter_map(name).collect()
     }
@@ -212,7 +215,7 @@ impl<'a> Reading<'a> {
         match item {
             Item::Mode(role) => {
                 let mode = state.mode(role);
-                mode.only().is_none() && mode.alternatives().is_empty()
+                mode.is_taken_for_kept() || mode.only().is_none() && mode.alternatives().is_empty()
             }
             Item::Feed => is_open(state.feed_word()),
             Item::Speed => is_open(state.speed()),

@@ -161,7 +161,9 @@ impl Block<'_, '_> {
             match word.need {
                 Need::Required => true,
                 Need::Modal => !is_given(word),
-                Need::Conditional => word.required_with.iter().any(|other| self.has_word(other)),
+                Need::Conditional => {
+                    word.required_with.iter().any(|other| has(other) || self.has_word(other))
+                }
                 Need::Optional => false,
             }
         };
@@ -328,9 +330,9 @@ mod tests {
             "haas-mill",
             "G1 X1. $0\n",
             &expect![[r#"
-            G1 [X] [Y] [Z] [A] [B] [C] [U] [V] [W] F [,C] [,R]
-              F: **F** feed rate, here or earlier, feed rate
-        "#]],
+                G1 [X] [Y] [Z] [A] [B] [C] [U] [V] [W] F [L] [,C] [,R]
+                  F: **F** feed rate, here or earlier, feed rate
+            "#]],
         );
         check("haas-mill", "F10.\nG1 X1. $0\n", &expect![[""]]);
         check(

@@ -163,9 +163,12 @@ fn side(reading: &Reading<'_>, look: &mut Look<'_, '_>, state: &State<Abstract>,
 }
 
 fn mode(reading: &Reading<'_>, state: &State<Abstract>, role: Role, trace: &Trace) -> Option<ModeView> {
+    let mode = state.mode(role);
+    if mode.is_taken_for_kept() {
+        return None;
+    }
     let codes = reading.mode(state, role);
-    let first =
-        state.mode(role).alternatives().iter().find_map(|code| reading.model.control().code_at(*code))?;
+    let first = mode.alternatives().iter().find_map(|code| reading.model.control().code_at(*code))?;
     let set = trace.set_by(Fact::Mode(role)).filter(|at| at.file == 0);
     let set_at = set.and_then(|at| reading.snapshot.place(at.block)).map(|place| place.range().start);
     Some(ModeView { group: first.group().title.clone(), codes, set_at })

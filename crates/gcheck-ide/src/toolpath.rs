@@ -4,12 +4,12 @@
 
 use gcheck_db::{Cancelled, Snapshot};
 use gcheck_engine::{Fault, Machine, Model, Options, Position};
-use gcheck_toolpath::plot::Plot;
+use gcheck_toolpath::plot::{Heading, Plot};
 use gcheck_toolpath::{Names, Timing, WorkCoordinates};
 use serde::Serialize;
 use serde_json::Value;
 
-use crate::parts::tool_names;
+use crate::parts::{headings, tool_names};
 use crate::running::{Ran, Shown, is_turned, run_through, view};
 
 /// Most segments of a toolpath; more are thinned, and the answer says so.
@@ -113,11 +113,15 @@ fn draw(
     let drawing = plot.finish();
     let names = tool_names(snapshot);
     let tool = |tool| names.get(tool).map(str::to_owned);
+    let found = headings(snapshot);
+    let lines = found.iter().map(|heading| snapshot.line_at(heading.from) + 1);
+    let headings: Vec<_> =
+        found.iter().zip(lines).map(|(found, line)| Heading { file: "", line, name: &found.name }).collect();
     let mut notes = drawing.notes();
     notes.extend(without.into_iter().map(|what| format!("not drawn: {what}")));
     notes.extend(stopped.clone());
     let path = Toolpath {
-        data: drawing.to_json(&Names { tool: &tool, ..Names::NONE }),
+        data: drawing.to_json(&Names { tool: &tool, ..Names::NONE }, &headings),
         moves: drawing.moves(),
         seconds: drawing.seconds().0,
         notes,
@@ -156,7 +160,7 @@ mod tests {
     fn points_with_their_lines() {
         let text = "%\nO1\nG21 G90 G54\nT1 M6 (END MILL)\nG0 X0. Y0. Z2.\nG1 X50. F100.\nG2 X60. Y10. R10.\nM30\n%\n";
         let path = drawn(text, MAX_SEGMENTS);
-        assert_eq!(path.data["version"], json!(1));
+        assert_eq!(path.data["version"], json!(2));
         assert_eq!(path.data["tools"][0]["name"], json!("END MILL"));
         assert_eq!(path.moves, 3);
         assert!(path.data["count"].as_u64().unwrap() > 3, "{}", path.data);

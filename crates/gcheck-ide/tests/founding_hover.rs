@@ -272,7 +272,7 @@ const PAGES: &[Page] = &[
             ("The control shifts the path along it.", "shifts the path along it"),
             ("The size may be positive or negative.", "Negative turns the shift round"),
             ("The offset is a radius or a diameter, by Setting 40.", "by Setting 40 a diameter"),
-            ("The amount counts in moves of two or three axes.", "in moves of two axes too"),
+            ("The amount counts in moves of two or three axes.", "Moves of two axes are shifted too"),
             ("Only G00 and G01 can be used.", "Only G0 and G1"),
             ("Under G93 each block needs `F`.", "Under G93 each cut needs its `F`"),
             ("The vector has the length 1.", "I² + J² + K² = 1"),

@@ -13,7 +13,7 @@ use gcheck_engine::{Assumption, Budget, FlowResult, Model, Options, Program, Tas
 use gcheck_program::{BlockFlags, BlockTable, Loaded, Survey, code_region};
 use gcheck_syntax::SourceText;
 
-use crate::block_delete::name_condition;
+use crate::block_delete::{Positions, found_by_all, name_condition};
 use crate::environment::ProgramLibrary;
 use crate::partitions::{Case, Follower, Partition, Partitions, Rules, Told};
 use crate::watchers::{Scope, Watchers};
@@ -227,6 +227,13 @@ impl<'c> Collector<'c> {
         self.omitted.add(rule, severity, count);
     }
 
+    /// Names the condition of findings that hold with one position of block delete only.
+    pub(crate) fn name_positions(&mut self, positions: &Positions) {
+        for finding in &mut self.findings {
+            positions.name(finding);
+        }
+    }
+
     /// A finding in text that no run reads is not an error, unless the user configured the rule's severity.
     fn soften(&mut self, plan: &Plan, unread_from: u32) {
         for finding in &mut self.findings {
@@ -342,18 +349,30 @@ fn check_paths(
     let keeps = watchers.remembers_all();
     let mut partitions = Partitions::default();
     let mut results = Vec::new();
+    let (mut positions, mut again) = (Positions::default(), Vec::new());
     for skip in &switches {
         let task = Task { options: Options { skip: *skip, ..Options::NONE }, ..all_paths };
         if results.is_empty() {
             let mut follower =
                 Follower { watchers: &mut watchers, partitions: &mut partitions, choices: &[], keeps };
             results.push(flow(&program, &model, machine, task, &mut follower));
+            watchers.followed();
+            if switches.len() > 1 {
+                positions = Positions::new(watchers.made());
+            }
         } else {
             watchers.restart(Scope::Skipping);
             results.push(flow(&program, &model, machine, task, &mut watchers));
+            watchers.followed();
+            again.push(watchers.take_again());
         }
     }
     let out_of_fuel = results.iter().any(FlowResult::is_incomplete);
+    // An analysis that gave up may not have come to where it would find the same.
+    if !out_of_fuel && switches.len() > 1 {
+        positions.found_again(found_by_all(again.into_iter()));
+        out.borrow_mut().collector.name_positions(&positions);
+    }
     let mut assumptions = Assumptions::new();
     for result in &results {
         assumptions.extend(result.assumptions.iter().cloned());

@@ -5,13 +5,16 @@
 
 use std::any::{Any, TypeId};
 use std::cell::RefCell;
+use std::collections::BTreeMap;
 use std::ops::Range;
 use std::rc::Rc;
 
 use gcheck_controls::Control;
-use gcheck_program::{Survey, lower};
+use gcheck_diagnostics::Finding;
+use gcheck_program::{BlockFlags, Survey, lower};
 use gcheck_syntax::line_len;
 
+use crate::block_delete::name_condition;
 use crate::{BlockCx, Environment, ProgramText};
 
 /// What several rules ask of a file: found out once, when the first of them asks.
@@ -75,6 +78,39 @@ impl<'a> FileCx<'a> {
         for (ix, _) in table.blocks() {
             look(&BlockCx::new(self.environment, &table, ix, text, base));
         }
+    }
+
+    /// A finding about what blocks do. Where every one of them has a block delete, the finding names that condition: with the
+    /// switch on it does not hold.
+    pub fn if_run(&self, finding: Finding, blocks: &[Range<u32>]) -> Finding {
+        let may_be_skipped =
+            |place: &Range<u32>| self.flags_at(place.clone()).contains(BlockFlags::BLOCK_DELETE);
+        let all_may_be_skipped =
+            self.survey.block_deletes != 0 && !blocks.is_empty() && blocks.iter().all(may_be_skipped);
+        let flags = if all_may_be_skipped { BlockFlags::BLOCK_DELETE } else { BlockFlags::empty() };
+        name_condition(finding, flags, false)
+    }
+
+    /// Places by what they do, for [`FileCx::if_run`]; empty where the file has no block delete.
+    pub fn places<K: Ord>(&self, of: impl Iterator<Item = (K, Range<u32>)>) -> BTreeMap<K, Vec<Range<u32>>> {
+        let mut places: BTreeMap<K, Vec<Range<u32>>> = BTreeMap::new();
+        if self.survey.block_deletes != 0 {
+            for (key, place) in of {
+                places.entry(key).or_default().push(place);
+            }
+        }
+        places
+    }
+
+    /// What the block at a place has.
+    fn flags_at(&self, place: Range<u32>) -> BlockFlags {
+        let (start, mut flags) = (place.start, BlockFlags::empty());
+        self.reread(self.line_around(place), |block| {
+            if block.block_range().contains(&start) {
+                flags = block.block().flags;
+            }
+        });
+        flags
     }
 
     /// Reads the file again, block by block. A rule that is on by default must not: it asks the survey.

@@ -45,7 +45,7 @@ pub use incremental::{
     ChunkFacts, ChunkFindings, ChunkSource, EditedFile, FileFacts, Incremental, Stopped, Work,
 };
 pub use memory::{Memory, Placed, Places, Remembers};
-pub use path_context::{FinishCx, PathCx};
+pub use path_context::{FinishCx, FollowedCx, PathCx};
 pub use path_rule::{PathRule, Watch};
 pub use proposed_fixes::line_end;
 pub use report::{Report, limit};

@@ -13,11 +13,11 @@ use std::ops::Range;
 use std::rc::Rc;
 
 use gcheck_diagnostics::{Certainty, Finding, Severity};
-use gcheck_engine::{At, Branch, Choice, Ending, Event, Fault, FlowCx, FlowObserver, Parting, Program};
+use gcheck_engine::{At, Branch, Choice, FlowObserver, Parting, Program};
 use gcheck_program::{BinaryOp, BlockTable, ExprIx, Op, Place, StatementKind};
 
 use crate::memories::Memories;
-use crate::watchers::Watchers;
+use crate::watchers::{Watchers, shows_to_watchers};
 use crate::{Environment, RuleEntry, RuleTable};
 
 /// Ways of all conditions that are followed by themselves.
@@ -124,33 +124,7 @@ pub(crate) struct Follower<'f, 'a, 'c> {
 }
 
 impl FlowObserver for Follower<'_, '_, '_> {
-    fn before(&mut self, cx: &FlowCx<'_>) {
-        self.watchers.before(cx);
-    }
-
-    fn event(&mut self, cx: &FlowCx<'_>, event: &Event) {
-        self.watchers.event(cx, event);
-    }
-
-    fn vacant_read(&mut self, cx: &FlowCx<'_>, variable: u32) {
-        self.watchers.vacant_read(cx, variable);
-    }
-
-    fn after(&mut self, cx: &FlowCx<'_>) {
-        self.watchers.after(cx);
-    }
-
-    fn fault(&mut self, cx: &FlowCx<'_>, fault: &Fault) {
-        self.watchers.fault(cx, fault);
-    }
-
-    fn ended(&mut self, cx: &FlowCx<'_>, ending: Ending) {
-        self.watchers.ended(cx, ending);
-    }
-
-    fn endless(&mut self, cx: &FlowCx<'_>, head: At) {
-        self.watchers.endless(cx, head);
-    }
+    shows_to_watchers!();
 
     fn wanted_branches(&self, at: At) -> usize {
         if self.keeps { self.partitions.wanted(at) } else { 0 }

@@ -292,19 +292,33 @@ impl<'a> PathCx<'a> {
 
     /// Does the block name an axis?
     pub fn names_axes(&self) -> bool {
+        self.has_axis_among(self.origin().letters)
+    }
+
+    /// Is an axis among the addresses?
+    pub fn has_axis_among(&self, letters: LetterSet) -> bool {
         let control = self.control();
-        self.origin().letters.iter().any(|letter| control.letter(letter).is_some_and(|entry| entry.axis))
+        letters.iter().any(|letter| control.letter(letter).is_some_and(|entry| entry.axis))
     }
 
-    /// The first word of the block with an address.
+    /// The first word of the block with an address; none if it is beside an empty variable.
     pub fn word(&self, letter: char) -> Option<Word> {
+        let letter = Letter::of(letter);
+        if !self.gives(letter) {
+            return None;
+        }
         let place = self.place()?;
-        place.table.words(place.block()).iter().find(|word| word.letter == Letter::of(letter)).copied()
+        place.table.words(place.block()).iter().find(|word| word.letter == letter).copied()
     }
 
-    /// Has the block a word that `is` accepts?
+    /// Has the block a word that `is` accepts, not beside an empty variable?
     pub fn has_word(&self, is: impl Fn(&Word) -> bool) -> bool {
-        self.find_word(self.origin().at, is).is_some()
+        self.find_word(self.origin().at, |word| self.gives(word.letter) && is(word)).is_some()
+    }
+
+    /// Is no word of the address beside an empty variable? The control reads such a block as if the word were not there.
+    fn gives(&self, letter: Letter) -> bool {
+        self.letters.is_none_or(|letters| letters.contains(letter))
     }
 
     /// Has the block a syntax error, so that words of it may be lost? Other rules report it.
@@ -492,6 +506,23 @@ fn sets(model: &Model<'_>, word: &Word, fact: Fact) -> bool {
             model.effect(word.code),
             Effect::MistOn | Effect::FloodOn | Effect::ThroughCoolantOn | Effect::CoolantOff
         ),
+    }
+}
+
+/// What a rule of the path tier may ask when all paths with one position of the block delete switch were seen.
+pub struct FollowedCx<'a> {
+    /// Control, machine, other programs.
+    pub environment: Environment<'a>,
+    /// The control, prepared for execution.
+    pub model: &'a Model<'a>,
+    /// What the main file holds, without regard to paths.
+    pub survey: &'a Survey,
+}
+
+impl<'a> FollowedCx<'a> {
+    /// The control.
+    pub fn control(&self) -> &'a Control {
+        self.environment.control()
     }
 }
 

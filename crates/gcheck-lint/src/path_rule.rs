@@ -4,7 +4,7 @@
 
 use gcheck_engine::{At, Ending, Event, Fault};
 
-use crate::{FinishCx, MakeShared, PathCx, Remembers, Report, Uses};
+use crate::{FinishCx, FollowedCx, MakeShared, PathCx, Remembers, Report, Uses};
 
 bitflags::bitflags! {
     /// What a rule of the path tier wants to see. A rule that watches little costs little.
@@ -40,6 +40,8 @@ bitflags::bitflags! {
         const COMPUTED = 1 << 12;
         /// [`PathRule::block`]: of those the blocks that so have other codes or addresses than as they are written.
         const COMPUTED_CODES = 1 << 13;
+        /// [`PathRule::followed`].
+        const FOLLOWED = 1 << 14;
     }
 }
 
@@ -114,7 +116,14 @@ pub trait PathRule {
         let _ = (cx, head, report);
     }
 
-    /// All paths were seen.
+    /// All paths were seen with one position of the block delete switch: what the rule weighed on the way is told now. A finding
+    /// that only some positions bring names them.
+    fn followed(&mut self, cx: &FollowedCx<'_>, report: &mut Report<'_>) {
+        let _ = (cx, report);
+    }
+
+    /// All paths were seen with every position of the block delete switch. What the rule remembers is of the last one: this
+    /// is for what the results say.
     fn finish(&mut self, cx: &FinishCx<'_>, report: &mut Report<'_>) {
         let _ = (cx, report);
     }

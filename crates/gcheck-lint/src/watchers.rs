@@ -15,11 +15,11 @@ use gcheck_engine::{
 use gcheck_program::{BlockFlags, Survey};
 use rustc_hash::FxHashMap;
 
-use crate::block_delete;
+use crate::block_delete::{self, Key};
 use crate::evaluated::Evaluated;
 use crate::path_context::ReadBlock;
 use crate::shared_memory::SharedMemories;
-use crate::{Environment, FinishCx, PathCx, PathRule, Remembers, Report, RuleEntry, Uses, Watch};
+use crate::{Environment, FinishCx, FollowedCx, PathCx, PathRule, Remembers, Report, RuleEntry, Uses, Watch};
 
 /// A rule that watches.
 struct Active {
@@ -52,7 +52,9 @@ pub(crate) struct Watchers<'a, 'c> {
     lists: Lists,
     add: &'c mut dyn FnMut(Option<Severity>, Finding),
     /// Findings made already: a loop comes by many times.
-    made: HashSet<(&'static str, u32, String)>,
+    made: HashSet<Key>,
+    /// Of those, what this analysis made again.
+    again: HashSet<Key>,
     /// Something other than a move happened since the last cut.
     changed: bool,
     /// What findings hold for.
@@ -68,7 +70,7 @@ pub(crate) struct Watchers<'a, 'c> {
 }
 
 /// By bit of [`Watch`]: indices of the rules that watch it.
-type Lists = [Vec<usize>; 14];
+type Lists = [Vec<usize>; 15];
 
 /// How far the rules have come, beside what each remembers.
 #[derive(Debug, Clone, PartialEq)]
@@ -126,6 +128,7 @@ impl<'a, 'c> Watchers<'a, 'c> {
             lists,
             add,
             made: HashSet::new(),
+            again: HashSet::new(),
             changed: true,
             scope: Scope::All,
             read: FxHashMap::default(),
@@ -159,6 +162,21 @@ impl<'a, 'c> Watchers<'a, 'c> {
         self.rules.iter_mut().all(knows)
     }
 
+    /// What was found so far.
+    pub(crate) fn made(&self) -> impl Iterator<Item = Key> {
+        self.made.iter().cloned()
+    }
+
+    /// What an analysis that skips blocks found of what was found before.
+    pub(crate) fn take_again(&mut self) -> HashSet<Key> {
+        std::mem::take(&mut self.again)
+    }
+
+    /// These were made before.
+    pub(crate) fn note_made(&mut self, keys: HashSet<Key>) {
+        self.made.extend(keys);
+    }
+
     /// From here on findings are added that were made before.
     pub(crate) fn forget_made(&mut self) {
         self.made.clear();
@@ -179,6 +197,13 @@ impl<'a, 'c> Watchers<'a, 'c> {
     pub(crate) fn set_progress(&mut self, progress: &Progress) {
         self.lists.clone_from(&progress.lists);
         self.changed = progress.changed;
+    }
+
+    /// All paths were seen with one position of the block delete switch.
+    pub(crate) fn followed(&mut self) {
+        let cx = FollowedCx { environment: self.environment, model: self.model, survey: self.survey };
+        let nothing = BlockFlags::empty();
+        self.each(Watch::FOLLOWED, nothing, &Cell::new(false), |rule, report| rule.followed(&cx, report));
     }
 
     /// All paths were seen.
@@ -213,9 +238,13 @@ impl<'a, 'c> Watchers<'a, 'c> {
                 continue;
             }
             let skips = self.scope == Scope::Skipping;
-            let (made, add, severity) = (&mut self.made, &mut self.add, active.severity);
+            let (made, again, add, severity) =
+                (&mut self.made, &mut self.again, &mut self.add, active.severity);
             let mut once = |finding: Finding| {
-                if made.insert((finding.rule.id, finding.range.start, finding.message.clone())) {
+                let key = block_delete::key(&finding);
+                if skips && made.contains(&key) {
+                    again.insert(key);
+                } else if made.insert(key) {
                     add(severity, block_delete::name_condition(finding, block, skips));
                 }
             };
@@ -245,21 +274,37 @@ impl<'a, 'c> Watchers<'a, 'c> {
         self.letters.filter(|(at, _)| *at == flow.origin.at).map(|(_, letters)| letters)
     }
 
-    /// Asks something about the block under way before a rule does.
-    fn look<T>(&self, flow: &FlowCx<'_>, evaluated: &Evaluated, ask: impl FnOnce(&PathCx<'_>) -> T) -> T {
-        ask(&PathCx {
+    /// What a rule is shown of the block under way.
+    fn context<'x>(
+        &self,
+        flow: &'x FlowCx<'x>,
+        read: Option<&'x ReadBlock>,
+        had_enough: &'x Cell<bool>,
+        shared: &'x SharedMemories,
+        evaluated: &'x Evaluated,
+    ) -> PathCx<'x>
+    where
+        'a: 'x,
+    {
+        PathCx {
             environment: self.environment,
             program: self.program,
             model: self.model,
             survey: self.survey,
             flow,
-            read: self.current.as_deref(),
-            had_enough: &Cell::new(false),
-            shared: &SharedMemories::default(),
+            read,
+            had_enough,
+            shared,
             evaluated,
             is_called_only: self.is_called_only,
             letters: self.letters_of(flow),
-        })
+        }
+    }
+
+    /// Asks something about the block under way before a rule does.
+    fn look<T>(&self, flow: &FlowCx<'_>, evaluated: &Evaluated, ask: impl FnOnce(&PathCx<'_>) -> T) -> T {
+        let (had_enough, shared) = (Cell::new(false), SharedMemories::default());
+        ask(&self.context(flow, self.current.as_deref(), &had_enough, &shared, evaluated))
     }
 
     /// Reads which codes the computed words of the block under way name: `G#1`.
@@ -294,24 +339,11 @@ impl<'a, 'c> Watchers<'a, 'c> {
         if flow.origin.at.file != 0 || !self.watches(watch) {
             return;
         }
-        let (environment, program, model, survey) = (self.environment, self.program, self.model, self.survey);
         let read = self.current.take();
         // Rules ask the shared memories while they are called.
         let shared = std::mem::take(&mut self.shared);
         let had_enough = Cell::new(false);
-        let cx = PathCx {
-            environment,
-            program,
-            model,
-            survey,
-            flow,
-            read: read.as_deref(),
-            had_enough: &had_enough,
-            shared: &shared,
-            evaluated,
-            is_called_only: self.is_called_only,
-            letters: self.letters_of(flow),
-        };
+        let cx = self.context(flow, read.as_deref(), &had_enough, &shared, evaluated);
         self.each(watch, flow.origin.flags, &had_enough, |rule, report| call(rule, &cx, report));
         self.current = read;
         self.shared = shared;
@@ -322,20 +354,8 @@ impl<'a, 'c> Watchers<'a, 'c> {
         let read = self.current.take();
         let mut shared = std::mem::take(&mut self.shared);
         let had_enough = Cell::new(false);
-        let none = SharedMemories::default();
-        let alone = PathCx {
-            environment: self.environment,
-            program: self.program,
-            model: self.model,
-            survey: self.survey,
-            flow,
-            read: read.as_deref(),
-            had_enough: &had_enough,
-            shared: &none,
-            evaluated: &Evaluated::default(),
-            is_called_only: self.is_called_only,
-            letters: self.letters_of(flow),
-        };
+        let (none, evaluated) = (SharedMemories::default(), Evaluated::default());
+        let alone = self.context(flow, read.as_deref(), &had_enough, &none, &evaluated);
         let cx = PathCx { shared: &shared, ..alone };
         for kind in kinds {
             self.each(*kind, flow.origin.flags, &had_enough, |rule, report| match *kind {
@@ -359,6 +379,40 @@ fn is_read(origin: Origin) -> bool {
     origin.flags.intersects(F::CODE | F::STATEMENT | F::EXPRESSION | F::UNREAD_WORD)
         || origin.letters.intersects(LETTERS)
 }
+
+/// The methods of an observer of all paths that shows its `watchers` what it is shown.
+macro_rules! shows_to_watchers {
+    () => {
+        fn before(&mut self, cx: &::gcheck_engine::FlowCx<'_>) {
+            self.watchers.before(cx);
+        }
+
+        fn event(&mut self, cx: &::gcheck_engine::FlowCx<'_>, event: &::gcheck_engine::Event) {
+            self.watchers.event(cx, event);
+        }
+
+        fn vacant_read(&mut self, cx: &::gcheck_engine::FlowCx<'_>, variable: u32) {
+            self.watchers.vacant_read(cx, variable);
+        }
+
+        fn after(&mut self, cx: &::gcheck_engine::FlowCx<'_>) {
+            self.watchers.after(cx);
+        }
+
+        fn fault(&mut self, cx: &::gcheck_engine::FlowCx<'_>, fault: &::gcheck_engine::Fault) {
+            self.watchers.fault(cx, fault);
+        }
+
+        fn ended(&mut self, cx: &::gcheck_engine::FlowCx<'_>, ending: ::gcheck_engine::Ending) {
+            self.watchers.ended(cx, ending);
+        }
+
+        fn endless(&mut self, cx: &::gcheck_engine::FlowCx<'_>, head: ::gcheck_engine::At) {
+            self.watchers.endless(cx, head);
+        }
+    };
+}
+pub(crate) use shows_to_watchers;
 
 impl FlowObserver for Watchers<'_, '_> {
     fn before(&mut self, cx: &FlowCx<'_>) {

@@ -15,8 +15,8 @@ mod tests;
 
 use gcheck_diagnostics::{Edit, Finding, Fix, RuleMeta, Severity};
 use gcheck_lint::{
-    BlockCx, Environment, FileCx, FileFact, FinishCx, MakeShared, PathCx, PathRule, ProgramText, Reads,
-    Remembers, Report, Run, SharedMemory, Suppression, Suppressions, Uses, Watch, WordFacts, limit,
+    BlockCx, Environment, FileCx, FileFact, FinishCx, FollowedCx, MakeShared, PathCx, PathRule, ProgramText,
+    Reads, Remembers, Report, Run, SharedMemory, Suppression, Suppressions, Uses, Watch, WordFacts, limit,
     remembers,
 };
 #[cfg(test)]

@@ -62,7 +62,7 @@ impl World<'_> {
             world.machine.axes = Some(LetterSet::of("XYZA"));
             let settings = || {
                 BTreeMap::from(
-                    [("9", "inch"), ("32", "off"), ("34", "0")]
+                    [("9", "inch"), ("32", "off"), ("34", "0"), ("73", "on")]
                         .map(|(number, value)| (number.to_owned(), value.to_owned())),
                 )
             };

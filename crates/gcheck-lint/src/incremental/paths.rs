@@ -14,8 +14,8 @@ use std::rc::Rc;
 
 use gcheck_diagnostics::{Finding, Severity};
 use gcheck_engine::{
-    Assumption, At, Checkpoint, Choice, Ending, Event, Facts, Fault, FlowCx, FlowObserver, FlowResult,
-    GivenUp, Leg, Machine, Model, Options, Parting, Program, ProgramFile, Task, Trace, flow_from,
+    Assumption, At, Checkpoint, Choice, Event, Facts, Fault, FlowCx, FlowObserver, FlowResult, GivenUp, Leg,
+    Machine, Model, Options, Parting, Program, ProgramFile, Task, Trace, flow_from,
 };
 use gcheck_program::{BlockFlags, Survey};
 use rustc_hash::FxHashMap;
@@ -24,9 +24,10 @@ use super::anchored::AnchoredFinding;
 use super::layout::Layout;
 use super::rule_state::RuleState;
 use crate::Environment;
+use crate::block_delete::{self, Positions, found_by_all};
 use crate::check::{Assumptions, Collector};
 use crate::partitions::{Case, Partition, Partitions, Rules, Told};
-use crate::watchers::{Scope, Watchers};
+use crate::watchers::{Scope, Watchers, shows_to_watchers};
 
 /// What is kept of the analysis, for each position of the block delete switches.
 #[derive(Debug, Default)]
@@ -188,11 +189,12 @@ impl Paths {
                 let offers = remembers && !self.unsure;
                 let went_back = match advance(chain, inputs, &mut watchers, &found, offers, work) {
                     Err(Broken::Enough) => {
-                        // Those before it are whole, and say what holds with either position of the switch.
-                        let known = self.chains.iter().take(index + 1);
-                        collect(inputs.layout, known, Vec::new(), &mut |severity, finding| {
-                            collector.add(severity, finding);
-                        });
+                        // What holds with one position of block delete only, shows when all were looked at.
+                        if let [only] = self.chains.as_slice() {
+                            collect(inputs.layout, [only], Vec::new(), &mut |severity, finding| {
+                                collector.add(severity, finding);
+                            });
+                        }
                         return Err(Broken::Enough);
                     }
                     done => done?,
@@ -212,21 +214,20 @@ impl Paths {
         self.unsure |= !remembers && self.chains.iter().any(|chain| chain.segments.len() > 1);
         let left_some_out = self.update_partitions(inputs, &mut watchers, &found, remembers, work)?;
         let results: Vec<FlowResult> = self.chains.iter().map(|chain| chain.result(inputs.layout)).collect();
-        if let Some(end) = self.chains.last().and_then(|chain| chain.end.as_ref()) {
-            watchers.restart(Scope::All);
-            if !end.restore(&mut watchers, inputs.layout) {
-                return Err(Broken::Useless);
-            }
-        }
         found.take();
         watchers.forget_made();
+        let at_ends = self.follow_ends(&mut watchers, inputs.layout)?;
         if let Some((first, others)) = results.split_first() {
             watchers.finish(first, others);
         }
         drop(watchers);
+        let is_incomplete = results.iter().any(FlowResult::is_incomplete);
+        let positions =
+            if is_incomplete { Positions::default() } else { self.positions(inputs.layout, at_ends) };
         let mut told = Told::default();
-        collect(inputs.layout, &self.chains, found.into_inner(), &mut |severity, finding| {
+        collect(inputs.layout, &self.chains, found.into_inner(), &mut |severity, mut finding| {
             told.note(&finding);
+            positions.name(&mut finding);
             collector.add(severity, finding);
         });
         self.collect_partitions(inputs, &mut told, collector);
@@ -237,7 +238,49 @@ impl Paths {
         if left_some_out {
             assumptions.insert(Assumption::PathsJoined);
         }
-        Ok((assumptions, results.iter().any(FlowResult::is_incomplete)))
+        Ok((assumptions, is_incomplete))
+    }
+
+    /// Shows the rules the end of each analysis, with what they remember there. What each of them found then, of what the
+    /// first found.
+    fn follow_ends(
+        &self,
+        watchers: &mut Watchers<'_, '_>,
+        layout: &Layout,
+    ) -> Result<Vec<HashSet<block_delete::Key>>, Broken> {
+        let mut found = Vec::with_capacity(self.chains.len());
+        for (index, chain) in self.chains.iter().enumerate() {
+            watchers.restart(if index == 0 { Scope::All } else { Scope::Skipping });
+            if index == 1
+                && let Some(first) = self.chains.first()
+            {
+                watchers.note_made(keys_of(first, layout));
+            }
+            if let Some(end) = &chain.end
+                && !end.restore(watchers, layout)
+            {
+                return Err(Broken::Useless);
+            }
+            watchers.followed();
+            found.push(if index == 0 { watchers.made().collect() } else { watchers.take_again() });
+        }
+        Ok(found)
+    }
+
+    /// What holds with one position of block delete only; with what was found at the end of each analysis.
+    fn positions(&self, layout: &Layout, at_ends: Vec<HashSet<block_delete::Key>>) -> Positions {
+        let Some((first, others)) = self.chains.split_first().filter(|(_, others)| !others.is_empty()) else {
+            return Positions::default();
+        };
+        let mut at_ends = at_ends.into_iter();
+        let off = keys_of(first, layout).into_iter().chain(at_ends.next().unwrap_or_default());
+        let mut positions = Positions::new(off);
+        positions.found_again(found_by_all(others.iter().zip(at_ends).map(|(chain, at_end)| {
+            let mut all = keys_of(chain, layout);
+            all.extend(at_end);
+            all
+        })));
+        positions
     }
 
     /// Follows the ways of the first conditions, each by itself. True when some were left out.
@@ -358,6 +401,13 @@ fn collect<'c>(
             add(severity, finding);
         }
     }
+}
+
+/// What an analysis found on the way.
+fn keys_of(chain: &Chain, layout: &Layout) -> HashSet<block_delete::Key> {
+    let segments = chain.segments.iter().take_while(|segment| !segment.is_gap);
+    let keys = segments.flat_map(|segment| &segment.findings).map(|kept| kept.key(layout));
+    keys.map(|(rule, start, text)| (rule, start, text.to_owned())).collect()
 }
 
 fn named(choices: &[Choice], layout: &Layout) -> Vec<Choice> {
@@ -708,33 +758,7 @@ impl Recorder<'_, '_, '_> {
 }
 
 impl FlowObserver for Recorder<'_, '_, '_> {
-    fn before(&mut self, cx: &FlowCx<'_>) {
-        self.watchers.before(cx);
-    }
-
-    fn event(&mut self, cx: &FlowCx<'_>, event: &Event) {
-        self.watchers.event(cx, event);
-    }
-
-    fn vacant_read(&mut self, cx: &FlowCx<'_>, variable: u32) {
-        self.watchers.vacant_read(cx, variable);
-    }
-
-    fn after(&mut self, cx: &FlowCx<'_>) {
-        self.watchers.after(cx);
-    }
-
-    fn fault(&mut self, cx: &FlowCx<'_>, fault: &Fault) {
-        self.watchers.fault(cx, fault);
-    }
-
-    fn ended(&mut self, cx: &FlowCx<'_>, ending: Ending) {
-        self.watchers.ended(cx, ending);
-    }
-
-    fn endless(&mut self, cx: &FlowCx<'_>, head: At) {
-        self.watchers.endless(cx, head);
-    }
+    shows_to_watchers!();
 
     fn wants_checkpoints(&self) -> bool {
         self.offers

@@ -89,10 +89,9 @@ fn why(value: f64, facts: &WordFacts<'_>) -> Option<Why> {
     } else {
         let is_fraction = is_count && (value - value.round()).abs() > WHOLE_WITHIN;
         let is_listed = facts.values.is_empty() || is_among(value, facts);
-        let is_in_gap = facts.gaps.iter().any(|[first, last]| (*first..=*last).contains(&value));
         if is_fraction {
             Some(Why::Fraction)
-        } else if is_in_gap {
+        } else if is_in_gap(value, facts) {
             Some(Why::Gap)
         } else {
             (!is_listed).then_some(Why::Unlisted)
@@ -116,7 +115,10 @@ pub(crate) fn finding(cx: &PathCx<'_>, rule: &'static RuleMeta, refused: &Refuse
         Why::Small => ("too small", range_of(facts), range_confidence(cx, refused)),
         Why::Large => ("too large", range_of(facts), range_confidence(cx, refused)),
         Why::Unlisted => ("not among those", range_of(facts), facts.range_confidence),
-        Why::Gap => ("not among those", without_gaps(facts), facts.range_confidence),
+        Why::Gap => {
+            let takes = format!("{}, but not {}", range_of(facts), gaps_of(facts));
+            ("not among those", takes, facts.range_confidence)
+        }
         Why::Fraction => ("not a whole number", "whole numbers".to_owned(), facts.confidence),
     };
     let finding = cx
@@ -171,10 +173,18 @@ pub(crate) fn range_of(facts: &WordFacts<'_>) -> String {
     })
 }
 
-/// "1 to 1000, but not 201 to 999".
-fn without_gaps(facts: &WordFacts<'_>) -> String {
-    let gaps: Vec<String> = facts.gaps.iter().map(|[first, last]| format!("{first} to {last}")).collect();
-    format!("{}, but not {}", range_of(facts), gaps.join(", "))
+/// Is the value between the bounds, where the word has no meaning?
+pub(crate) fn is_in_gap(value: f64, facts: &WordFacts<'_>) -> bool {
+    facts.gaps.iter().any(|[first, last]| (*first..=*last).contains(&value))
+}
+
+/// "201 to 999".
+pub(crate) fn gaps_of(facts: &WordFacts<'_>) -> String {
+    let shown = |[first, last]: &[f64; 2]| {
+        if last - first < 1e-9 { format!("{first}") } else { format!("{first} to {last}") }
+    };
+    let gaps: Vec<String> = facts.gaps.iter().map(shown).collect();
+    gaps.join(", ")
 }
 
 /// Bounds in words; `None` where there are none.

@@ -2,8 +2,10 @@
 //!
 //! Knows: the cuts of every path up to a move, as long as all of them are known. Must not know: any rule, stock, fixtures.
 
+use gcheck_controls::Effect;
 use gcheck_engine::{Abstract, Axis, Domain, Event, Position, TravelKind};
 
+use crate::facts::cycles::is_round_pocket;
 use crate::facts::shared_list::SharedList;
 use crate::{PathCx, SharedMemory, remembers};
 
@@ -70,6 +72,10 @@ struct Cut {
     z: f64,
 }
 
+/// Cuts that differ in depth by more are two, and points that are nearer to a cut are on it: millimetres.
+const SHALLOWER: f64 = 0.1;
+/// So far from its ends a cut is in the part: millimetres. A face mill starts and ends beside the part by less.
+const INNER: f64 = 50.0;
 /// Cuts that are kept. Programs with more of them come from a system that plans its rapid moves.
 const MAX_CUTS: usize = 20_000;
 
@@ -178,6 +184,28 @@ impl Cuts {
         cuts.any(|cut| cut.z <= z + LEVEL && distance_to_line(at, cut.from, cut.to) <= radius)
     }
 
+    /// The same of the cuts that go sideways: no holes.
+    pub(crate) fn reach_sideways(&self, at: [f64; 2], z: f64, radius: f64) -> bool {
+        let mut cuts = self.list.iter().filter(|cut| distance(cut.from, cut.to) > LEVEL);
+        cuts.any(|cut| cut.z <= z + LEVEL && distance_to_line(at, cut.from, cut.to) <= radius)
+    }
+
+    /// Does an earlier straight cut pass over a point, less deep than this level, and not near the ends of the cut? Near its
+    /// ends the tool may be beside the part.
+    pub(crate) fn passes_over(&self, at: [f64; 2], z: f64) -> bool {
+        let is_shallower = |cut: &Cut| cut.z > z + SHALLOWER && cut.z <= -SURFACE;
+        let is_inner = |cut: &Cut| distance(at, cut.from).min(distance(at, cut.to)) >= INNER;
+        self.list.iter().any(|cut| {
+            is_shallower(cut) && is_inner(cut) && distance_to_line(at, cut.from, cut.to) <= SHALLOWER
+        })
+    }
+
+    /// Does one of the first `count` cuts lie within a rectangle?
+    pub(crate) fn lies_within(&self, count: usize, low: [f64; 2], high: [f64; 2]) -> bool {
+        let is_inside = |at: [f64; 2]| at[0] > low[0] && at[1] > low[1] && at[0] < high[0] && at[1] < high[1];
+        self.list.iter().take(count).any(|cut| is_inside(cut.from) && is_inside(cut.to))
+    }
+
     /// Is it unknown for good what was cut?
     pub(crate) fn is_blind(&self) -> bool {
         self.blind
@@ -199,6 +227,11 @@ fn is_apart(a: [f64; 3], b: [f64; 3]) -> bool {
     let (x, y) = (a[0] - b[0], a[1] - b[1]);
     // Asked at every move, so without a root.
     x * x + y * y > 1e-12
+}
+
+/// May the program cut what is not among its moves? Pockets have none where the size of the cutter is not known.
+pub(crate) fn may_hide_cuts(cx: &PathCx<'_>) -> bool {
+    cx.file_uses(|effect| is_round_pocket(effect) || effect == Effect::GeneralPocket)
 }
 
 /// Of two points, millimetres.

@@ -35,6 +35,24 @@ pub(crate) struct Point {
     pub(crate) range: Range<u32>,
 }
 
+impl Profile {
+    /// Does its X grow along its way, and its way go toward the chuck? Then it is the outside of a part. `None` where it does
+    /// neither, or both.
+    pub(crate) fn grows_to_chuck(&self) -> Option<bool> {
+        let feeds: Vec<&Point> = self.points.iter().skip(1).filter(|point| !point.is_rapid).collect();
+        let first = self.points.first()?;
+        let all = || std::iter::once(first).chain(feeds.iter().copied());
+        let pairs = || all().zip(all().skip(1));
+        let goes_back = pairs().any(|(from, to)| to.z > from.z + SLACK);
+        let grows = pairs().any(|(from, to)| to.x > from.x + SLACK);
+        let shrinks = pairs().any(|(from, to)| to.x < from.x - SLACK);
+        (!goes_back && grows != shrinks).then_some(grows)
+    }
+}
+
+/// In units of the program.
+const SLACK: f64 = 0.01;
+
 /// Blocks that are read; a longer profile is not judged.
 const MAX_BLOCKS: u32 = 500;
 

@@ -120,8 +120,7 @@ pub(crate) fn may_be_called(survey: &Survey) -> bool {
     let second = survey.programs.get(1).map_or(0, |second| second.range.start);
     let is_of_main =
         |end: &EndMark| end.range.start < second && end.ends == Ends::Program && !end.conditional;
-    let returns = |end: &EndMark| end.ends == Ends::Subprogram && (second == 0 || end.range.start < second);
-    survey.ends.iter().any(returns)
+    survey.is_called_from_elsewhere()
         || second > 0 && !survey.ends.iter().any(is_of_main)
         || survey.o_words.iter().any(|word| word.keyword == OKeyword::Sub)
 }

@@ -44,13 +44,16 @@ pub(crate) mod compensation {
 }
 
 pub(crate) mod cycles {
+    pub(crate) mod allowance_into_contour;
     pub(crate) mod back_bore_r_above_z;
     pub(crate) mod bore_without_shift;
     pub(crate) mod cycle_dwell_missing;
+    pub(crate) mod cycle_in_another_plane;
     pub(crate) mod cycle_in_inverse_time;
     pub(crate) mod cycle_left_on;
     pub(crate) mod cycle_numbers_contradict;
     pub(crate) mod cycle_r_below_bottom;
+    pub(crate) mod cycle_r_in_material;
     pub(crate) mod cycle_repeated_in_place;
     pub(crate) mod cycle_return_not_stated;
     pub(crate) mod cycle_under_compensation;
@@ -59,6 +62,7 @@ pub(crate) mod cycles {
     pub(crate) mod cycle_word_not_positive;
     pub(crate) mod cycle_words_lost;
     pub(crate) mod drilled_beside_the_centre;
+    pub(crate) mod hole_after_coolant_off;
     pub(crate) mod maybe_cycle_left_on;
     pub(crate) mod pattern_without_cycle;
     pub(crate) mod pocket_on_wrong_side;
@@ -70,7 +74,9 @@ pub(crate) mod cycles {
     pub(crate) mod tap_moves_sideways;
     pub(crate) mod tapped_hole_not_drilled;
     pub(crate) mod tapping_feed_off_pitch;
+    pub(crate) mod thread_lead_off_pitch;
     pub(crate) mod thread_numbers_contradict;
+    pub(crate) mod thread_start_below_crest;
     pub(crate) mod turning_profile_first_block;
     pub(crate) mod turning_profile_not_usable;
     pub(crate) mod turning_profile_turns_back;
@@ -116,6 +122,7 @@ pub(crate) mod flow {
 
 pub(crate) mod machine {
     pub(crate) mod axis_not_on_machine;
+    pub(crate) mod code_refused_by_setting;
     pub(crate) mod coolant_locked;
     pub(crate) mod cylinder_axis_not_on_machine;
     pub(crate) mod cylinder_without_diameter;
@@ -139,6 +146,7 @@ pub(crate) mod macros {
     pub(crate) mod crossed_loops;
     pub(crate) mod do_number_in_use;
     pub(crate) mod do_number_out_of_range;
+    pub(crate) mod empty_variable;
     pub(crate) mod expression_in_label;
     pub(crate) mod expression_without_value;
     pub(crate) mod function_unknown;
@@ -152,6 +160,7 @@ pub(crate) mod macros {
     pub(crate) mod o_word_unmatched;
     pub(crate) mod several_assignments;
     pub(crate) mod subroutine_inside_subroutine;
+    pub(crate) mod switched_off_at_end;
     pub(crate) mod too_many_arguments;
     pub(crate) mod variable_never_read;
     pub(crate) mod variable_number_not_whole;
@@ -162,6 +171,7 @@ pub(crate) mod macros {
 }
 
 pub(crate) mod mapping {
+    pub(crate) mod cylinder_begins_nothing;
     pub(crate) mod cylinder_diameter_from_setting;
     pub(crate) mod cylinder_end_without_begin;
     pub(crate) mod cylinder_feed_mode;
@@ -191,12 +201,15 @@ pub(crate) mod modal {
     pub(crate) mod two_codes_of_one_group;
     pub(crate) mod units_changed;
     pub(crate) mod units_not_stated;
+    pub(crate) mod word_in_skipped_block;
 }
 
 pub(crate) mod motion {
     pub(crate) mod axis_words_without_motion_mode;
     pub(crate) mod corner_before_rapid;
+    pub(crate) mod corner_does_not_fit;
     pub(crate) mod curve_not_complete;
+    pub(crate) mod drill_leaves_sideways;
     pub(crate) mod dwell_beside_motion;
     pub(crate) mod dwell_unit_unsure;
     pub(crate) mod dwell_very_long;
@@ -206,20 +219,26 @@ pub(crate) mod motion {
     pub(crate) mod feed_missing;
     pub(crate) mod feed_of_another_mode;
     pub(crate) mod feed_zero;
+    pub(crate) mod home_before_retract;
+    pub(crate) mod index_before_retract;
     pub(crate) mod inverse_time_feed_missing;
     pub(crate) mod machine_coordinates_in_increments;
     pub(crate) mod maybe_feed_missing;
     pub(crate) mod maybe_feed_of_another_mode;
     pub(crate) mod motion_without_axis_words;
     pub(crate) mod output_without_move;
+    pub(crate) mod plunge_at_cutting_feed;
     pub(crate) mod plunge_goes_nowhere;
     pub(crate) mod probe_move_refused;
     pub(crate) mod probe_without_feed;
     pub(crate) mod rapid_below_zero_on_approach;
     pub(crate) mod rapid_between_cuts;
     pub(crate) mod rapid_in_material;
+    pub(crate) mod rapid_into_turned_part;
     pub(crate) mod rapid_plunge;
     pub(crate) mod rapid_sideways_and_down;
+    pub(crate) mod rapid_through_bore_wall;
+    pub(crate) mod rapid_under_turned_surface;
     pub(crate) mod rapid_with_feed;
     pub(crate) mod reference_point_never_set;
     pub(crate) mod reference_return_through_point;
@@ -229,13 +248,16 @@ pub(crate) mod motion {
 
 pub(crate) mod offsets {
     pub(crate) mod mirror_left_on;
+    pub(crate) mod offset_added_in_increments;
     pub(crate) mod plane_changed_under_rotation;
     pub(crate) mod polar_coordinates_left_on;
+    pub(crate) mod rotation_centre_outside_plane;
     pub(crate) mod rotation_left_on;
     pub(crate) mod rotation_under_compensation;
     pub(crate) mod scaling_left_on;
     pub(crate) mod scaling_under_rotation;
     pub(crate) mod shift_left_on;
+    pub(crate) mod tool_table_read_with_tool;
     pub(crate) mod tool_tilt_left_on;
     pub(crate) mod work_offset_never_chosen;
     pub(crate) mod work_offset_not_chosen;
@@ -252,6 +274,7 @@ pub(crate) mod probing {
     pub(crate) mod measures_in_positions;
     pub(crate) mod probe_feed_too_high;
     pub(crate) mod probe_goes_nowhere;
+    pub(crate) mod probe_switched_off;
     pub(crate) mod probe_touches_already;
     pub(crate) mod probing_in_wrong_mode;
     pub(crate) mod shift_of_axis_not_probed;
@@ -281,8 +304,11 @@ pub(crate) mod program {
 }
 
 pub(crate) mod spindle {
+    pub(crate) mod c_axis_not_engaged;
+    pub(crate) mod drill_turns_backwards;
     pub(crate) mod maybe_spindle_stopped_while_cutting;
     pub(crate) mod speed_missing;
+    pub(crate) mod speed_of_another_mode;
     pub(crate) mod spindle_left_on;
     pub(crate) mod spindle_stopped_while_cutting;
     pub(crate) mod surface_speed_without_limit;
@@ -359,6 +385,7 @@ pub(crate) mod tool {
     pub(crate) mod length_subtracted;
     pub(crate) mod offset_words_beside_motion;
     pub(crate) mod tool_call_in_comment;
+    pub(crate) mod tool_call_without_station;
     pub(crate) mod tool_called_not_changed;
     pub(crate) mod tool_change_at_part;
     pub(crate) mod tool_change_in_skipped_block;
@@ -372,17 +399,21 @@ pub(crate) mod tool {
 pub(crate) mod words {
     pub(crate) mod arc_without_centre;
     pub(crate) mod axis_given_twice;
+    pub(crate) mod axis_not_stated;
     pub(crate) mod axis_word_passed_over;
     pub(crate) mod axis_word_unsure;
     pub(crate) mod block_number_not_first;
+    pub(crate) mod comment_missing;
     pub(crate) mod computed_value_out_of_range;
     pub(crate) mod decimal_point_on_integer;
     pub(crate) mod dwell_time_in_other_word;
     pub(crate) mod lasting_word_never_given;
+    pub(crate) mod lasting_word_on_one_way;
     pub(crate) mod maybe_computed_value_out_of_range;
     pub(crate) mod missing_decimal_point;
     pub(crate) mod needed_word_missing;
     pub(crate) mod number_out_of_range;
+    pub(crate) mod packed_digits_not_allowed;
     pub(crate) mod polar_word_refused;
     pub(crate) mod required_word_missing;
     pub(crate) mod sign_not_accepted;
@@ -438,13 +469,16 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &compensation::lead_in_too_short::RULE,
     &compensation::maybe_compensation_left_on::RULE,
     &compensation::refused_under_compensation::RULE,
+    &cycles::allowance_into_contour::RULE,
     &cycles::back_bore_r_above_z::RULE,
     &cycles::bore_without_shift::RULE,
     &cycles::cycle_dwell_missing::RULE,
+    &cycles::cycle_in_another_plane::RULE,
     &cycles::cycle_in_inverse_time::RULE,
     &cycles::cycle_left_on::RULE,
     &cycles::cycle_numbers_contradict::RULE,
     &cycles::cycle_r_below_bottom::RULE,
+    &cycles::cycle_r_in_material::RULE,
     &cycles::cycle_repeated_in_place::RULE,
     &cycles::cycle_return_not_stated::RULE,
     &cycles::cycle_under_compensation::RULE,
@@ -453,6 +487,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &cycles::cycle_word_not_positive::RULE,
     &cycles::cycle_words_lost::RULE,
     &cycles::drilled_beside_the_centre::RULE,
+    &cycles::hole_after_coolant_off::RULE,
     &cycles::maybe_cycle_left_on::RULE,
     &cycles::pattern_without_cycle::RULE,
     &cycles::pocket_on_wrong_side::RULE,
@@ -464,7 +499,9 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &cycles::tap_moves_sideways::RULE,
     &cycles::tapped_hole_not_drilled::RULE,
     &cycles::tapping_feed_off_pitch::RULE,
+    &cycles::thread_lead_off_pitch::RULE,
     &cycles::thread_numbers_contradict::RULE,
+    &cycles::thread_start_below_crest::RULE,
     &cycles::turning_profile_first_block::RULE,
     &cycles::turning_profile_not_usable::RULE,
     &cycles::turning_profile_turns_back::RULE,
@@ -501,6 +538,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &flow::subprogram_without_return::RULE,
     &flow::unreachable_block::RULE,
     &machine::axis_not_on_machine::RULE,
+    &machine::code_refused_by_setting::RULE,
     &machine::coolant_locked::RULE,
     &machine::cylinder_axis_not_on_machine::RULE,
     &machine::cylinder_without_diameter::RULE,
@@ -521,6 +559,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &macros::crossed_loops::RULE,
     &macros::do_number_in_use::RULE,
     &macros::do_number_out_of_range::RULE,
+    &macros::empty_variable::RULE,
     &macros::expression_in_label::RULE,
     &macros::expression_without_value::RULE,
     &macros::function_unknown::RULE,
@@ -534,6 +573,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &macros::o_word_unmatched::RULE,
     &macros::several_assignments::RULE,
     &macros::subroutine_inside_subroutine::RULE,
+    &macros::switched_off_at_end::RULE,
     &macros::too_many_arguments::RULE,
     &macros::variable_never_read::RULE,
     &macros::variable_number_not_whole::RULE,
@@ -541,6 +581,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &macros::variable_reserved::RULE,
     &macros::variable_unlisted::RULE,
     &macros::words_beside_o_word::RULE,
+    &mapping::cylinder_begins_nothing::RULE,
     &mapping::cylinder_diameter_from_setting::RULE,
     &mapping::cylinder_end_without_begin::RULE,
     &mapping::cylinder_feed_mode::RULE,
@@ -567,9 +608,12 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &modal::two_codes_of_one_group::RULE,
     &modal::units_changed::RULE,
     &modal::units_not_stated::RULE,
+    &modal::word_in_skipped_block::RULE,
     &motion::axis_words_without_motion_mode::RULE,
     &motion::corner_before_rapid::RULE,
+    &motion::corner_does_not_fit::RULE,
     &motion::curve_not_complete::RULE,
+    &motion::drill_leaves_sideways::RULE,
     &motion::dwell_beside_motion::RULE,
     &motion::dwell_unit_unsure::RULE,
     &motion::dwell_very_long::RULE,
@@ -579,33 +623,42 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &motion::feed_missing::RULE,
     &motion::feed_of_another_mode::RULE,
     &motion::feed_zero::RULE,
+    &motion::home_before_retract::RULE,
+    &motion::index_before_retract::RULE,
     &motion::inverse_time_feed_missing::RULE,
     &motion::machine_coordinates_in_increments::RULE,
     &motion::maybe_feed_missing::RULE,
     &motion::maybe_feed_of_another_mode::RULE,
     &motion::motion_without_axis_words::RULE,
     &motion::output_without_move::RULE,
+    &motion::plunge_at_cutting_feed::RULE,
     &motion::plunge_goes_nowhere::RULE,
     &motion::probe_move_refused::RULE,
     &motion::probe_without_feed::RULE,
     &motion::rapid_below_zero_on_approach::RULE,
     &motion::rapid_between_cuts::RULE,
     &motion::rapid_in_material::RULE,
+    &motion::rapid_into_turned_part::RULE,
     &motion::rapid_plunge::RULE,
     &motion::rapid_sideways_and_down::RULE,
+    &motion::rapid_through_bore_wall::RULE,
+    &motion::rapid_under_turned_surface::RULE,
     &motion::rapid_with_feed::RULE,
     &motion::reference_point_never_set::RULE,
     &motion::reference_return_through_point::RULE,
     &motion::thread_without_lead::RULE,
     &motion::tool_down_at_end::RULE,
     &offsets::mirror_left_on::RULE,
+    &offsets::offset_added_in_increments::RULE,
     &offsets::plane_changed_under_rotation::RULE,
     &offsets::polar_coordinates_left_on::RULE,
+    &offsets::rotation_centre_outside_plane::RULE,
     &offsets::rotation_left_on::RULE,
     &offsets::rotation_under_compensation::RULE,
     &offsets::scaling_left_on::RULE,
     &offsets::scaling_under_rotation::RULE,
     &offsets::shift_left_on::RULE,
+    &offsets::tool_table_read_with_tool::RULE,
     &offsets::tool_tilt_left_on::RULE,
     &offsets::work_offset_never_chosen::RULE,
     &offsets::work_offset_not_chosen::RULE,
@@ -619,6 +672,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &probing::measures_in_positions::RULE,
     &probing::probe_feed_too_high::RULE,
     &probing::probe_goes_nowhere::RULE,
+    &probing::probe_switched_off::RULE,
     &probing::probe_touches_already::RULE,
     &probing::probing_in_wrong_mode::RULE,
     &probing::shift_of_axis_not_probed::RULE,
@@ -642,8 +696,11 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &program::units_comment_contradicts::RULE,
     &program::unsupported_dialect::RULE,
     &program::wrong_control_suspicion::RULE,
+    &spindle::c_axis_not_engaged::RULE,
+    &spindle::drill_turns_backwards::RULE,
     &spindle::maybe_spindle_stopped_while_cutting::RULE,
     &spindle::speed_missing::RULE,
+    &spindle::speed_of_another_mode::RULE,
     &spindle::spindle_left_on::RULE,
     &spindle::spindle_stopped_while_cutting::RULE,
     &spindle::surface_speed_without_limit::RULE,
@@ -708,6 +765,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &tool::length_subtracted::RULE,
     &tool::offset_words_beside_motion::RULE,
     &tool::tool_call_in_comment::RULE,
+    &tool::tool_call_without_station::RULE,
     &tool::tool_called_not_changed::RULE,
     &tool::tool_change_at_part::RULE,
     &tool::tool_change_in_skipped_block::RULE,
@@ -718,17 +776,21 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &tool::tool_length_missing::RULE,
     &words::arc_without_centre::RULE,
     &words::axis_given_twice::RULE,
+    &words::axis_not_stated::RULE,
     &words::axis_word_passed_over::RULE,
     &words::axis_word_unsure::RULE,
     &words::block_number_not_first::RULE,
+    &words::comment_missing::RULE,
     &words::computed_value_out_of_range::RULE,
     &words::decimal_point_on_integer::RULE,
     &words::dwell_time_in_other_word::RULE,
     &words::lasting_word_never_given::RULE,
+    &words::lasting_word_on_one_way::RULE,
     &words::maybe_computed_value_out_of_range::RULE,
     &words::missing_decimal_point::RULE,
     &words::needed_word_missing::RULE,
     &words::number_out_of_range::RULE,
+    &words::packed_digits_not_allowed::RULE,
     &words::polar_word_refused::RULE,
     &words::required_word_missing::RULE,
     &words::sign_not_accepted::RULE,

@@ -65,17 +65,21 @@ fn a_mistake_is_found_whether_its_words_are_written_or_computed() {
     };
     let shown: String = silent.into_iter().map(line).collect();
     expect![[r#"
-        3650 words
+        4530 words
+        allowance-into-contour: F G X Z
         blank-inside-number: G Y
         block-number-not-first: G
         code-must-come-first: M
         coolant-locked: M
+        corner-before-rapid: G Z
+        corner-does-not-fit: Y
         decimal-point-on-integer: H
         dwell-unit-unsure: P
         dwell-very-short: P
         fall-into-subprogram: M P
         incremental-left-on: G M S X Y
         kept-touch-never-used: M
+        lasting-word-on-one-way: G
         loop-condition-unchanged: G
         maybe-computed-value-out-of-range: G
         maybe-cycle-left-on: M
@@ -96,8 +100,11 @@ fn a_mistake_is_found_whether_its_words_are_written_or_computed() {
         pocket-start-outside: G
         polar-word-refused: @ ^
         rapid-between-cuts: G X Z
+        rapid-through-bore-wall: X
         sign-not-accepted: F
+        thread-start-below-crest: K P
         thread-without-lead: G
+        tool-call-without-station: T
         tool-comment-of-another-tool: M T
         turning-profile-turns-back: F G X Z
         turning-start-inside-profile: F G X Z

@@ -338,6 +338,7 @@ fn cost(change: impl Fn(&mut String)) -> Work {
     selection.disable("rapid-plunge").unwrap();
     selection.disable("rapid-between-cuts").unwrap();
     selection.disable("rapid-below-zero-on-approach").unwrap();
+    selection.disable("plunge-at-cutting-feed").unwrap();
     let mut bench = Bench::new(environment, &selection);
     let mut text = long_program(20);
     let first = bench.assert_fresh(&text, 7, &|| "at first".to_owned());

@@ -1,6 +1,6 @@
 //! Every fault of the engine is reported by a rule, or there is a reason why by none.
 
-use gcheck_engine::{ArcFault, CompensationFault, CycleFault, Fault, ValueFault};
+use gcheck_engine::{ArcFault, CompensationFault, CornerFault, CycleFault, Fault, ValueFault};
 
 use crate::RULES;
 use crate::testing::{World, findings, recommended};
@@ -12,6 +12,7 @@ enum Said {
 }
 
 /// Without a wildcard, so that a new fault needs a line here.
+#[expect(clippy::too_many_lines, reason = "a line or a list for each fault")]
 fn said(fault: &Fault) -> Said {
     use Said::{By, Nobody};
     match fault {
@@ -67,10 +68,13 @@ fn said(fault: &Fault) -> Said {
         Fault::NoMotionMode => By(&["axis-words-without-motion-mode", "curve-not-complete"]),
         Fault::NoAxisWords => By(&["motion-without-axis-words"]),
         Fault::Arc(fault) => said_of_arc(*fault),
+        Fault::Corner(CornerFault::RapidAfter) => By(&["corner-before-rapid"]),
+        Fault::Corner(_) => By(&["corner-does-not-fit"]),
         Fault::Cycle(fault) => match fault {
             CycleFault::Missing(_) => By(&["cycle-word-missing", "cycle-words-lost", "cycle-dwell-missing"]),
             CycleFault::RBelowBottom => By(&["cycle-r-below-bottom"]),
             CycleFault::NotPositive(_) | CycleFault::ZeroRepeats => By(&["cycle-word-not-positive"]),
+            CycleFault::Zero(_) => By(&["number-out-of-range", "computed-value-out-of-range"]),
             CycleFault::Rotary => By(&["cycle-with-rotary-word"]),
             CycleFault::InverseTime => By(&["cycle-in-inverse-time"]),
             CycleFault::Compensated => By(&["cycle-under-compensation"]),
@@ -220,9 +224,19 @@ fn detailed_faults() -> Vec<Fault> {
     );
     faults.extend(
         [
+            CornerFault::NoCutAfter,
+            CornerFault::RapidAfter,
+            CornerFault::NoTurn,
+            CornerFault::TooLong { needed: 2.0, available: 1.0 },
+        ]
+        .map(Fault::Corner),
+    );
+    faults.extend(
+        [
             CycleFault::Missing(letter),
             CycleFault::RBelowBottom,
             CycleFault::NotPositive(letter),
+            CycleFault::Zero(letter),
             CycleFault::ZeroRepeats,
             CycleFault::Rotary,
             CycleFault::InverseTime,

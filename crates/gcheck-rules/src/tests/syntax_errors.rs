@@ -34,6 +34,8 @@ fn every_kind() -> Vec<Kind> {
         | Kind::Foreign(
             ForeignForm::OWord
             | ForeignForm::MacroStatement
+            | ForeignForm::Variable
+            | ForeignForm::Expression
             | ForeignForm::NamedParameter
             | ForeignForm::PowerOperator
             | ForeignForm::SystemCommand,
@@ -42,6 +44,8 @@ fn every_kind() -> Vec<Kind> {
     let forms = [
         ForeignForm::OWord,
         ForeignForm::MacroStatement,
+        ForeignForm::Variable,
+        ForeignForm::Expression,
         ForeignForm::NamedParameter,
         ForeignForm::PowerOperator,
         ForeignForm::SystemCommand,

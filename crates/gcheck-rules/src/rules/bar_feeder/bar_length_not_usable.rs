@@ -51,10 +51,15 @@ impl PathRule for BarLengthNotUsable {
                 Length::Part => value > Mm::ZERO,
                 Length::Initial | Length::Clamping => value >= Mm::ZERO,
             };
-            // An initial push of zero here means that the reference position is zero too.
-            let is_reference = length == Length::Initial && value == Mm::ZERO;
+            // The reference position takes the place of an initial push of zero.
+            let is_zero = cx.known_variable(length.variable(rules)) == Some(0.0);
+            let is_reference = length == Length::Initial
+                && match given(cx, length, rules) {
+                    Given::Variable => is_zero || value == Mm::ZERO,
+                    _ => value == Mm::ZERO,
+                };
             let by_variable = given(cx, length, rules) == Given::Variable || is_reference;
-            if !value.is_known() || is_usable && !is_reference || !by_variable {
+            if !value.is_known() || is_usable && (!is_reference || value > Mm::ZERO) || !by_variable {
                 continue;
             }
             let variable = if is_reference { rules.reference } else { length.variable(rules) };
@@ -117,6 +122,17 @@ mod tests {
             2 | G105 J1. K1.
               | ^^^^ warning[bar-length-not-usable] reference position of the bar feed is zero (`#3112`)
         "#]],
+        );
+        world.machine.engine.variables = [(3101, 0.0), (3112, -1.0)].into();
+        check_rule_in(
+            &RULE,
+            "haas-lathe",
+            "M5\nG105 J1. K1.\nM99\n",
+            &world,
+            &expect![[r#"
+                2 | G105 J1. K1.
+                  | ^^^^ warning[bar-length-not-usable] reference position of the bar feed is below zero (`#3112`)
+            "#]],
         );
         world.machine.engine.variables = [(3101, 0.0), (3112, 4.0)].into();
         check_rule_in(&RULE, "haas-lathe", "M5\nG105 J1. K1.\nM99\n", &world, &expect![[""]]);

@@ -1,11 +1,11 @@
 //! Cutter compensation with offset number zero.
 
-use gcheck_controls::Effect;
-use gcheck_engine::{Abstract, Domain, Event, Fact, Role};
+use gcheck_controls::{CodeIx, Effect, Letter, Need, WordEntry};
+use gcheck_engine::{Abstract, At, Domain, Event, Fact, Role};
 
 use crate::declare::declare_rule;
 use crate::facts::compensation::{begins, is_on};
-use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
+use crate::{Finding, PathCx, PathRule, Report, Run, Uses, Watch};
 use crate::{Remembers, remembers};
 
 declare_rule! {
@@ -71,18 +71,47 @@ impl PathRule for CompensationOffsetMissing {
         let is_by_number =
             matches!(cx.model.effect(code), Effect::CompensationLeft | Effect::CompensationRight);
         let Some(at) = cx.trace().set_by(Fact::Mode(Role::Compensation)) else { return };
-        // Only a zero of a word: a missing `D` has its own rule, and `T0100` of a turret cancels all offsets.
+        // Only a zero of a word: `T0100` of a turret cancels all offsets.
         let is_zero = |word: &gcheck_program::Word| {
             word.letter.ascii() == b'D' && (word.is_computed() || word.number() == Some(0.0))
         };
-        let Some(range) = cx.find_word(at, is_zero).filter(|_| is_by_number) else { return };
+        if !is_by_number {
+            return;
+        }
         let name = cx.name_of(code);
+        let Some(range) = cx.find_word(at, is_zero) else {
+            if let Some(finding) = without_word(cx, code, at) {
+                report.add(finding);
+            }
+            return;
+        };
         report.add(
             cx.finding(&META, range, format!("cutter compensation with no offset (`{name} D0`)"))
                 .label("offset zero has no size")
                 .help(format!("give the tool's offset number with `{name}`, or remove the compensation")),
         );
     }
+}
+
+/// A lasting `D` that this way to the block does not give, although the text has one before it. Where it has none, the text
+/// alone says so, and another rule reports it.
+fn without_word(cx: &PathCx<'_>, code: CodeIx, at: At) -> Option<Finding> {
+    let d = Letter::of('D');
+    let range = cx.find_word(at, |word| word.code == code)?;
+    let is_never_given =
+        cx.survey.never_given.iter().any(|given| given.letter == d && given.range.start == range.start);
+    let lasts = |word: &WordEntry| word.need == Need::Modal && Letter::parse(&word.letter) == Some(d);
+    let lasts = cx.code_of(code)?.entry().words.iter().any(lasts);
+    if is_never_given || !lasts || cx.is_called_only() || cx.find_word(at, |word| word.letter == d).is_some()
+    {
+        return None;
+    }
+    let name = cx.name_of(code);
+    Some(
+        cx.finding(&META, range, format!("cutter compensation with no offset (`{name}` without `D`)"))
+            .label("no `D` is in effect on the way here")
+            .help(format!("give the tool's offset number with `{name}`")),
+    )
 }
 
 #[cfg(test)]
@@ -108,5 +137,21 @@ mod tests {
     #[test]
     fn a_number_from_a_variable_may_be_anything() {
         check_rule(&RULE, "haas-mill", "G20 G42 D#500\nG1 X1. F5.\nG40 X0.\nM30\n", &expect![[""]]);
+    }
+
+    #[test]
+    fn a_lasting_number_that_one_way_does_not_give() {
+        let program = |given: &str| format!("G20\n{given}D1\nG1 G42 X1. F5.\nG40 X0.\nM30\n");
+        check_rule(
+            &RULE,
+            "haas-mill",
+            &program("/"),
+            &expect![[r#"
+            3 | G1 G42 X1. F5.
+              |    ^^^ warning[compensation-offset-missing] cutter compensation with no offset (`G42` without `D`)
+        "#]],
+        );
+        check_rule(&RULE, "haas-mill", &program(""), &expect![[""]]);
+        check_rule(&RULE, "haas-mill", "G20\nG1 G42 X1. F5.\nG40 X0.\nM30\n", &expect![[""]]);
     }
 }

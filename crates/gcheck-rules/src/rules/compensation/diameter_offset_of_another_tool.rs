@@ -4,9 +4,10 @@ use gcheck_controls::Effect;
 use gcheck_engine::{Abstract, Domain, Event, Fact, Role};
 
 use crate::declare::declare_rule;
+use crate::facts::boundary::is_before;
 use crate::facts::compensation::is_on;
 use crate::facts::offset_schemes::{Pairs, whole};
-use crate::{FinishCx, PathCx, PathRule, Report, Run, Severity, Uses, Watch};
+use crate::{FollowedCx, PathCx, PathRule, Report, Run, Severity, Uses, Watch};
 use crate::{Remembers, remembers};
 
 declare_rule! {
@@ -54,7 +55,7 @@ declare_rule! {
         fixable: OnRequest,
         since: "0.1.0",
         run: Run::Path {
-            watch: Watch::CUTS.union(Watch::FINISH),
+            watch: Watch::CUTS.union(Watch::FOLLOWED),
             make: || Box::new(DiameterOffsetOfAnotherTool { pairs: Pairs::new(), lengths: Vec::new() }),
         },
     }
@@ -93,6 +94,11 @@ impl PathRule for DiameterOffsetOfAnotherTool {
         if !state.effect(Role::Compensation, cx.model).is_some_and(is_on) {
             return;
         }
+        // Compensation that the tool before left on is that tool's, and another rule reports that.
+        let on = cx.trace().set_by(Fact::Mode(Role::Compensation));
+        if on.zip(cx.trace().set_by(Fact::Tool)).is_some_and(|(on, changed)| is_before(on, changed)) {
+            return;
+        }
         let Some(offset) = Abstract::known(state.d()).and_then(whole) else { return };
         self.pairs.add(tool, offset, cx.trace().set_by(Fact::Tool), || {
             let set_by = cx.trace().set_by(Fact::Mode(Role::Compensation));
@@ -107,7 +113,7 @@ impl PathRule for DiameterOffsetOfAnotherTool {
         });
     }
 
-    fn finish(&mut self, cx: &FinishCx<'_>, report: &mut Report<'_>) {
+    fn followed(&mut self, cx: &FollowedCx<'_>, report: &mut Report<'_>) {
         for (finding, scheme) in self.pairs.take_odd('D', false) {
             let finding = if scheme.is_unsure { finding.at_most(Severity::Info) } else { finding };
             report.add(
@@ -193,6 +199,16 @@ mod tests {
             &RULE,
             "fanuc-mill",
             "T1 M6\nG41 D1 G1 X1. F5.\nG40 X0.\nT2 M6\nG41 D32 G1 X1.\nG40 X0.\nG41 D2 G1 X1.\nG40 X0.\nM30\n",
+            &expect![[""]],
+        );
+    }
+
+    #[test]
+    fn compensation_that_was_left_on_is_not_this_tools() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "T1 M6\nG43 H1 Z1.\nG41 D1 G1 X1. F5.\nX2.\nT2 M6\nG43 H2 Z1.\nG1 X1.\nG40 X0.\nM30\n",
             &expect![[""]],
         );
     }

@@ -1,14 +1,14 @@
 //! A pocket that is cut without cutter compensation.
 
-use gcheck_controls::Effect;
+use gcheck_controls::{Effect, Letter};
 use gcheck_engine::{Abstract, Domain as _, Role};
 
 use crate::declare::declare_rule;
 use crate::facts::cycles::cycle_code;
-use crate::{PathCx, PathRule, Report, Run, Watch};
+use crate::{Finding, PathCx, PathRule, Report, Run, Watch};
 
 declare_rule! {
-    /// A pocket is cut along an outline while cutter compensation is off.
+    /// A pocket is cut along an outline while cutter compensation is off, or on with offset zero.
     ///
     /// ## Why it matters
     /// The tool's centre follows the outline: on every side, the pocket comes out larger than drawn by the tool's
@@ -42,8 +42,14 @@ struct PocketWithoutCompensation;
 
 impl PathRule for PocketWithoutCompensation {
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
-        if !cx.has_effect(|effect| effect == Effect::GeneralPocket)
-            || cx.has_effect(|effect| Role::of(effect) == Some(Role::Compensation))
+        if !cx.has_effect(|effect| effect == Effect::GeneralPocket) {
+            return;
+        }
+        if let Some(finding) = with_offset_zero(cx) {
+            report.add(finding);
+            return;
+        }
+        if cx.has_effect(|effect| Role::of(effect) == Some(Role::Compensation))
             || cx.state().effect(Role::Compensation, cx.model) != Some(Effect::CompensationOff)
         {
             return;
@@ -69,6 +75,31 @@ impl PathRule for PocketWithoutCompensation {
     }
 }
 
+/// Compensation is on, and the offset in effect is zero, which has no size.
+fn with_offset_zero(cx: &PathCx<'_>) -> Option<Finding> {
+    let is_side = |effect| matches!(effect, Effect::CompensationLeft | Effect::CompensationRight);
+    let is_on =
+        cx.has_effect(is_side) || cx.state().effect(Role::Compensation, cx.model).is_some_and(is_side);
+    let is_off = cx.has_effect(|effect| effect == Effect::CompensationOff);
+    let written = cx.word('D').is_some();
+    let d = if written { cx.known_number('D') } else { Abstract::known(cx.state().d()) };
+    let is_told = cx.survey.never_given.iter().any(|missing| missing.letter == Letter::of('D'));
+    if !is_on || is_off || d != Some(0.0) || !written && is_told {
+        return None;
+    }
+    let name = cycle_code(cx)?.number();
+    let range = if written {
+        cx.letter_range('D')
+    } else {
+        cx.effect_range(|effect| effect == Effect::GeneralPocket)
+    };
+    Some(
+        cx.finding(&META, range, format!("the pocket is cut with offset zero (`{name} D0`)"))
+            .label("offset zero has no size: the tool's centre follows the outline")
+            .help("give the number of the tool's offset, unless the outline was drawn for the tool's centre"),
+    )
+}
+
 #[cfg(test)]
 mod tests {
     use expect_test::expect;
@@ -85,6 +116,21 @@ mod tests {
             &expect![[r#"
                 5 | G150 P100 D1 X0. Y0. Z-.5 Q.25 R.1 I.2 F20.
                   | ^^^^ info[pocket-without-compensation] the pocket is cut without cutter compensation (`G150`)
+            "#]],
+        );
+    }
+
+    #[test]
+    fn offset_zero_has_no_size() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G20 G90 G54 G0 X0. Y0.\nG150 P100 G41 D0 X0. Y0. Z-.5 Q.25 R.1 I.2 F20.\nG40 X0.\n#1=0\nG150 P100 G41 D#1 X0. Y0. Z-.5 Q.25 R.1 I.2 F20.\nG40 X0.\nM30\n",
+            &expect![[r#"
+                2 | G150 P100 G41 D0 X0. Y0. Z-.5 Q.25 R.1 I.2 F20.
+                  |               ^^ info[pocket-without-compensation] the pocket is cut with offset zero (`G150 D0`)
+                5 | G150 P100 G41 D#1 X0. Y0. Z-.5 Q.25 R.1 I.2 F20.
+                  |               ^^^ info[pocket-without-compensation] the pocket is cut with offset zero (`G150 D0`)
             "#]],
         );
     }

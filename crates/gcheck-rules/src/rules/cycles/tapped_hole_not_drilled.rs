@@ -3,13 +3,13 @@
 use std::ops::Range;
 
 use gcheck_controls::Effect;
-use gcheck_engine::{At, Axis, Event, Fact, Position, Travel, TravelKind};
+use gcheck_engine::{Abstract, At, Axis, Domain, Event, Fact, FeedMode, Position, Role, Travel, TravelKind};
 use gcheck_geometry::{Mm, Plane};
 
 use crate::declare::declare_rule;
 use crate::facts::compensation::may_be_on;
 use crate::facts::cuts::distance;
-use crate::{Finding, FinishCx, PathCx, PathRule, Report, Run, Uses, Watch};
+use crate::{Finding, FollowedCx, PathCx, PathRule, Report, Run, Uses, Watch};
 use crate::{Remembers, remembers};
 
 declare_rule! {
@@ -18,6 +18,9 @@ declare_rule! {
     ///
     /// A hole counts as drilled if a cycle, a straight move down, or a circle around its centre went at least half as
     /// deep there. A program that drills none of the holes is quiet: they are prepared.
+    ///
+    /// A tap that goes deeper than a cycle has drilled there, by more than four pitches, is reported too. With less, it may
+    /// run out of a through hole.
     ///
     /// ## Why it matters
     /// The tap goes into solid metal and breaks. Often digits of a coordinate are swapped, or one point is missing in the
@@ -60,12 +63,12 @@ declare_rule! {
     /// M30
     /// ```
     rule "tapped-hole-not-drilled" in "cycles" {
-        summary: "tapping cycle where the program drills no hole",
+        summary: "tapping cycle where the program drills no hole, or a shorter one",
         severity: Warning,
         tier: Path,
         since: "0.1.0",
         run: Run::Path {
-            watch: Watch::MOVES.union(Watch::FINISH),
+            watch: Watch::MOVES.union(Watch::FOLLOWED),
             make: || Box::new(TappedHoleNotDrilled::default()),
         },
     }
@@ -75,11 +78,13 @@ declare_rule! {
 struct TappedHoleNotDrilled {
     holes: Vec<Hole>,
     taps: Vec<Tap>,
+    /// Cycles that tap deeper than their holes are drilled, by the block that began each.
+    short: Vec<(Option<At>, Finding)>,
     /// Something went down at a place that is not known.
     is_blind: bool,
 }
 
-remembers!(TappedHoleNotDrilled: holes, taps);
+remembers!(TappedHoleNotDrilled: holes, taps, short);
 
 /// Where coordinates count from, and how the part is turned to the tool.
 type Frame = (u16, Plane, [u64; 3]);
@@ -117,6 +122,8 @@ remembers!(Tap: tool, missed);
 const NEAR: f64 = 0.1;
 /// Programs with more holes come from a system that takes the points of drill and tap from one model.
 const MOST: usize = 3000;
+/// A tap may run out of a through hole by its chamfer, less the tip of the drill: pitches.
+const CHAMFER: f64 = 4.0;
 /// A pattern of fewer holes may agree with another one by chance.
 const PATTERN: usize = 3;
 
@@ -155,7 +162,10 @@ impl PathRule for TappedHoleNotDrilled {
         }
     }
 
-    fn finish(&mut self, _: &FinishCx<'_>, report: &mut Report<'_>) {
+    fn followed(&mut self, _: &FollowedCx<'_>, report: &mut Report<'_>) {
+        for (_, finding) in std::mem::take(&mut self.short) {
+            report.add(finding);
+        }
         let mut tools: Vec<Option<At>> = self.taps.iter().map(|tap| tap.tool).collect();
         tools.dedup();
         tools.sort_unstable();
@@ -227,7 +237,10 @@ impl TappedHoleNotDrilled {
         });
         let tool = cx.trace().set_by(Fact::Tool);
         let missed = match nearest {
-            Some(hole) if distance(hole.at, at) <= NEAR => None,
+            Some(hole) if distance(hole.at, at) <= NEAR => {
+                self.below(cx, frame, at, bottom);
+                None
+            }
             // A place where a cutter went down to mill was not meant for this tap.
             _ => {
                 let drilled = self.holes.iter().filter(near).filter(|hole| hole.is_cycle);
@@ -240,6 +253,30 @@ impl TappedHoleNotDrilled {
         if !self.taps.iter().any(is_again) {
             self.taps.push(Tap { frame, at, tool, enough, missed });
         }
+    }
+
+    /// A tap in a drilled hole, which may be too short for it.
+    fn below(&mut self, cx: &PathCx<'_>, frame: Frame, at: [f64; 2], bottom: f64) {
+        let holes = || self.holes.iter().filter(|hole| hole.frame == frame && distance(hole.at, at) <= NEAR);
+        // A NaN is a hole of unknown depth.
+        if holes().any(|hole| !hole.is_cycle || hole.bottom.is_nan()) {
+            return;
+        }
+        let Some(hole) = holes().min_by(|a, b| a.bottom.total_cmp(&b.bottom)) else { return };
+        let Some(pitch) = pitch(cx).filter(|pitch| hole.bottom - bottom > CHAMFER * pitch) else { return };
+        let series = cx.trace().set_by(Fact::Mode(Role::Cycle));
+        if self.short.iter().any(|(own, _)| *own == series) {
+            return;
+        }
+        let short = cx.shown(Mm(hole.bottom - bottom));
+        let finding = cx
+            .finding(&META, cx.range(), "the tap goes deeper than the hole is drilled")
+            .label(format!("the bottom of the drilled hole is {short} higher"))
+            .also(hole.bytes.clone(), "drilled here")
+            .note(format!("that is more than {CHAMFER} pitches ({} each)", cx.shown(Mm(pitch))))
+            .assuming("the part has no deeper hole there before the program starts")
+            .help("drill deeper, or tap less deep");
+        self.short.push((series, finding));
     }
 
     /// What one tool taps.
@@ -285,6 +322,17 @@ impl TappedHoleNotDrilled {
             let agree = |(a, b): (&f64, &f64)| (a - b).abs() <= NEAR;
             drilled.len() == tapped.len() && drilled.iter().zip(&tapped).all(agree)
         })
+    }
+}
+
+/// What the tap goes in a turn, millimetres.
+fn pitch(cx: &PathCx<'_>) -> Option<f64> {
+    let (state, known) = (cx.state(), |value: &_| Abstract::known(value));
+    let feed = known(state.feed()).filter(|feed| *feed > 0.0)?;
+    match state.feed_mode(cx.model)? {
+        FeedMode::PerRevolution => Some(feed),
+        FeedMode::PerMinute => Some(feed / known(state.speed()).filter(|speed| *speed > 0.0)?),
+        FeedMode::InverseTime => None,
     }
 }
 
@@ -372,6 +420,24 @@ mod tests {
     #[test]
     fn the_holes_of_the_drill_are_tapped() {
         check_rule(&RULE, "haas-mill", &program(SQUARE, SQUARE), &expect![[""]]);
+    }
+
+    #[test]
+    fn a_tap_that_is_longer_than_its_hole() {
+        let deep = |z: &str| program(SQUARE, SQUARE).replace("Z-12.", z);
+        check_rule(
+            &RULE,
+            "haas-mill",
+            &deep("Z-19.5"),
+            &expect![[r#"
+            15 | X10. Y10.
+               | ^^^^^^^^^ warning[tapped-hole-not-drilled] the tap goes deeper than the hole is drilled
+        "#]],
+        );
+        // A through hole: the tap runs out by its chamfer.
+        check_rule(&RULE, "haas-mill", &deep("Z-18."), &expect![[""]]);
+        let pre = deep("Z-19.5").replace("G83 Z-15.", "G83 Z#500");
+        check_rule(&RULE, "haas-mill", &pre, &expect![[""]]);
     }
 
     #[test]

@@ -2,17 +2,16 @@
 
 use gcheck_controls::{Effect, Letter};
 use gcheck_engine::{Abstract, At, Domain, Fact, FeedMode, Role, Units};
-use gcheck_program::BlockFlags;
 
 use crate::declare::declare_rule;
 use crate::facts::boundary::is_before;
-use crate::facts::offset_schemes::whole;
+use crate::facts::threads::{Wanted, rounding, thread_in_block, thread_in_list, thread_of_tool, trimmed};
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// The feed per turn of a tapping cycle is not the pitch of the thread that the tool's comment names: the comment
-    /// at the tool change, or the entry of the tool in a list at the head of the program.
+    /// The feed per turn of a tapping cycle is not the pitch of the thread that a comment names: the comment of the cycle's
+    /// own block, the one at the tool change, or the entry of the tool in a list at the head of the program.
     ///
     /// A little less than the pitch is accepted, for tension-compression holders. More is accepted only within the
     /// rounding of the feed.
@@ -28,6 +27,20 @@ declare_rule! {
     /// S500 M3
     /// G43 H5 Z10.
     /// G84 Z-12. R5. F600.
+    /// G80
+    /// M30
+    /// ```
+    /// The tap runs at the speed of the drill before it.
+    /// ```nc,reported,haas-mill
+    /// T4 M6 (5.1 DRILL)
+    /// G20 G90 G54 G0 X0. Y0. S3000 M3
+    /// G43 H4 Z1.
+    /// G83 Z-.8 R.1 Q.2 F15.
+    /// G80
+    /// T5 M6 (1/4-20 TAP)
+    /// G0 X0. Y0. M3
+    /// G43 H5 Z1.
+    /// G84 Z-.5 R.2 F30.
     /// G80
     /// M30
     /// ```
@@ -88,8 +101,9 @@ impl PathRule for TappingFeedOffPitch {
         // A mode in the block itself, and a feed from before a change of modes, are not what the state holds.
         let is_switched = cx.code_of_role(Role::FeedMode).is_some() || cx.code_of_role(Role::Units).is_some();
         let is_older = |fact| cx.trace().set_by(fact).is_some_and(|at| is_before(at, changed));
-        let is_stale = is_older(Fact::Speed) && !cx.origin().letters.contains(Letter::of('S'));
-        if self.told == Some(changed) || is_switched || is_stale || feed <= 0.0 || speed <= 0.0 {
+        let by_turns = state.feed_mode(cx.model) == Some(FeedMode::PerRevolution);
+        let is_carried = !by_turns && is_older(Fact::Speed) && !cx.origin().letters.contains(Letter::of('S'));
+        if self.told == Some(changed) || is_switched || feed <= 0.0 || speed <= 0.0 {
             return;
         }
         let a_turn = match state.feed_mode(cx.model) {
@@ -97,9 +111,10 @@ impl PathRule for TappingFeedOffPitch {
             Some(FeedMode::PerRevolution) => feed,
             _ => return,
         } * units.in_mm();
-        let Some(thread) = thread_of_tool(cx, changed).or_else(|| thread_in_list(cx)) else { return };
+        let own = || thread_in_block(cx, cx.origin().at, Wanted::Written);
+        let of_tool = || thread_of_tool(cx, changed, Wanted::Tap).or_else(|| thread_in_list(cx));
+        let Some(thread) = own().or_else(of_tool) else { return };
         let pitch = gcheck_geometry::Mm(thread.pitch);
-        let by_turns = state.feed_mode(cx.model) == Some(FeedMode::PerRevolution);
         let right = if by_turns { thread.pitch } else { thread.pitch * speed } / units.in_mm();
         let is_rounded = (feed - right).abs() <= rounding(feed);
         if is_rounded || (SHORT..=LONG).contains(&(a_turn / thread.pitch)) {
@@ -119,13 +134,23 @@ impl PathRule for TappingFeedOffPitch {
             cx.shown(gcheck_geometry::Mm(a_turn)),
             cx.shown(pitch)
         );
-        let mut finding = cx
-            .finding(&META, cx.letter_range('F'), message)
-            .label(format!(
-                "`F{right}` for this pitch{}",
-                if by_turns { String::new() } else { format!(" at `S{}`", trimmed(speed)) }
-            ))
-            .help("give the feed that belongs to speed and pitch, or correct the comment");
+        let mut finding = cx.finding(&META, cx.letter_range('F'), message);
+        if is_carried {
+            let turns = (feed * units.in_mm() / thread.pitch).round();
+            finding = finding
+                .label(format!("belongs to `S{turns}`, and the speed is `S{}`", trimmed(speed)))
+                .help("give the speed of the tap (`S`) after the tool change");
+            if let Some(given) = cx.trace().set_by(Fact::Speed).and_then(|at| cx.find_word(at, is_speed)) {
+                finding = finding.also(given, "the last speed, from before the tool change");
+            }
+        } else {
+            finding = finding
+                .label(format!(
+                    "`F{right}` for this pitch{}",
+                    if by_turns { String::new() } else { format!(" at `S{}`", trimmed(speed)) }
+                ))
+                .help("give the feed that belongs to speed and pitch, or correct the comment");
+        }
         if let Some(range) = cx.range_of(thread.at) {
             finding = finding.also(range, format!("names the thread: {}", thread.name));
         }
@@ -137,6 +162,10 @@ fn is_tapping(effect: Effect) -> bool {
     matches!(effect, Effect::CycleTap | Effect::CycleLeftTap)
 }
 
+fn is_speed(word: &gcheck_program::Word) -> bool {
+    word.letter == Letter::of('S')
+}
+
 /// Inches for millimetres, and millimetres for inches.
 fn other(units: Units) -> Units {
     match units {
@@ -145,235 +174,12 @@ fn other(units: Units) -> Units {
     }
 }
 
-/// The rounding error of a number with these digits.
-fn rounding(number: f64) -> f64 {
-    let text = trimmed(number);
-    let digits = text.split_once('.').map_or(0, |(_, behind)| behind.len());
-    // A little more, for the numbers of the machine.
-    0.501 / 10_f64.powi(i32::try_from(digits).unwrap_or(0))
-}
-
-fn trimmed(number: f64) -> String {
-    let text = format!("{number:.4}");
-    text.trim_end_matches('0').trim_end_matches('.').to_owned()
-}
-
-/// A thread that a comment names.
-struct Thread {
-    /// As the comment writes it.
-    name: String,
-    /// Millimetres.
-    pitch: f64,
-    /// The block of the comment.
-    at: At,
-}
-
-/// The thread that the comment at a tool change names: in its block, in the one before it or in the one after it.
-fn thread_of_tool(cx: &PathCx<'_>, changed: At) -> Option<Thread> {
-    let before = changed.block.checked_sub(1).map(|block| At { block, ..changed });
-    let places = [Some(changed), before, Some(changed.next())];
-    let mut found = None;
-    for at in places.into_iter().flatten() {
-        let Some(place) = cx.place_of(at).filter(|_| at.file == 0) else { continue };
-        let block = place.block();
-        // Only a comment alone in its block belongs to the tool beside it.
-        let is_alone = at == changed || place.table.words(block).is_empty();
-        if !is_alone || !block.flags.contains(BlockFlags::COMMENT) {
-            continue;
-        }
-        let Some(file) = cx.program.file(0) else { continue };
-        let text = file.loaded.chunk_text(place.chunk);
-        let text = text.get(block.range.start as usize..block.range.end as usize).unwrap_or_default();
-        let Some((name, pitch)) = text.find(['(', ';']).and_then(|open| thread_in(text.get(open..)?)) else {
-            continue;
-        };
-        if found.is_none() {
-            found = Some(Thread { name, pitch, at });
-        }
-    }
-    found
-}
-
-/// Blocks at the head of a program that are searched for a list of its tools.
-const HEAD: u32 = 100;
-
-/// The thread that the entry of the tool in a list at the head of the program names.
-fn thread_in_list(cx: &PathCx<'_>) -> Option<Thread> {
-    let tool = Abstract::known(cx.state().tool()).and_then(whole)?;
-    let file = cx.program.file(0)?;
-    let mut found: Option<Thread> = None;
-    for block in 0..HEAD {
-        let at = At { file: 0, block };
-        let Some(place) = cx.place_of(at) else { break };
-        let block = place.block();
-        if !block.flags.contains(BlockFlags::COMMENT) || !place.table.words(block).is_empty() {
-            continue;
-        }
-        let text = file.loaded.chunk_text(place.chunk);
-        let text = text.get(block.range.start as usize..block.range.end as usize).unwrap_or_default();
-        for entry in entries(text).filter(|(number, _)| *number == tool) {
-            let Some((name, pitch)) = thread_in(entry.1) else { continue };
-            // Two entries of one tool: a list for another machine, or of two set-ups.
-            if found.as_ref().is_some_and(|thread| thread.pitch.to_bits() != pitch.to_bits()) {
-                return None;
-            }
-            found = Some(Thread { name, pitch, at });
-        }
-    }
-    found
-}
-
-/// The entries of a list of tools in a comment: `T4 1/4-20 TAP`, `T1 END MILL, T2 M6 TAP`; the number, and what follows.
-fn entries(text: &str) -> impl Iterator<Item = (u32, &str)> {
-    let starts = text.char_indices().filter_map(move |(at, letter)| {
-        let before = text.get(..at)?.bytes().next_back();
-        let begins = matches!(letter, 'T' | 't') && before.is_some_and(|b| !b.is_ascii_alphanumeric());
-        let rest = text.get(at + 1..).filter(|_| begins)?;
-        let digits = rest.bytes().take_while(u8::is_ascii_digit).count();
-        let (number, behind) = rest.split_at_checked(digits)?;
-        let ends = behind.starts_with([' ', ':', '-', '=', '|', ',', '\t']);
-        number.parse().ok().filter(|_| ends && digits <= 4).map(|number: u32| (at, number, behind))
-    });
-    let starts: Vec<_> = starts.collect();
-    let ends: Vec<usize> = starts.iter().skip(1).map(|(at, ..)| *at).chain([text.len()]).collect();
-    starts.into_iter().zip(ends).filter_map(move |((_, number, behind), end)| {
-        let length = end.saturating_sub(text.len() - behind.len());
-        Some((number, behind.get(..length)?))
-    })
-}
-
-/// The one thread that a comment about a tap names, and its pitch in millimetres.
-fn thread_in(comment: &str) -> Option<(String, f64)> {
-    let upper = comment.to_ascii_uppercase();
-    let is_letter = |c: char| c.is_ascii_alphanumeric();
-    let mut words = upper.split(|c: char| !is_letter(c));
-    // A drill for a tap, and a thread that is milled, are not taps.
-    let taps = words.clone().any(|word| matches!(word, "TAP" | "TAPS" | "TAPPING"));
-    if !taps || words.any(|word| matches!(word, "DRILL" | "MILL" | "PREDRILL" | "CHAMFER" | "SPOT")) {
-        return None;
-    }
-    let mut found: Vec<(String, f64)> = Vec::new();
-    let pieces = upper.split(|c: char| !(is_letter(c) || matches!(c, '.' | '/' | '-' | '#' | '*')));
-    for piece in pieces.filter(|piece| !piece.is_empty()) {
-        if let Some(pitch) = metric(piece).or_else(|| inch(piece)) {
-            found.push((piece.to_owned(), pitch));
-        }
-    }
-    match found.as_slice() {
-        [one] => Some(one.clone()),
-        // `M6 (M6X1.0)` names one thread twice; anything else is not clear.
-        [first, others @ ..] if others.iter().all(|other| other.1.to_bits() == first.1.to_bits()) => {
-            Some(first.clone())
-        }
-        _ => None,
-    }
-}
-
-/// `M6X1`, `M10-1.25`, `M8` with its coarse pitch.
-fn metric(piece: &str) -> Option<f64> {
-    const COARSE: [(f64, f64); 13] = [
-        (2.0, 0.4),
-        (2.5, 0.45),
-        (3.0, 0.5),
-        (4.0, 0.7),
-        (5.0, 0.8),
-        (6.0, 1.0),
-        (8.0, 1.25),
-        (10.0, 1.5),
-        (12.0, 1.75),
-        (14.0, 2.0),
-        (16.0, 2.0),
-        (20.0, 2.5),
-        (24.0, 3.0),
-    ];
-    let size = piece.strip_prefix('M')?;
-    match size.split_once(['X', '-', '*']) {
-        Some((size, pitch)) => {
-            let (size, pitch) = (number(size)?, number(pitch)?);
-            ((0.2..=6.0).contains(&pitch) && pitch < size).then_some(pitch)
-        }
-        None => {
-            let size = number(size)?;
-            COARSE.iter().find(|(known, _)| known.to_bits() == size.to_bits()).map(|(_, pitch)| *pitch)
-        }
-    }
-}
-
-/// `1/4-20`, `#10-32`, `10-24`: threads per inch after the dash, and only if such a thread exists.
-fn inch(piece: &str) -> Option<f64> {
-    const NUMBERED: [(u32, u32); 17] = [
-        (0, 80),
-        (1, 64),
-        (1, 72),
-        (2, 56),
-        (2, 64),
-        (3, 48),
-        (4, 40),
-        (4, 48),
-        (5, 40),
-        (6, 32),
-        (6, 40),
-        (8, 32),
-        (8, 36),
-        (10, 24),
-        (10, 32),
-        (12, 24),
-        (12, 28),
-    ];
-    const FRACTIONS: [(&str, [u32; 2]); 10] = [
-        ("1/4", [20, 28]),
-        ("5/16", [18, 24]),
-        ("3/8", [16, 24]),
-        ("7/16", [14, 20]),
-        ("1/2", [13, 20]),
-        ("9/16", [12, 18]),
-        ("5/8", [11, 18]),
-        ("3/4", [10, 16]),
-        ("7/8", [9, 14]),
-        ("1", [8, 12]),
-    ];
-    let (size, threads) = piece.split_once('-')?;
-    let threads = threads.trim_end_matches(|c: char| c.is_ascii_alphabetic());
-    let threads: u32 = threads.parse().ok()?;
-    let is_made = match FRACTIONS.iter().find(|(known, _)| *known == size) {
-        Some((_, made)) => made.contains(&threads),
-        None => {
-            let number: u32 = size.trim_start_matches('#').parse().ok()?;
-            NUMBERED.contains(&(number, threads))
-        }
-    };
-    is_made.then(|| 25.4 / f64::from(threads))
-}
-
-fn number(text: &str) -> Option<f64> {
-    let is_number = !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit() || byte == b'.');
-    text.parse().ok().filter(|_| is_number)
-}
-
 #[cfg(test)]
 mod tests {
     use expect_test::expect;
 
-    use super::{RULE, thread_in};
-    use crate::testing::check_rule;
-
-    #[test]
-    fn threads_as_shops_write_them() {
-        for (comment, expected) in [
-            ("(M6X1 TAP)", Some(1.0)),
-            ("(TAP M8)", Some(1.25)),
-            ("(T5 - M10-1.25 SPIRAL TAP)", Some(1.25)),
-            ("(1/4-20 TAP)", Some(25.4 / 20.0)),
-            ("(#10-32UNF TAP)", Some(25.4 / 32.0)),
-            ("(TAPER PIN M6)", None),
-            ("(DRILL 5.0 FOR M6 TAP)", None),
-            ("(TAP 1-1/4 DEEP)", None),
-            ("(TAP M6 OR M8)", None),
-            ("(M6 THREAD MILL TAP)", None),
-        ] {
-            assert_eq!(thread_in(comment).map(|(_, pitch)| pitch), expected, "{comment}");
-        }
-    }
+    use super::RULE;
+    use crate::testing::{World, check_rule, findings, only, words};
 
     #[test]
     fn feed_a_turn_is_the_pitch() {
@@ -472,12 +278,56 @@ mod tests {
     }
 
     #[test]
-    fn a_speed_that_is_not_this_tools_says_nothing() {
+    fn the_speed_of_the_tool_before_stays() {
+        let program = |speed: &str, feed: &str| {
+            format!(
+                "G21 G90 G54 S3000 M3\nT5 M6 (M6 TAP)\nG0 X0. Y0.\n{speed}G84 Z-12. R5. F{feed}\nG80\nM30\n"
+            )
+        };
         check_rule(
             &RULE,
             "haas-mill",
-            "G21 G90 G54 S3000 M3\nT5 M6 (M6 TAP)\nG0 X0. Y0.\nG84 Z-12. R5. F500.\nG80\nM30\n",
-            &expect![[""]],
+            &program("", "500."),
+            &expect![[r#"
+            4 | G84 Z-12. R5. F500.
+              |               ^^^^^ warning[tapping-feed-off-pitch] the tap is fed 0.167 mm per turn, and the pitch is 1 mm
+        "#]],
         );
+        check_rule(&RULE, "haas-mill", &program("S500\n", "500."), &expect![[""]]);
+        // Both are from before; a speed that a variable gives.
+        check_rule(&RULE, "haas-mill", &program("", "3000."), &expect![[""]]);
+        check_rule(&RULE, "haas-mill", &program("S#500\n", "500."), &expect![[""]]);
+        // Feed per turn needs no speed.
+        check_rule(&RULE, "fanuc-mill", &program("G95\n", "1."), &expect![[""]]);
+        let found = findings(&only(&RULE), "haas-mill", &program("", "500."), &World::default());
+        expect![[r#"
+            the tap is fed 0.167 mm per turn, and the pitch is 1 mm
+              here: belongs to `S500`, and the speed is `S3000`
+              there: the last speed, from before the tool change
+              there: names the thread: M6
+              help: give the speed of the tap (`S`) after the tool change
+        "#]]
+        .assert_eq(&found.iter().map(words).collect::<String>());
+    }
+
+    #[test]
+    fn the_cycles_own_comment_names_the_thread() {
+        let program = |feed: &str, comment: &str| {
+            format!(
+                "T5 M6 (TAP)\nG20 G90 G54 G0 X0. Y0.\nG94 S600 M3\nG84 Z-1. R.1 F{feed} {comment}\nG80\nM30\n"
+            )
+        };
+        check_rule(
+            &RULE,
+            "haas-mill",
+            &program("1.5", "(1/4-20)"),
+            &expect![[r#"
+            4 | G84 Z-1. R.1 F1.5 (1/4-20)
+              |              ^^^^ warning[tapping-feed-off-pitch] the tap is fed 0.0025 in per turn, and the pitch is 0.05 in
+        "#]],
+        );
+        check_rule(&RULE, "haas-mill", &program("30.", "(1/4-20)"), &expect![[""]]);
+        // A depth, and a hole that is tapped elsewhere.
+        check_rule(&RULE, "haas-mill", &program("1.5", "(TAP 3/4 DEEP)"), &expect![[""]]);
     }
 }

@@ -3,11 +3,13 @@
 use gcheck_controls::Effect;
 
 use crate::declare::declare_rule;
-use crate::facts::turning::{is_roughing, profile};
+use crate::facts::turning::{Profile, is_roughing, profile};
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 
 declare_rule! {
-    /// The tool is inside the profile when a roughing cycle begins.
+    /// The tool is inside the profile when a roughing cycle begins. The same holds for a start nearer to the centre than
+    /// the whole profile, if the profile is an outside one: its X grows toward the chuck, and the finishing allowance is
+    /// that of an outside.
     ///
     /// ## Why it matters
     /// Each pass starts from the tool's position, and after it the tool returns there at rapid: through the part.
@@ -56,6 +58,10 @@ impl PathRule for TurningStartInsideProfile {
         }
         let along_x = cx.has_effect(|effect| effect == Effect::RoughAlongX);
         let Some(profile) = profile(cx) else { return };
+        if !along_x && is_below_outside(cx, &profile) {
+            below_outside(cx, &profile, report);
+            return;
+        }
         let level = |point: &crate::facts::turning::Point| if along_x { point.z } else { point.x };
         let mut cut = profile.points.iter().skip(1).filter(|point| !point.is_rapid);
         let (Some(first), Some(last)) = (profile.points.first(), cut.clone().next_back()) else { return };
@@ -77,6 +83,34 @@ impl PathRule for TurningStartInsideProfile {
                 .help("move outside the stock before the cycle"),
         );
     }
+}
+
+/// Is the start nearer to the centre than the whole of an outside profile?
+fn is_below_outside(cx: &PathCx<'_>, profile: &Profile) -> bool {
+    let allowance = cx.known_number('U').unwrap_or(0.0);
+    let start = profile.start.x;
+    allowance > 0.0
+        && start > 0.0
+        && profile.grows_to_chuck() == Some(true)
+        && profile.points.iter().all(|point| point.x > start - SLACK)
+}
+
+fn below_outside(cx: &PathCx<'_>, profile: &Profile, report: &mut Report<'_>) {
+    let x = trimmed(profile.start.x);
+    let (Some(first), Some(largest)) =
+        (profile.points.first(), profile.points.iter().max_by(|a, b| a.x.total_cmp(&b.x)))
+    else {
+        return;
+    };
+    let message = format!("the turning cycle starts inside the stock (`X{x}`)");
+    report.add(
+        cx.finding(&META, cx.range(), message)
+            .label("each pass begins here, nearer to the centre than the profile")
+            .also(first.range.clone(), format!("the profile begins at `X{}`", trimmed(first.x)))
+            .also(largest.range.clone(), format!("and grows to `X{}` toward the chuck", trimmed(largest.x)))
+            .note("a profile that grows toward the chuck is the outside of a part, and so is this allowance")
+            .help(format!("move outside the stock before the cycle, beyond `X{}`", trimmed(largest.x))),
+    );
 }
 
 /// In units of the program.
@@ -115,5 +149,25 @@ mod tests {
             "G21 T0101\nG97 S500 M3\nG0 X18. Z5.\nG71 U2. R1.\nG71 P10 Q20 U-0.5 W0.1 F0.25\nN10 G0 X40.\nG1 Z-20.\nX30. Z-25.\nN20 X20.\nM30\n",
             &expect![[""]],
         );
+    }
+
+    #[test]
+    fn an_outside_profile_beyond_the_start_has_its_stock_there() {
+        let program = |u: &str| {
+            format!(
+                "G21 T0101\nG97 S500 M3\nG0 X28. Z2.\nG71 U2. R1.\nG71 P10 Q20 {u} W0.1 F0.25\nN10 G0 X30.\nG1 Z-20.\nX40. Z-25.\nN20 X50.\nM30\n"
+            )
+        };
+        check_rule(
+            &RULE,
+            "fanuc-lathe",
+            &program("U0.5"),
+            &expect![[r#"
+            5 | G71 P10 Q20 U0.5 W0.1 F0.25
+              | ^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[turning-start-inside-profile] the turning cycle starts inside the stock (`X28.`)
+        "#]],
+        );
+        // A recess that is bored.
+        check_rule(&RULE, "fanuc-lathe", &program("U-0.5"), &expect![[""]]);
     }
 }

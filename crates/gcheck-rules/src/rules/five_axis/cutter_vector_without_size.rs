@@ -1,5 +1,6 @@
 //! 3D cutter compensation without a cutter offset.
 
+use gcheck_controls::Letter;
 use gcheck_engine::{Abstract, Domain};
 
 use crate::declare::declare_rule;
@@ -64,13 +65,18 @@ impl PathRule for CutterVectorWithoutSize {
             Some(_) => return,
             None if cx.is_malformed() => return,
             None if cx.is_called_only() || Abstract::known(cx.state().d()) != Some(0.0) => return,
-            None => cx
-                .finding(
+            None => {
+                let finding = cx.finding(
                     &META,
                     cx.effect_range(is_along_vectors),
                     format!("3D cutter compensation without an offset (`{name}` without `D`)"),
-                )
-                .label("no `D` here, and no earlier one in effect"),
+                );
+                if cx.survey.letters.contains(Letter::of('D')) {
+                    finding.label("no `D` here, and the one before is zero").at_most(Severity::Warning)
+                } else {
+                    finding.label("no `D` here, and no earlier one in effect")
+                }
+            }
         };
         let finding = finding
             .note(format!("`D` selects the offset that `{name}` shifts the path by  [{}]", entry.source))

@@ -49,7 +49,7 @@ struct DynamicOffsetWithoutPosition {
     on: Option<At>,
     /// Axes that were given since.
     given: Given,
-    /// It went somewhere at feed.
+    /// It went to the first place at feed.
     has_fed: bool,
     /// It cut already, or was reported.
     is_done: bool,
@@ -90,8 +90,12 @@ impl PathRule for DynamicOffsetWithoutPosition {
             _ => true,
         };
         // The way to the first place, and down there, may be at feed as well.
-        let [_, _, has_depth] = self.given;
-        if is_feed && (has_depth || std::mem::replace(&mut self.has_fed, true)) {
+        let own = cx.origin().letters;
+        let is_way_there = LetterSet::of("XY").without(own).is_empty()
+            && !own.intersects(LetterSet::of("Z"))
+            && !self.has_fed;
+        self.has_fed |= is_feed;
+        if is_feed && !is_way_there {
             self.is_done = true;
             self.tell(cx, report);
         }
@@ -139,10 +143,12 @@ mod tests {
         check_rule(
             &RULE,
             "haas-mill",
-            "G90 G54 G0 X0. Y0. B90. C0. S900 M3\nG43 H1 Z5.\nG254\nX1.\nZ2.\nG1 Z0. F20.\nX2.\nG255\nG254\nX1. Y1.\nZ2.\nG1 Z0.\nG255\nM30\n",
+            "G90 G54 G0 X0. Y0. B90. C0. S900 M3\nG43 H1 Z5.\nG254\nX1.\nZ2.\nG1 Z0. F20.\nX2.\nG255\nG254\nX1. Y1.\nZ2.\nG1 Z0.\nG255\nG254\nG1 X1.\nG255\nG254\nG1 X1. Y1.\nZ1.\nX2.\nG255\nM30\n",
             &expect![[r#"
                 6 | G1 Z0. F20.
                   | ^^^^^^^^^^^ warning[dynamic-offset-without-position] cut under the dynamic work offset without `Y` (`G254`)
+                15 | G1 X1.
+                   | ^^^^^^ warning[dynamic-offset-without-position] cut under the dynamic work offset without `Y`, `Z` (`G254`)
             "#]],
         );
     }

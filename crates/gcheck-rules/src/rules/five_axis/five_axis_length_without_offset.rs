@@ -92,15 +92,17 @@ impl FiveAxisLengthWithoutOffset {
             None if cx.is_malformed() => return,
             None if cx.is_called_only() || Abstract::known(cx.state().h()) != Some(0.0) => return,
             None => {
-                let finding = cx
-                    .finding(
-                        &META,
-                        cx.effect_range(is_along_tool),
-                        format!("{what} without a length offset (`{name}` without `H`)"),
-                    )
-                    .label("no `H` here, and no earlier one in effect");
-                // The control may still remember an `H` that was cancelled.
-                if self.is_given { finding.at_most(Severity::Warning) } else { finding }
+                let finding = cx.finding(
+                    &META,
+                    cx.effect_range(is_along_tool),
+                    format!("{what} without a length offset (`{name}` without `H`)"),
+                );
+                if self.is_given {
+                    // The control may still remember it.
+                    finding.label("no `H` here, and the one before was cancelled").at_most(Severity::Warning)
+                } else {
+                    finding.label("no `H` here, and no earlier one in effect")
+                }
             }
         };
         let finding = finding

@@ -1,6 +1,6 @@
 //! A program that always ends with an alarm of its own.
 
-use gcheck_controls::MessageComment;
+use gcheck_controls::{Effect, MessageComment};
 use gcheck_engine::{Ending, Fault, FrameKind};
 
 use crate::declare::declare_rule;
@@ -82,6 +82,10 @@ impl PathRule for AlarmReached {
         if !cx.is_on_every_path() || self.may_end_otherwise {
             return;
         }
+        // A program that waits for an input in a loop leaves it by the alarm on purpose.
+        if cx.file_uses(|effect| effect == Effect::JumpUnlessInput) {
+            return;
+        }
         let in_macro = cx.state().frames().iter().any(|frame| frame.kind == FrameKind::Macro);
         if cx.survey.is_called_from_elsewhere() && !in_macro {
             return;
@@ -156,6 +160,16 @@ mod tests {
     #[test]
     fn an_alarm_on_some_path_is_what_alarms_are_for() {
         check_rule(&RULE, "haas-mill", "O1\nIF [#500 EQ 1] GOTO 9\nM30\nN9 #3000= 1 (NO)\n", &expect![[""]]);
+    }
+
+    #[test]
+    fn a_loop_until_an_input_may_end_in_an_alarm() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "O1\nN5 M96 P10 Q18\nM99 P100\nN10 G4 P1.\nM99 P5\nN100 #3000= 10 (PART MISSING)\nM30\n",
+            &expect![[""]],
+        );
     }
 
     #[test]

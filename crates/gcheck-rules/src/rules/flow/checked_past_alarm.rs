@@ -75,13 +75,15 @@ impl PathRule for CheckedPastAlarm {
             return;
         }
         self.told = true;
-        let finding = crate::Finding::new(&META, cx.range(), "the check goes on past this alarm")
-            .label(match fault {
-                Fault::NoSuchProgram => "the control stops here if it does not have the program",
-                _ => "the control stops here",
-            })
-            .note("what follows is checked as if this block were corrected")
-            .help("correct this block first");
+        let finding =
+            crate::Finding::new(&META, cx.range(), "note on this block's alarm: the check goes on after it")
+                .label(match fault {
+                    Fault::NoSuchProgram => "the control stops here if it does not have the program",
+                    Fault::NoSuchLabel(_) => "the control stops when it takes this jump",
+                    _ => "the control stops here",
+                })
+                .note("what follows is checked as if this block were corrected")
+                .help("correct this block first");
         report.add(finding);
     }
 }
@@ -101,7 +103,7 @@ mod tests {
             "O1\nG0 X1.\nGOTO 20\nG0 X2.\nGOTO 30\nM30\n",
             &expect![[r#"
             3 | GOTO 20
-              | ^^^^^^^ info[checked-past-alarm] the check goes on past this alarm
+              | ^^^^^^^ info[checked-past-alarm] note on this block's alarm: the check goes on after it
         "#]],
         );
     }
@@ -114,7 +116,7 @@ mod tests {
             "O1\n#1=0\nWHILE [#1 LT 3] DO1\nM98 P2\n#1=#1+1\nEND1\nM30\nO2\nGOTO 9\nG0 X1.\nM99\n",
             &expect![[r#"
                 9 | GOTO 9
-                  | ^^^^^^ info[checked-past-alarm] the check goes on past this alarm
+                  | ^^^^^^ info[checked-past-alarm] note on this block's alarm: the check goes on after it
             "#]],
         );
     }
@@ -127,7 +129,7 @@ mod tests {
             "G0 X1\no1 call\nG0 X2\nM2\n",
             &expect![[r#"
             2 | o1 call
-              | ^^^^^^^ info[checked-past-alarm] the check goes on past this alarm
+              | ^^^^^^^ info[checked-past-alarm] note on this block's alarm: the check goes on after it
         "#]],
         );
     }

@@ -76,14 +76,39 @@ impl PathRule for JumpIntoLoop {
                 }
             }
         }
+        let outermost = outermost(&loops);
         for (from, to, bytes) in jumps {
             // The outermost loop that the jump enters. Its `DO` itself is a good target.
-            let entered = loops.iter().find(|l| l.contains(&to) && to != l.start && !l.contains(&from));
+            let entered = around(&loops, &outermost, to)
+                .iter()
+                .find(|l| l.contains(&to) && to != l.start && !l.contains(&from));
             if let Some(entered) = entered {
                 report.add(finding(cx, bytes, entered.start, to));
             }
         }
     }
+}
+
+/// Which of the loops, in the order of the text, are inside no other.
+fn outermost(loops: &[Range<u32>]) -> Vec<usize> {
+    let mut end = 0;
+    let mut found = Vec::new();
+    for (index, own) in loops.iter().enumerate().filter(|(_, own)| !own.is_empty()) {
+        if own.start >= end {
+            found.push(index);
+        }
+        end = end.max(own.end);
+    }
+    found
+}
+
+/// The loops of the outermost one that may hold a block.
+fn around<'l>(loops: &'l [Range<u32>], outermost: &[usize], block: u32) -> &'l [Range<u32>] {
+    let begins_after = |index: &usize| loops.get(*index).is_none_or(|own| own.start > block);
+    let next = outermost.partition_point(|index| !begins_after(index));
+    let first = next.checked_sub(1).and_then(|at| outermost.get(at)).copied();
+    let end = outermost.get(next).copied().unwrap_or(loops.len());
+    first.and_then(|first| loops.get(first..end)).unwrap_or_default()
 }
 
 fn finding(cx: &FinishCx<'_>, range: Range<u32>, head: u32, to: u32) -> Finding {
@@ -128,6 +153,25 @@ mod tests {
             &expect![[r#"
                 3 | GOTO 20
                   | ^^^^^^^ warning[jump-into-loop] jump into a loop
+            "#]],
+        );
+    }
+
+    #[test]
+    fn loops_inside_others_and_beside_them() {
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "O1\nGOTO 30\nWHILE [#501 LT 5] DO1\nN10 WHILE [#502 LT 5] DO2\nN20 #502=#502+1\nEND2\nN30 GOTO 20\nEND1\nWHILE [#503 LT 5] DO1\nGOTO 20\nN40 #503=#503+1\nEND1\nGOTO 50\nN50 GOTO 40\nM30\n",
+            &expect![[r#"
+                2 | GOTO 30
+                  | ^^^^^^^ warning[jump-into-loop] jump into a loop
+                7 | N30 GOTO 20
+                  |     ^^^^^^^ warning[jump-into-loop] jump into a loop
+                10 | GOTO 20
+                   | ^^^^^^^ warning[jump-into-loop] jump into a loop
+                14 | N50 GOTO 40
+                   |     ^^^^^^^ warning[jump-into-loop] jump into a loop
             "#]],
         );
     }

@@ -1,5 +1,6 @@
 //! A computed jump to a block that does not exist.
 
+use gcheck_controls::Effect;
 use gcheck_engine::Fault;
 
 use crate::declare::declare_rule;
@@ -61,7 +62,9 @@ impl PathRule for JumpToMissingBlock {
                     .is_some_and(|code| code.entry().words.iter().any(|word| word.elsewhere))
         });
         // `M99 P…` of a program that is called from another file names a block there.
-        let is_elsewhere = cx.survey.is_called_from_elsewhere() && cx.state().frames().len() <= 1;
+        let is_elsewhere = cx.survey.is_called_from_elsewhere()
+            && cx.state().frames().len() <= 1
+            && cx.has_effect(|effect| effect == Effect::Return);
         if literal || is_elsewhere {
             return;
         }

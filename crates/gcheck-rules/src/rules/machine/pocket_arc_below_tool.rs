@@ -1,9 +1,13 @@
 //! A pocket whose tool is larger than an arc of its outline.
 
-use gcheck_engine::{CycleFault, Fault, Units};
+use std::ops::Range;
+
+use gcheck_controls::Effect;
+use gcheck_engine::{At, CycleFault, Fault, Units};
 
 use crate::declare::declare_rule;
 use crate::facts::cycles::cycle_code;
+use crate::facts::pockets::outline_of;
 use crate::{PathCx, PathRule, Report, Run, Watch, limit};
 
 declare_rule! {
@@ -65,8 +69,9 @@ impl PathRule for PocketArcBelowTool {
         let (name, entry) = (code.number(), code.entry());
         let inch = cx.state().units(cx.model) == Some(Units::Inch);
         let shown = |mm: f64| if inch { format!("{:.4} in", mm / 25.4) } else { format!("{mm:.3} mm") };
-        report.add(
-            cx.finding(
+        let there = arc_of(cx, if inch { arc / 25.4 } else { arc });
+        let finding = cx
+            .finding(
                 &META,
                 cx.letter_range('D'),
                 format!("the tool is larger than an inside arc of the pocket (`{name}`)"),
@@ -77,9 +82,34 @@ impl PathRule for PocketArcBelowTool {
                 entry.source
             ))
             .help("take a smaller tool, or a larger radius in the outline")
-            .at_most(limit(entry.confidence)),
-        );
+            .at_most(limit(entry.confidence));
+        report.add(match there {
+            Some(there) => finding.also(there, "the arc"),
+            None => finding,
+        });
     }
+}
+
+/// Numbers of a program may differ by this much from the radius that they come to.
+const ROUNDED: f64 = 2e-3;
+
+/// Bytes of the first block of the outline whose words give an arc of a radius in units of the program; `None` when they are
+/// computed.
+fn arc_of(cx: &PathCx<'_>, radius: f64) -> Option<Range<u32>> {
+    let blocks = outline_of(cx)?;
+    let is_arc = |block: &u32| {
+        let place = cx.place_of(At { file: 0, block: *block })?;
+        let words = place.table.words(place.block());
+        let number = |letter: u8| words.iter().find(|word| word.letter.ascii() == letter)?.number();
+        let (i, j) = (number(b'I'), number(b'J'));
+        let centre = (i.is_some() || j.is_some()).then(|| i.unwrap_or(0.0).hypot(j.unwrap_or(0.0)));
+        let is_motion =
+            !words.iter().any(|word| matches!(cx.model.effect(word.code), Effect::Rapid | Effect::Linear));
+        let found = number(b'R').map(f64::abs).or(centre).filter(|_| is_motion)?;
+        Some((found - radius).abs() <= ROUNDED)
+    };
+    let block = blocks.into_iter().find(|block| is_arc(block) == Some(true))?;
+    cx.range_of(At { file: 0, block })
 }
 
 #[cfg(test)]
@@ -87,7 +117,7 @@ mod tests {
     use expect_test::expect;
 
     use super::{META, RULE};
-    use crate::testing::{World, check_rule, check_rule_in};
+    use crate::testing::{World, check_rule, check_rule_in, findings, only};
 
     /// A pocket whose upper left corner is rounded.
     fn pocket(side: &str, corner: &str) -> String {
@@ -117,6 +147,14 @@ mod tests {
             &expect![[""]],
         );
         check_rule_in(&RULE, "haas-mill", &pocket("G41", "X-20.\n"), &world(), &expect![[""]]);
+    }
+
+    #[test]
+    fn the_arc_is_shown() {
+        let program = pocket("G41", "X-18.\nG3 X-20. Y18. R2.\n");
+        let found = findings(&only(&RULE), "haas-mill", &program, &World::of_examples(&META));
+        let arc = &program[found[0].labels[0].range.start as usize..found[0].labels[0].range.end as usize];
+        assert_eq!(arc, "G3 X-20. Y18. R2.");
     }
 
     #[test]

@@ -5,7 +5,7 @@ use gcheck_engine::{Event, Fact, Role};
 use gcheck_lint::work_offset_name;
 
 use crate::declare::declare_rule;
-use crate::{Finding, FinishCx, PathCx, PathRule, Report, Run, Uses, Watch};
+use crate::{Finding, FollowedCx, PathCx, PathRule, Report, Run, Uses, Watch};
 use crate::{Remembers, remembers};
 
 declare_rule! {
@@ -37,7 +37,7 @@ declare_rule! {
         tier: Path,
         since: "0.1.0",
         run: Run::Path {
-            watch: Watch::CUTS.union(Watch::FINISH),
+            watch: Watch::CUTS.union(Watch::FOLLOWED),
             make: || Box::new(WorkOffsetNotListed::default()),
         },
     }
@@ -96,7 +96,7 @@ impl PathRule for WorkOffsetNotListed {
         self.found.push((number, finding));
     }
 
-    fn finish(&mut self, cx: &FinishCx<'_>, report: &mut Report<'_>) {
+    fn followed(&mut self, cx: &FollowedCx<'_>, report: &mut Report<'_>) {
         if !self.has_listed {
             return;
         }

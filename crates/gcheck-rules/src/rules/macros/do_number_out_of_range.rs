@@ -97,7 +97,7 @@ mod tests {
         expect![[r#"
             loop number `DO0` is outside 1 to 3
               here: no such loop
-              note: this control numbers its loops 1 to 3  [HM17 p.125, p.133 (one M code), 6.14.10 (DO numbers), 6.14.12 (nine nested G65 calls); the rest general knowledge]
+              note: this control numbers its loops 1 to 3  [HM17 p.125, p.133 (one M code), 6.14.10 (DO numbers), 6.14.12 (nine nested G65 calls), p.234 (aliases); the rest general knowledge]
               help: number the loop, and its `END`, from 1 to 3
         "#]].assert_eq(&words(&found[0]));
     }

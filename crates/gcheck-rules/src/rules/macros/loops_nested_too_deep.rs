@@ -93,7 +93,7 @@ mod tests {
             more than 3 loops are nested in each other
               here: this loop is one level deeper than 3
               there: the outermost loop begins here
-              note: this control nests 3 loops  [HM17 p.125, p.133 (one M code), 6.14.10 (DO numbers), 6.14.12 (nine nested G65 calls); the rest general knowledge]
+              note: this control nests 3 loops  [HM17 p.125, p.133 (one M code), 6.14.10 (DO numbers), 6.14.12 (nine nested G65 calls), p.234 (aliases); the rest general knowledge]
               help: move the inner loop into a subprogram, or use `IF` and `GOTO`
         "#]].assert_eq(&words(&found[0]));
     }

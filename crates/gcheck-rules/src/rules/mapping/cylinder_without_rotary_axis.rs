@@ -5,7 +5,7 @@ use gcheck_program::{BlockFlags, Word};
 
 use crate::declare::declare_rule;
 use crate::facts::word_sets::choice;
-use crate::{BlockCx, Finding, Reads, Report, Run, limit};
+use crate::{BlockCx, Finding, Reads, Report, Run, Severity, limit};
 
 declare_rule! {
     /// Cylindrical mapping names a linear axis or a size, but not the rotary axis.
@@ -67,7 +67,11 @@ fn finding(cx: &BlockCx<'_>, code: Code<'_>, word: &Word) -> Finding {
     let reads = code.reads().and(ROTARY);
     let what = if matches!(word.letter.ascii(), b'Q' | b'R') { "a size" } else { "an axis to wrap" };
     let alarm = entry.alarms.iter().find(|alarm| alarm.number.is_some());
-    Finding::new(&META, cx.range(word), format!("the cylinder has no rotary axis (`{name}`)"))
+    let disputed = entry.disputed.iter().find_map(|row| {
+        let letter = Letter::parse(&row.letter).filter(|letter| ROTARY.contains(*letter))?;
+        Some((cx.words().iter().find(|word| word.letter == letter)?, row.why.as_str()))
+    });
+    let finding = Finding::new(&META, cx.range(word), format!("the cylinder has no rotary axis (`{name}`)"))
         .label(format!("{what} needs {} in the block", choice(reads)))
         .note(format!(
             "`{}` ({}) stops with an alarm when a linear axis or a size comes without a rotary axis  [{}]",
@@ -78,7 +82,14 @@ fn finding(cx: &BlockCx<'_>, code: Code<'_>, word: &Word) -> Finding {
             "name the axis that turns the part: `{}0.`",
             reads.iter().next().unwrap_or(Letter::of('A'))
         ))
-        .at_most(limit(entry.confidence))
+        .at_most(limit(entry.confidence));
+    match disputed {
+        Some((word, why)) => finding
+            .also(cx.range(word), "this axis may carry the cylinder on newer controls")
+            .note(format!("the pages of `{}` differ: {why}", entry.code))
+            .at_most(Severity::Warning),
+        None => finding,
+    }
 }
 
 #[cfg(test)]
@@ -106,7 +117,7 @@ mod tests {
                 5 | G107 R-1.
                   |      ^^^^ error[cylinder-without-rotary-axis] the cylinder has no rotary axis (`G107`)
                 7 | G107 Y0. C0. Q2.
-                  |      ^^^ error[cylinder-without-rotary-axis] the cylinder has no rotary axis (`G107`)
+                  |      ^^^ warning[cylinder-without-rotary-axis] the cylinder has no rotary axis (`G107`)
             "#]],
         );
     }

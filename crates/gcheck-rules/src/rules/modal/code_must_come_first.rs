@@ -69,7 +69,7 @@ fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
             cx.range(other),
             format!("`{}` after `{name}` does not count", cx.text(other)),
         )
-        .label("the control passes over it")
+        .label("the control ignores it")
         .also(cx.range(word), code.entry().title.as_str()),
         (None, None) => return,
     };

@@ -13,9 +13,9 @@ use crate::{Finding, Fix, PathCx, PathRule, Report, Run, Severity, Uses, Watch};
 use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// Increments (`G91`) were left on: the first move of the next tool, after a subprogram, or after a reference
-    /// return whose block switched them on, is in increments although the work before it was in positions; or the
-    /// program ends in increments and begins without stating positions.
+    /// Increments (`G91`) were left on: the first move of the next tool, after a subprogram, after a pocket whose outline
+    /// switched them on, or after a reference return whose block did, is in increments although the work before it was in
+    /// positions; or the program ends in increments and begins without stating positions.
     ///
     /// `G91` is also reported where a tool begins: in the block of its first rapid move in X and Y, if that block also
     /// chooses a work offset or has only zeros, or if another tool of the program begins in positions. Increments from
@@ -88,6 +88,9 @@ struct IncrementalLeftOn {
     at_return: Option<At>,
     /// A block of a subprogram that switched from positions to increments, and its call depth.
     in_subprogram: Option<(At, usize)>,
+    /// A block in positions that runs another program, and its call depth. In that program or a deeper one, no move and no
+    /// switch came since.
+    at_other_program: Option<(At, usize)>,
     /// The program moved before it stated the mode.
     relies_on_start: bool,
     has_moved: bool,
@@ -95,7 +98,7 @@ struct IncrementalLeftOn {
     begins_in_positions: bool,
 }
 
-remembers!(IncrementalLeftOn: change, at_return, in_subprogram);
+remembers!(IncrementalLeftOn: change, at_return, in_subprogram, at_other_program);
 
 impl PathRule for IncrementalLeftOn {
     fn memory(&mut self) -> Remembers<'_> {
@@ -116,6 +119,11 @@ impl PathRule for IncrementalLeftOn {
         }
         if switches_on && cx.depth() > 1 && cx.state().is_incremental(cx.model) == Some(false) {
             self.in_subprogram = Some((cx.origin().at, cx.depth()));
+        }
+        if switches_on {
+            self.at_other_program.take_if(|(_, depth)| cx.depth() <= *depth);
+        } else if was_absolute && cx.has_effect(runs_program) {
+            self.at_other_program = Some((cx.origin().at, cx.depth()));
         }
         match boundary(cx) {
             Some(Boundary::ToolChange) => {
@@ -187,7 +195,17 @@ impl IncrementalLeftOn {
         let (change, was_absolute) = (self.change.take(), self.was_absolute);
         let at_return = self.at_return.take();
         self.was_absolute = cx.state().is_incremental(cx.model) == Some(false);
-        if !is_incremental || set_by.is_none() {
+        // The pocket itself moves, too.
+        let is_after = |(at, depth): &mut (At, usize)| *at != cx.origin().at && cx.depth() <= *depth;
+        let other = self.at_other_program.take_if(is_after);
+        if !is_incremental {
+            return;
+        }
+        if set_by.is_none() {
+            // Programs that only draw an outline leave no trace of what they set.
+            if let Some((at, _)) = other {
+                report.add(after_other_program(cx, at));
+            }
             return;
         }
         if let Some((range, at_change)) = change
@@ -210,6 +228,8 @@ impl IncrementalLeftOn {
             let finding = tell(cx, cx.range(), "the first move after the subprogram is in increments");
             let finding = finding.label("by this much, not to this point");
             report.add(cx.resting_on(finding, Fact::Mode(Role::Distance), "increments"));
+        } else if let Some((at, _)) = other {
+            report.add(after_other_program(cx, at));
         }
     }
 
@@ -229,6 +249,26 @@ impl IncrementalLeftOn {
             .assuming("the end of the program keeps the mode")
             .at_most(Severity::Warning);
         report.add(cx.resting_on(finding, Fact::Mode(Role::Distance), "increments"));
+    }
+}
+
+/// Does the code run a program whose blocks this rule may not be shown?
+fn runs_program(effect: Effect) -> bool {
+    matches!(effect, Effect::GeneralPocket | Effect::CallProgram | Effect::MacroCall)
+}
+
+/// The first move after a program that left increments on.
+fn after_other_program(cx: &PathCx<'_>, runs: At) -> Finding {
+    let is_outline = cx.find_word(runs, |word| cx.model.effect(word.code) == Effect::GeneralPocket).is_some();
+    let (what, caller) = if is_outline {
+        ("the first move after the pocket is in increments", "its outline leaves increments on")
+    } else {
+        ("the first move after the called program is in increments", "this program leaves increments on")
+    };
+    let finding = tell(cx, cx.range(), what).label("by this much, not to this point");
+    match cx.range_of(runs) {
+        Some(range) => finding.also(range, caller),
+        None => finding,
     }
 }
 
@@ -343,6 +383,25 @@ mod tests {
                   |     ^^^ warning[incremental-left-on] the first move of the tool is in increments (`G91`)
             "#]],
         );
+    }
+
+    #[test]
+    fn a_pocket_whose_outline_leaves_them_on() {
+        let pocket = |ends: &str| {
+            format!(
+                "G20 G90 G54 G0 X0. Y0.\nG43 H1 Z.1\nG150 P10 X0. Y0. Z-.4 Q.1 R.05 J.3 K0. F15.\nG1 X0. Y1. F20.\nG0 Z1.\nM30\nO10\nG91 G1 Y.5\nX-1.\nY-1.\nX2.\nY1.\nX-1.\n{ends}M99\n"
+            )
+        };
+        check_rule(
+            &RULE,
+            "haas-mill",
+            &pocket(""),
+            &expect![[r#"
+            4 | G1 X0. Y1. F20.
+              | ^^^^^^^^^^^^^^^ warning[incremental-left-on] the first move after the pocket is in increments (`G91`)
+        "#]],
+        );
+        check_rule(&RULE, "haas-mill", &pocket("G90\n"), &expect![[""]]);
     }
 
     #[test]

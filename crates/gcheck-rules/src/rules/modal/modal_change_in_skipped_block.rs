@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use gcheck_controls::{CodeIx, Effect, LetterSet};
-use gcheck_engine::{At, Axis, Event, Fact, Role};
+use gcheck_engine::{At, Axis, Event, Fact, Position, Role};
 use gcheck_program::BlockFlags;
 
 use crate::declare::declare_rule;
@@ -43,6 +43,13 @@ declare_rule! {
     /// G0 Y50.
     /// M30
     /// ```
+    /// A shift of the work zero that only one position of the switch makes:
+    /// ```nc,reported,haas-mill
+    /// G90 G54 G0 X0. Y0.
+    /// /G52 X10.
+    /// G0 X50.
+    /// M30
+    /// ```
     rule "modal-change-in-skipped-block" in "modal" {
         summary: "mode depends on the block delete switch",
         severity: Warning,
@@ -50,13 +57,13 @@ declare_rule! {
         since: "0.1.0",
         run: Run::Path {
             watch: Watch::BLOCKS.union(Watch::RAPIDS).union(Watch::CUTS),
-            make: || Box::new(ModalChangeInSkippedBlock { skipped: Vec::new(), changes: Vec::new(), unwrapped: None }),
+            make: || Box::new(ModalChangeInSkippedBlock::default()),
         },
     }
 }
 
 /// Modes that decide where a move goes.
-const ROLES: [Role; 9] = [
+const ROLES: [Role; 10] = [
     Role::Distance,
     Role::Units,
     Role::Plane,
@@ -65,6 +72,7 @@ const ROLES: [Role; 9] = [
     Role::Compensation,
     Role::Scaling,
     Role::Rotation,
+    Role::Mirror,
     Role::FeedMode,
 ];
 
@@ -79,28 +87,42 @@ struct Change {
 
 remembers!(Change: at, range);
 
-#[derive(Clone, PartialEq)]
+#[derive(Default, Clone, PartialEq)]
 struct ModalChangeInSkippedBlock {
     /// By role: the code that is in effect with the blocks skipped, once one of them changed it.
     skipped: Vec<(Role, CodeIx)>,
     /// The last change of each role by a block to be skipped.
     changes: Vec<Change>,
-    /// A block to be skipped that ended cylindrical mapping: the wrapped axis, the one that turned, the code.
-    unwrapped: Option<Unwrapped>,
+    /// A block to be skipped that began or ended cylindrical mapping.
+    mapping: Option<Mapping>,
+    /// A block to be skipped that shifted the work zero.
+    shift: Option<Shift>,
 }
 
-remembers!(ModalChangeInSkippedBlock: changes, unwrapped);
+remembers!(ModalChangeInSkippedBlock: changes, mapping, shift);
 
-/// The end of cylindrical mapping in a block to be skipped.
+/// A shift of the work zero in a block to be skipped.
 #[derive(Clone, PartialEq)]
-struct Unwrapped {
-    linear: Axis,
-    rotary: Axis,
+struct Shift {
+    /// The shift in effect with the blocks skipped.
+    skipped: Position,
+    /// Its code: `G52`.
     name: String,
     range: Range<u32>,
 }
 
-remembers!(Unwrapped: range);
+remembers!(Shift: range);
+
+/// The beginning or the end of cylindrical mapping in a block to be skipped.
+#[derive(Clone, PartialEq)]
+struct Mapping {
+    /// The axis that was wrapped, and the one that turned, where the block ends the mapping.
+    ended: Option<(Axis, Axis)>,
+    name: String,
+    range: Range<u32>,
+}
+
+remembers!(Mapping: range);
 
 impl PathRule for ModalChangeInSkippedBlock {
     fn memory(&mut self) -> Remembers<'_> {
@@ -113,6 +135,7 @@ impl PathRule for ModalChangeInSkippedBlock {
 
     fn block(&mut self, cx: &PathCx<'_>, _: &mut Report<'_>) {
         self.note_mapping(cx);
+        self.note_shift(cx);
         for code in cx.codes().iter().copied() {
             let Some(role) = cx.model.role(code).filter(|role| ROLES.contains(role)) else { continue };
             if !is_optional(cx) {
@@ -145,6 +168,19 @@ fn is_optional(cx: &PathCx<'_>) -> bool {
         && cx.place().is_some_and(|place| place.block().delete > 0)
 }
 
+/// Does the code move the work zero?
+fn shifts(effect: Effect) -> bool {
+    matches!(
+        effect,
+        Effect::LocalShift
+            | Effect::SetPosition
+            | Effect::SpeedLimitOrSetPosition
+            | Effect::ClearShift
+            | Effect::SuspendShift
+            | Effect::RestoreShift
+    )
+}
+
 impl ModalChangeInSkippedBlock {
     /// The code that begins mapping ends it too, so its mode does not tell them apart.
     fn note_mapping(&mut self, cx: &PathCx<'_>) {
@@ -152,33 +188,78 @@ impl ModalChangeInSkippedBlock {
         if !cx.has_effect(is_mapping) {
             return;
         }
-        self.unwrapped = None;
-        let ends = !cx.origin().letters.intersects(LetterSet::of("XYZABCQR"));
-        if let Some(cylinder) = cx.state().wrapped().cylinder().filter(|_| ends && is_optional(cx)) {
-            self.unwrapped = Some(Unwrapped {
-                linear: cylinder.linear,
-                rotary: cylinder.rotary,
+        self.mapping = None;
+        let begins = cx.origin().letters.intersects(LetterSet::of("XYZABCQR"));
+        let ended = cx.state().wrapped().cylinder().map(|cylinder| (cylinder.linear, cylinder.rotary));
+        if is_optional(cx) && (begins || ended.is_some()) {
+            self.mapping = Some(Mapping {
+                ended: ended.filter(|_| !begins),
                 name: cx.name_of_effect(Effect::CylinderMapping).unwrap_or_default(),
                 range: cx.effect_range(is_mapping),
             });
         }
     }
 
-    fn still_wrapped(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
-        let moves = |unwrapped: &Unwrapped| cx.origin().letters.contains(unwrapped.linear.letter());
-        let Some(Unwrapped { linear, rotary, name, range }) = self.unwrapped.take_if(|it| moves(it)) else {
+    fn tell_mapping(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
+        let wrapped = || cx.state().wrapped().cylinder().map(|cylinder| (cylinder.linear, cylinder.rotary));
+        let Some(mapping) = &self.mapping else { return };
+        let Some((linear, rotary)) = mapping.ended.or_else(wrapped) else { return };
+        if !cx.origin().letters.contains(linear.letter()) {
             return;
-        };
+        }
+        let Some(Mapping { ended, name, range }) = self.mapping.take() else { return };
         let (linear, rotary) = (linear.name(), rotary.name());
+        let (does, moves) = match ended {
+            Some(_) => ("ends", format!("moves {linear}, or turns {rotary} when that block is skipped")),
+            None => ("begins", format!("turns {rotary}, or moves {linear} when that block is skipped")),
+        };
         report.add(
             cx.finding(
                 &META,
                 range,
                 format!("what follows depends on the block delete switch (`/`, `{name}`)"),
             )
-            .label(format!("ends the mapping of {linear} only when the switch is off"))
-            .also(cx.range(), format!("moves {linear}, or turns {rotary} when that block is skipped"))
+            .label(format!("{does} the mapping of {linear} only when the switch is off"))
+            .also(cx.range(), moves)
             .help(format!("write `{name}` in a block without `/`")),
+        );
+    }
+
+    fn note_shift(&mut self, cx: &PathCx<'_>) {
+        let Some(code) = cx.codes().iter().copied().find(|code| shifts(cx.model.effect(*code))) else {
+            return;
+        };
+        if !is_optional(cx) {
+            self.shift = None;
+            return;
+        }
+        let skipped = self.shift.as_ref().map_or_else(|| cx.state().shift(), |shift| shift.skipped);
+        let range = cx.word_range(|word| word.code == code);
+        self.shift = Some(Shift { skipped, name: cx.name_of(code), range });
+    }
+
+    fn tell_shift(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
+        // A position of the machine, or one in increments, does not go by the work zero.
+        let is_apart = cx.has_effect(|effect| effect == Effect::MachineCoordinates)
+            || cx.state().effect(Role::Distance, cx.model) == Some(Effect::Incremental);
+        let Some(Shift { skipped, .. }) = self.shift.as_ref().filter(|_| !is_apart) else { return };
+        let (now, letters) = (cx.state().shift(), cx.origin().letters);
+        // What is not known differs from nothing.
+        let differs = |axis: &Axis| (now.raw(*axis) - skipped.raw(*axis)).abs() > 1e-6;
+        if !Axis::ALL.iter().any(|axis| letters.contains(axis.letter()) && differs(axis)) {
+            return;
+        }
+        let Some(Shift { name, range, .. }) = self.shift.take() else { return };
+        report.add(
+            cx.finding(
+                &META,
+                range,
+                format!("what follows depends on the block delete switch (`/`, `{name}`)"),
+            )
+            .label("shifts the work zero only when the switch is off")
+            .also(cx.range(), "goes to another place when that block is skipped")
+            .help(format!("write `{name}` in a block without `/`, or give the moves a `/` too"))
+            .at_most(Severity::Info),
         );
     }
 
@@ -188,7 +269,8 @@ impl ModalChangeInSkippedBlock {
             return;
         }
         if !is_optional(cx) {
-            self.still_wrapped(cx, report);
+            self.tell_mapping(cx, report);
+            self.tell_shift(cx, report);
         }
         if self.changes.is_empty()
             || is_optional(cx)
@@ -261,6 +343,64 @@ mod tests {
     #[test]
     fn a_mode_that_was_on_anyway_changes_nothing() {
         check_rule(&RULE, "haas-mill", "G20 G90 G54 G0 X0.\n/G90 X1.\nX5.\nM30\n", &expect![[""]]);
+    }
+
+    #[test]
+    fn a_shift_counts_where_it_changes_the_zero_of_a_move() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G90 G54 G0 X0.\n/G52 X10.\nG0 X50.\nM30\n",
+            &expect![[r#"
+            2 | /G52 X10.
+              |  ^^^ info[modal-change-in-skipped-block] what follows depends on the block delete switch (`/`, `G52`)
+        "#]],
+        );
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "G90 G54 G0 X1\n/G92 X10\nG0 X50\nM2\n",
+            &expect![[r#"
+            2 | /G92 X10
+              |  ^^^ info[modal-change-in-skipped-block] what follows depends on the block delete switch (`/`, `G92`)
+        "#]],
+        );
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "G90 G54 G0 X1. Y0.\n/G92 X0.\nG0 X5.\nM30\n",
+            &expect![[r#"
+            2 | /G92 X0.
+              |  ^^^ info[modal-change-in-skipped-block] what follows depends on the block delete switch (`/`, `G92`)
+        "#]],
+        );
+        check_rule(
+            &RULE,
+            "fanuc-lathe",
+            "G54 G0 X20. Z1.\n/G50 X30. Z5.\nG0 X50.\nM30\n",
+            &expect![[r#"
+            2 | /G50 X30. Z5.
+              |  ^^^ info[modal-change-in-skipped-block] what follows depends on the block delete switch (`/`, `G50`)
+        "#]],
+        );
+        // Taken back, in another axis, as it was, and no shift at all.
+        let quiet = [
+            "/G52 X10.\n/G0 X50.\n/G52 X0.\nG0 X50.",
+            "/G52 Z1.\nG0 X5.",
+            "/G52 X0. Y0.\nG0 X5.",
+            "G52 X10.\n/G52 X10.\nG0 X50.",
+            "/G52 X10.\nG91 G0 X50.",
+            "/G52 X10.\nG53 G0 X0.",
+        ];
+        for blocks in quiet {
+            check_rule(
+                &RULE,
+                "haas-mill",
+                &format!("G90 G54 G0 X0. Y0. Z1.\n{blocks}\nM30\n"),
+                &expect![[""]],
+            );
+        }
+        check_rule(&RULE, "fanuc-lathe", "G54 G0 X0.\n/G50 S2000\nG0 X50.\nM30\n", &expect![[""]]);
     }
 
     #[test]

@@ -1,15 +1,12 @@
 //! A chamfer or rounding before a rapid move.
 
-use std::ops::Range;
-
-use gcheck_controls::{Letter, LetterSet};
-use gcheck_engine::{Event, TravelKind};
+use gcheck_controls::{Effect, Letter, LetterSet};
+use gcheck_engine::{At, CornerFault, Fault};
 use gcheck_program::Word;
 
 use crate::declare::declare_rule;
 use crate::facts::turning::{is_roughing, profile_blocks};
 use crate::{PathCx, PathRule, Report, Run, Severity, Uses, Watch};
-use crate::{Remembers, remembers};
 
 declare_rule! {
     /// A block asks for a chamfer or a rounding to the next move (`,C`, `,R`), and the next move is a rapid one.
@@ -42,23 +39,13 @@ declare_rule! {
         severity: Warning,
         tier: Path,
         since: "0.1.0",
-        run: Run::Path { watch: Watch::MOVES.union(Watch::BLOCKS), make: || Box::new(CornerBeforeRapid { corner: None }) },
+        run: Run::Path { watch: Watch::FAULTS.union(Watch::BLOCKS), make: || Box::new(CornerBeforeRapid) },
     }
 }
 
-#[derive(Clone, PartialEq)]
-struct CornerBeforeRapid {
-    /// The corner that waits for its second move: its word.
-    corner: Option<Range<u32>>,
-}
-
-remembers!(CornerBeforeRapid: corner);
+struct CornerBeforeRapid;
 
 impl PathRule for CornerBeforeRapid {
-    fn memory(&mut self) -> Remembers<'_> {
-        Remembers::All(self)
-    }
-
     fn concerns(&self, program: &Uses<'_>) -> bool {
         program.survey.letters.intersects(corners())
     }
@@ -69,7 +56,13 @@ impl PathRule for CornerBeforeRapid {
         }
         // A cycle does not make its passes block by block.
         let last = profile_blocks(cx).map(|(_, last)| last);
-        if let Some(corner) = last.and_then(|last| cx.find_word(last, is_corner)) {
+        // A rapid move at the end takes the tool away from the profile.
+        let is_rapid = |word: &Word| cx.model.effect(word.code) == Effect::Rapid;
+        let last_cut = last.map(|last| match last.block.checked_sub(1) {
+            Some(block) if cx.find_word(last, is_rapid).is_some() => At { block, ..last },
+            _ => last,
+        });
+        if let Some(corner) = last_cut.and_then(|at| cx.find_word(at, is_corner)) {
             report.add(
                 cx.finding(&META, corner, "chamfer or rounding at the end of a turning profile")
                     .label("needs another cut of the profile after it")
@@ -80,26 +73,16 @@ impl PathRule for CornerBeforeRapid {
         }
     }
 
-    fn moved(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
-        let Event::Travel(travel) = event else {
-            self.corner = None;
+    fn fault(&mut self, cx: &PathCx<'_>, fault: &Fault, report: &mut Report<'_>) {
+        if *fault != Fault::Corner(CornerFault::RapidAfter) {
             return;
-        };
-        if let Some(corner) = self.corner.take()
-            && travel.kind == TravelKind::Rapid
-            && !travel.expanded
-        {
-            report.add(
-                cx.finding(&META, corner, "chamfer or rounding before a rapid move")
-                    .label("needs a cut after it")
-                    .also(cx.range(), "the next move is a rapid one")
-                    .help("end the contour with a cut after the corner, or remove the word")
-                    .at_most(Severity::Warning),
-            );
         }
-        if travel.kind == TravelKind::Feed && !travel.expanded && cx.origin().letters.intersects(corners()) {
-            self.corner = cx.find_word(cx.origin().at, is_corner);
-        }
+        report.add(
+            cx.finding(&META, cx.word_range(is_corner), "chamfer or rounding before a rapid move")
+                .label("needs a cut after it")
+                .help("end the contour with a cut after the corner, or remove the word")
+                .at_most(Severity::Warning),
+        );
     }
 }
 
@@ -128,6 +111,19 @@ mod tests {
             &expect![[r#"
                 8 | N20 X60. ,R1.
                   |          ^^^^ warning[corner-before-rapid] chamfer or rounding at the end of a turning profile
+            "#]],
+        );
+    }
+
+    #[test]
+    fn a_rapid_move_at_the_end_of_a_profile_is_no_cut() {
+        check_rule(
+            &RULE,
+            "haas-lathe",
+            "G20 G18 G99 T0101\nG97 S500 M3\nG0 X3. Z.1\nG71 P10 Q20 U.01 W.005 D.05 F.01\nN10 G0 X-.06\nG1 Z0.\nX3. ,R.1\nN20 G0 Z.1\nM30\n",
+            &expect![[r#"
+                7 | X3. ,R.1
+                  |     ^^^^ warning[corner-before-rapid] chamfer or rounding at the end of a turning profile
             "#]],
         );
     }

@@ -1,6 +1,6 @@
 //! A feed that looks meant for another feed mode.
 
-use gcheck_controls::Letter;
+use gcheck_controls::{Effect, Letter};
 use gcheck_engine::{Abstract, At, Domain, Event, Fact, FeedMode, Role};
 use gcheck_geometry::Mm;
 
@@ -10,7 +10,8 @@ use crate::{PathCx, PathRule, Report, Run, Watch};
 use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// A cut at more than 10 mm (0.4 inch) per turn of the spindle, or at less than 1 mm (0.04 inch) per minute.
+    /// A cut at more than 10 mm (0.4 inch) per turn of the spindle, on a lathe at more than 3 mm (0.12 inch), or at less than
+    /// 1 mm (0.04 inch) per minute.
     ///
     /// ## Why it matters
     /// No tool cuts like this: the number is meant for the other feed mode. 300 mm per minute read as 300 mm per turn
@@ -26,6 +27,15 @@ declare_rule! {
     /// G20 G98 T101
     /// G97 S900 M3
     /// G1 X1. F0.012
+    /// M30
+    /// ```
+    /// A lathe feeds per turn unless the program says otherwise.
+    /// ```nc,reported,fanuc-lathe
+    /// G21 T0101
+    /// G96 S180 M3
+    /// G0 X38. Z1.
+    /// G1 Z-30. F12.
+    /// X42. F.2
     /// M30
     /// ```
     /// ## Not reported
@@ -51,8 +61,10 @@ declare_rule! {
     }
 }
 
-/// Millimetres per turn: more than any milling cutter or turning tool allows.
+/// Millimetres per turn: more than any milling cutter allows.
 const MOST_A_TURN: f64 = 10.0;
+/// Millimetres per turn: more than any turning tool allows.
+const MOST_A_TURN_OF_THE_PART: f64 = 3.0;
 /// Millimetres per minute: less than any useful feed.
 const LEAST_A_MINUTE: f64 = 1.0;
 
@@ -72,13 +84,16 @@ impl PathRule for FeedImplausible {
     fn cut(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
         let state = cx.state();
         let Some(feed) = Abstract::known(state.feed()).filter(|feed| *feed > 0.0) else { return };
+        let most = if cx.is_mill() { MOST_A_TURN } else { MOST_A_TURN_OF_THE_PART };
+        let is_fast = feed > most;
         let (reads, other) = match state.feed_mode(cx.model) {
-            Some(FeedMode::PerRevolution) if feed > MOST_A_TURN => ("per turn of the spindle", "per minute"),
+            Some(FeedMode::PerRevolution) if is_fast => ("per turn of the spindle", "per minute"),
             Some(FeedMode::PerMinute) if feed < LEAST_A_MINUTE => ("per minute", "per turn of the spindle"),
             _ => return,
         };
-        // A mode that the program does not set may differ on the machine.
-        if cx.trace().set_by(Fact::Mode(Role::FeedMode)).is_none() {
+        // A mode that the program does not set may differ on the machine; lathes usually start in feed per turn.
+        let is_stated = cx.trace().set_by(Fact::Mode(Role::FeedMode)).is_some();
+        if !is_stated && (cx.is_mill() || !is_fast) || taps(cx) {
             return;
         }
         let Some(given) = cx.trace().set_by(Fact::Feed) else { return };
@@ -86,8 +101,8 @@ impl PathRule for FeedImplausible {
         let (now, then) = (state.mode(Role::FeedMode).only(), state.feed_given_under().only());
         let word = |word: &gcheck_program::Word| word.letter == Letter::of('F');
         let lost = |w: &gcheck_program::Word| word(w) && !w.shape.point && w.number().is_some();
-        if now != then || !goes_by_feed(event) || cx.find_word(given, lost).is_some() && feed < LEAST_A_MINUTE
-        {
+        let counts_steps = !is_stated || feed < LEAST_A_MINUTE;
+        if now != then || !goes_by_feed(event) || counts_steps && cx.find_word(given, lost).is_some() {
             return;
         }
         if self.told.replace(given) == Some(given) {
@@ -99,8 +114,19 @@ impl PathRule for FeedImplausible {
             .label(format!("looks meant for {other}"))
             .help("check the feed mode and the number");
         let name = cx.code_name(Role::FeedMode).unwrap_or_default();
-        report.add(cx.resting_on(finding, Fact::Mode(Role::FeedMode), &format!("`{name}`")));
+        let finding = cx.resting_on(finding, Fact::Mode(Role::FeedMode), &format!("`{name}`"));
+        report.add(if is_stated {
+            finding
+        } else {
+            finding.assuming(format!("the control starts in feed {reads}"))
+        });
     }
+}
+
+/// A tap is fed by its pitch.
+fn taps(cx: &PathCx<'_>) -> bool {
+    let cycle = cx.state().active_cycle(cx.model).filter(|code| code.is_some());
+    cycle.is_some_and(|code| matches!(cx.model.effect(code), Effect::CycleTap | Effect::CycleLeftTap))
 }
 
 #[cfg(test)]
@@ -126,6 +152,33 @@ mod tests {
     #[test]
     fn a_mode_that_the_program_does_not_set_may_be_the_other_one() {
         check_rule(&RULE, "fanuc-lathe", "O1\nG97 S900 M3\nG1 X10. F3000\nM30\n", &expect![[""]]);
+    }
+
+    #[test]
+    fn a_lathe_feeds_by_the_turn() {
+        let program = |mode: &str, feed: &str| {
+            format!("G21 {mode}T0101\nG97 S800 M3\nG0 X42. Z1.\nG1 Z-30. F{feed}\nX44.\nM30\n")
+        };
+        check_rule(
+            &RULE,
+            "fanuc-lathe",
+            &program("", "200."),
+            &expect![[r#"
+            4 | G1 Z-30. F200.
+              |          ^^^^^ warning[feed-implausible] feed of 200 mm per turn of the spindle (`F`)
+        "#]],
+        );
+        check_rule(
+            &RULE,
+            "haas-lathe",
+            &program("G99 ", "4."),
+            &expect![[r#"
+            4 | G1 Z-30. F4.
+              |          ^^^ warning[feed-implausible] feed of 4 mm per turn of the spindle (`F`)
+        "#]],
+        );
+        check_rule(&RULE, "fanuc-lathe", &program("", "1.2"), &expect![[""]]);
+        check_rule(&RULE, "fanuc-lathe", &program("G98 ", "200."), &expect![[""]]);
     }
 
     #[test]

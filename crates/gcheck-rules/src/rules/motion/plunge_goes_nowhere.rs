@@ -8,7 +8,7 @@ use gcheck_geometry::{Mm, Plane};
 
 use crate::declare::declare_rule;
 use crate::facts::cuts::{LEVEL, SURFACE};
-use crate::{Finding, FinishCx, PathCx, PathRule, Report, Run, Severity, Watch};
+use crate::{Finding, FollowedCx, PathCx, PathRule, Report, Run, Severity, Watch};
 use crate::{Remembers, remembers};
 
 declare_rule! {
@@ -70,7 +70,7 @@ declare_rule! {
         tier: Path,
         since: "0.1.0",
         run: Run::Path {
-            watch: Watch::MOVES.union(Watch::CHANGES).union(Watch::FINISH),
+            watch: Watch::MOVES.union(Watch::CHANGES).union(Watch::FOLLOWED),
             make: || Box::new(PlungeGoesNowhere::default()),
         },
     }
@@ -159,7 +159,7 @@ impl PathRule for PlungeGoesNowhere {
         }
     }
 
-    fn finish(&mut self, _: &FinishCx<'_>, report: &mut Report<'_>) {
+    fn followed(&mut self, _: &FollowedCx<'_>, report: &mut Report<'_>) {
         let found = std::mem::take(&mut self.found);
         if found.len() <= MOST {
             for finding in found {

@@ -8,7 +8,7 @@ use gcheck_geometry::Mm;
 
 use crate::declare::declare_rule;
 use crate::facts::cuts::{Cuts, LEVEL, SURFACE, cutter_radius, point};
-use crate::{Finding, FinishCx, MakeShared, PathCx, PathRule, Report, Run, Severity, Watch};
+use crate::{Finding, FollowedCx, MakeShared, PathCx, PathRule, Report, Run, Severity, Watch};
 use crate::{Remembers, remembers};
 
 declare_rule! {
@@ -18,10 +18,12 @@ declare_rule! {
     ///   tangent to an arc, or with cutter compensation on;
     /// * after an arc, straight on to where the contour began;
     /// * from a cut to a place where the tool is fed down: the retract is missing;
+    /// * from a hole that the tool was fed straight down into, sideways through what was not cut;
+    /// * from the end of a straight cut back and across to where a parallel one begins;
     /// * down into the part and then sideways, straight into an arc, or up again without a cut.
     ///
-    /// A program that does so more than twice does it on purpose: it steps over beside the part. For the same reason, a
-    /// move from one straight cut to a parallel one is not reported.
+    /// A program that does so more than twice does it on purpose, except out of holes: it steps over beside the part. For the
+    /// same reason, a move square to two parallel straight cuts is not reported.
     ///
     /// ## Why it matters
     /// A `G0` was written instead of `G1`, and the tool runs through the part at rapid; or the retract was forgotten,
@@ -53,6 +55,26 @@ declare_rule! {
     /// G0 Z5.
     /// M30
     /// ```
+    /// The retract from the hole is missing.
+    /// ```nc,reported,haas-mill
+    /// G20 G90 G54 G0 X1. Y1. S2000 M3
+    /// G43 H1 Z.1
+    /// G1 Z-.5 F8.
+    /// G0 X2.
+    /// Z1.
+    /// M30
+    /// ```
+    /// The retract between two slots is missing.
+    /// ```nc,reported,haas-mill
+    /// G20 G90 G54 G0 X1. Y1. S2000 M3
+    /// G43 H1 Z.1
+    /// G1 Z-.2 F8.
+    /// X3. F30.
+    /// G0 X1. Y2.5
+    /// G1 X3.
+    /// G0 Z1.
+    /// M30
+    /// ```
     /// Nothing is cut: the plunge should be at feed.
     /// ```nc,reported,haas-mill
     /// G21 G90 G54 G0 X0. Y0.
@@ -79,7 +101,7 @@ declare_rule! {
         tier: Path,
         since: "0.1.0",
         run: Run::Path {
-            watch: Watch::MOVES.union(Watch::CHANGES).union(Watch::FINISH),
+            watch: Watch::MOVES.union(Watch::CHANGES).union(Watch::FOLLOWED),
             make: || Box::new(RapidBetweenCuts::default()),
         },
     }
@@ -97,9 +119,11 @@ struct RapidBetweenCuts {
     way: Option<Way>,
     /// Ways that are suspicious, unless they are the program's habit.
     found: Vec<Found>,
+    /// Ways out of holes, which are nobody's habit.
+    dragged: Vec<Finding>,
 }
 
-remembers!(RapidBetweenCuts: way, found);
+remembers!(RapidBetweenCuts: way, found, dragged);
 
 /// What the next moves need to know of a cut at depth.
 #[derive(Clone, Copy, PartialEq)]
@@ -108,6 +132,10 @@ struct Cut {
     /// Its direction at its end; `None` for one that goes down, and if that is unknown.
     heads: Option<[f64; 2]>,
     is_arc: bool,
+    /// It went straight down.
+    is_plunge: bool,
+    /// Where it began and ended.
+    ends: [[f64; 2]; 2],
 }
 
 /// Rapid moves that follow each other at one depth.
@@ -146,6 +174,8 @@ remembers!(Found: bytes, finding);
 
 /// Programs with more such ways step over beside the part.
 const MOST: usize = 2;
+/// Ways out of holes that are reported.
+const MOST_DRAGGED: usize = 8;
 /// Shorter ways say nothing: millimetres.
 const SHORT: f64 = 2.0;
 /// How far beside its path a cutter of unknown diameter clears: millimetres. For suspicions.
@@ -205,7 +235,10 @@ impl PathRule for RapidBetweenCuts {
         }
     }
 
-    fn finish(&mut self, _: &FinishCx<'_>, report: &mut Report<'_>) {
+    fn followed(&mut self, _: &FollowedCx<'_>, report: &mut Report<'_>) {
+        for finding in std::mem::take(&mut self.dragged) {
+            report.add(finding);
+        }
         let found = std::mem::take(&mut self.found);
         if found.len() <= MOST {
             for finding in found.into_iter().filter_map(|found| found.finding) {
@@ -264,6 +297,7 @@ impl RapidBetweenCuts {
         }
         if heads.is_none() && z1 > z0 {
             let way = way?;
+            self.judge_drag(cx, &way);
             self.judge_closing(cx, &way);
             if way.behind.is_none() && z1 > 0.0 {
                 self.judge_dip(cx, &way);
@@ -294,14 +328,25 @@ impl RapidBetweenCuts {
         let goes_down = z1 < z0 && (x1 - x0).abs() <= LEVEL && (y1 - y0).abs() <= LEVEL;
         // Surfaces are feed moves by the million, neither level nor straight down, and nothing asks where those go.
         if !is_level && !goes_down && way.is_none() {
-            return (z1 < SURFACE && z1 <= z0).then_some(Cut { z: z1, heads: None, is_arc: false });
+            let ends = [[x0, y0], [x1, y1]];
+            return (z1 < SURFACE && z1 <= z0).then_some(Cut {
+                z: z1,
+                heads: None,
+                is_arc: false,
+                is_plunge: false,
+                ends,
+            });
         }
         let heads = direction([x0, y0], [x1, y1]);
         if let Some(way) = way {
             match heads {
                 Some(heads) if is_level && !way.is_lifted => {
-                    self.judge(cx, &way, Cut { z: z1, heads: Some(heads), is_arc: false });
+                    let ends = [[x0, y0], [x1, y1]];
+                    let next = Cut { z: z1, heads: Some(heads), is_arc: false, is_plunge: false, ends };
+                    self.judge(cx, &way, next);
                 }
+                // Up at feed.
+                None if z1 > z0 && !way.is_lifted => self.judge_drag(cx, &way),
                 // Down at the place where the rapid move ended.
                 None if way.behind.is_some() && way.is_lifted && z1 < SURFACE => {
                     self.judge_plunge(cx, &way);
@@ -316,6 +361,8 @@ impl RapidBetweenCuts {
             z: z1,
             heads: heads.filter(|_| is_level),
             is_arc: false,
+            is_plunge: heads.is_none() && z1 < z0 - LEVEL,
+            ends: [[x0, y0], [x1, y1]],
         })
     }
 
@@ -332,10 +379,12 @@ impl RapidBetweenCuts {
             let [x, y] = direction(centre, at).filter(|_| arc.sweep.is_finite())?;
             Some(if arc.sweep > 0.0 { [-y, x] } else { [y, -x] })
         };
+        let ends = [[x0, y0], [x1, y1]];
+        let arc_at = |at: [f64; 2]| Cut { z: z1, heads: heads(at), is_arc: true, is_plunge: false, ends };
         if let Some(way) = way.filter(|way| is_flat && !way.is_lifted) {
-            self.judge(cx, &way, Cut { z: z1, heads: heads([x0, y0]), is_arc: true });
+            self.judge(cx, &way, arc_at([x0, y0]));
         }
-        (z1 < SURFACE && is_flat).then_some(Cut { z: z1, heads: heads([x1, y1]), is_arc: true })
+        (z1 < SURFACE && is_flat).then(|| arc_at([x1, y1]))
     }
 
     /// Rapid moves before a cut at their depth.
@@ -353,7 +402,10 @@ impl RapidBetweenCuts {
                 (way.behind.and_then(|cut| cut.heads), next.heads),
                 (Some(behind), Some(next)) if !is_along(behind, next)
             );
-        if is_within || is_tangent || is_angled {
+        let is_back = way.pieces == 1
+            && way.is_new == Some(true)
+            && way.behind.is_some_and(|behind| goes_back_across(&behind, first, &next));
+        if is_within || is_tangent || is_angled || is_back {
             let message = match way.behind {
                 Some(_) => "rapid move at depth between two cuts",
                 None => "rapid moves at depth lead straight into a cut",
@@ -361,7 +413,7 @@ impl RapidBetweenCuts {
             let next =
                 if into_arc { "an arc goes on straight" } else { "this goes on cutting at the same depth" };
             let finding = tell(cx, way, message, next)
-                .at_most(if is_within || is_tangent { Severity::Warning } else { Severity::Info })
+                .at_most(if is_within || is_tangent || is_back { Severity::Warning } else { Severity::Info })
                 .help("write `G1` if this belongs to the contour; else retract the tool before it");
             self.keep(way, Some(finding));
         } else if way.behind.is_some() && way.is_new == Some(true) {
@@ -394,9 +446,24 @@ impl RapidBetweenCuts {
         }
     }
 
+    /// Rapid moves sideways out of a hole, and up after that.
+    fn judge_drag(&mut self, cx: &PathCx<'_>, way: &Way) {
+        let is_out_of_hole = way.behind.is_some_and(|cut| cut.is_plunge) && way.is_new == Some(true);
+        let turns = cx.state().spindle() != Some(Spindle::Stopped);
+        if is_out_of_hole && turns && !self.is_dragged(way) && self.dragged.len() < MOST_DRAGGED {
+            let message = "rapid move sideways with the tool down in its hole";
+            let finding = tell(cx, way, message, "the tool is lifted only here");
+            self.dragged.push(finding.help("retract the tool from the part before the rapid move"));
+        }
+    }
+
+    fn is_dragged(&self, way: &Way) -> bool {
+        self.dragged.iter().any(|finding| finding.range == way.bytes)
+    }
+
     /// Rapid moves from a cut to where the tool is fed down.
     fn judge_plunge(&mut self, cx: &PathCx<'_>, way: &Way) {
-        if way.is_new == Some(true) {
+        if way.is_new == Some(true) && !self.is_dragged(way) {
             let message = "rapid move at depth to where the tool goes down next";
             let finding = tell(cx, way, message, "the tool is fed down here");
             self.keep(way, Some(finding.help("retract the tool from the part before the rapid move")));
@@ -433,6 +500,24 @@ impl RapidBetweenCuts {
 /// Does an arc go on straight in this direction, or come from it?
 fn goes_on(cut: &Cut, heads: [f64; 2]) -> bool {
     cut.is_arc && cut.heads.is_some_and(|own| is_along(own, heads) && dot(own, heads) > 0.0)
+}
+
+/// Does a way lead from the end of a straight cut back along it, and across to where a parallel cut begins beside it? Then it
+/// crosses what lies between the two.
+fn goes_back_across(behind: &Cut, heads: [f64; 2], next: &Cut) -> bool {
+    let (Some(own), Some(other)) = (behind.heads, next.heads) else { return false };
+    if behind.is_arc || next.is_arc || !is_along(own, other) || is_along(own, heads) {
+        return false;
+    }
+    let span = |[from, to]: [[f64; 2]; 2]| {
+        let (from, to) = (dot(from, own), dot(to, own));
+        (from.min(to), from.max(to))
+    };
+    let ((low, high), (next_low, next_high)) = (span(behind.ends), span(next.ends));
+    let shared = high.min(next_high) - low.max(next_low);
+    let half = (high - low).min(next_high - next_low) / 2.0;
+    let back = dot(behind.ends[1], own) - dot(next.ends[0], own);
+    shared > half && back > half.max(SHORT)
 }
 
 fn tell(cx: &PathCx<'_>, way: &Way, message: &str, why: &str) -> Finding {
@@ -536,6 +621,55 @@ mod tests {
               | ^^^^^^ info[rapid-between-cuts] rapid move at depth between two cuts
         "#]],
         );
+    }
+
+    #[test]
+    fn sideways_out_of_a_hole() {
+        let holes = |speed: &str, lift: &str| {
+            let hole = |x: u8| format!("G0 X{x}0.\nZ2.\nG1 Z-9. F90.\n{lift}");
+            let holes: String = (1..=4).map(hole).collect();
+            format!("G21 G90 G54 G0 X0. Y0. Z5. {speed}\n{holes}G0 Z5.\nM30\n")
+        };
+        check_rule(&RULE, "haas-mill", &holes("S900 M3", "G0 Z2.\n"), &expect![[""]]);
+        check_rule(
+            &RULE,
+            "haas-mill",
+            &holes("S900 M3", ""),
+            &expect![[r#"
+            5 | G0 X20.
+              | ^^^^^^^ warning[rapid-between-cuts] rapid move sideways with the tool down in its hole
+            8 | G0 X30.
+              | ^^^^^^^ warning[rapid-between-cuts] rapid move sideways with the tool down in its hole
+            11 | G0 X40.
+               | ^^^^^^^ warning[rapid-between-cuts] rapid move sideways with the tool down in its hole
+        "#]],
+        );
+        // A tool that does not turn drills nothing.
+        check_rule(&RULE, "haas-mill", &holes("", "").replace("X20.", "X20. Y40."), &expect![[""]]);
+        // Along a slot that was cut before.
+        let slot = "G21 G90 G54 G0 X0. Y0. Z5. S900 M3\nG1 Z-9. F90.\nX40.\nG0 Z5.\nX0.\nG1 Z-9.\nG0 X40.\nZ5.\nM30\n";
+        check_rule(&RULE, "haas-mill", slot, &expect![[""]]);
+    }
+
+    #[test]
+    fn back_and_across_to_the_next_slot() {
+        let slots = |to: &str| {
+            format!("G20 G90 G54 G0 X1. Y1.\nG43 H1 Z.1\nG1 Z-.2 F8.\nX3. F30.\n{to}\nG0 Z1.\nM30\n")
+        };
+        check_rule(
+            &RULE,
+            "haas-mill",
+            &slots("G0 X1. Y2.5\nG1 X3."),
+            &expect![[r#"
+            5 | G0 X1. Y2.5
+              | ^^^^^^^^^^^ warning[rapid-between-cuts] rapid move at depth between two cuts
+        "#]],
+        );
+        // Square to the next pass, so near that the way is open, and around the outside.
+        check_rule(&RULE, "haas-mill", &slots("G0 Y2.5\nG1 X1."), &expect![[""]]);
+        check_rule(&RULE, "haas-mill", &slots("G0 X1. Y1.2\nG1 X3."), &expect![[""]]);
+        check_rule(&RULE, "haas-mill", &slots("G0 X4. Y2.5\nG1 X6."), &expect![[""]]);
+        check_rule(&RULE, "haas-mill", &slots("G0 Z.1\nX1. Y2.5\nG1 Z-.2\nX3."), &expect![[""]]);
     }
 
     #[test]

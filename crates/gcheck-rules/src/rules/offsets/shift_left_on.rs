@@ -54,6 +54,13 @@ struct ShiftLeftOn {
 
 remembers!(ShiftLeftOn: set);
 
+/// Does the end of a program clear the shift, as a configured setting says? `None` where none is configured.
+fn is_cleared(cx: &PathCx<'_>) -> Option<bool> {
+    let decides = cx.model.semantics().shift_cleared_at_end.as_ref()?;
+    let (value, assumed) = cx.environment.setting(&decides.setting)?;
+    assumed.is_none().then(|| decides.values.iter().any(|own| own == value))
+}
+
 impl PathRule for ShiftLeftOn {
     fn memory(&mut self) -> Remembers<'_> {
         Remembers::All(self)
@@ -120,6 +127,10 @@ impl ShiftLeftOn {
         } else {
             format!("end the program with `{name} X0. Y0. Z0.`")
         };
+        let cleared = is_cleared(cx).filter(|_| cx.model.effect(code) == Effect::LocalShift);
+        if cleared == Some(true) {
+            return;
+        }
         let finding = cx
             .finding(
                 &META,
@@ -127,9 +138,14 @@ impl ShiftLeftOn {
                 format!("the shift{of} is still on at the end of the program (`{name}`)"),
             )
             .label("what runs next may begin with it")
-            .assuming("the end of the program keeps the shift, as a parameter or setting decides")
             .help(help)
             .at_most(if is_set_position { Severity::Info } else { Severity::Warning });
+        let finding = match cleared {
+            Some(_) => finding,
+            None => {
+                finding.assuming("the end of the program keeps the shift, as a parameter or setting decides")
+            }
+        };
         let set_here = cx.find_word(at, |word| word.code == code);
         report.add(match set_here {
             Some(range) => finding.also(range, format!("`{name}` set here")),

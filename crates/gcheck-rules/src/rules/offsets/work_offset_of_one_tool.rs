@@ -6,7 +6,7 @@ use gcheck_lint::work_offset_name;
 
 use crate::declare::declare_rule;
 use crate::facts::offset_schemes::whole;
-use crate::{Finding, FinishCx, PathCx, PathRule, Report, Run, Uses, Watch};
+use crate::{Finding, FollowedCx, PathCx, PathRule, Report, Run, Uses, Watch};
 use crate::{Remembers, remembers};
 
 declare_rule! {
@@ -52,7 +52,7 @@ declare_rule! {
         sets: [Strict],
         since: "0.1.0",
         run: Run::Path {
-            watch: Watch::CUTS.union(Watch::FINISH),
+            watch: Watch::CUTS.union(Watch::FOLLOWED),
             make: || Box::new(WorkOffsetOfOneTool::default()),
         },
     }
@@ -115,7 +115,7 @@ impl PathRule for WorkOffsetOfOneTool {
         self.works.push(Work { section, tool, offset, finding });
     }
 
-    fn finish(&mut self, cx: &FinishCx<'_>, report: &mut Report<'_>) {
+    fn followed(&mut self, cx: &FollowedCx<'_>, report: &mut Report<'_>) {
         let Some(first) = self.works.first().map(|work| work.offset) else { return };
         let in_offset = |offset: u16| self.works.iter().filter(move |work| work.offset == offset);
         let usual = self.works.iter().map(|work| work.offset);

@@ -1,5 +1,6 @@
 //! A measurement between two touches without the first one.
 
+use gcheck_controls::Effect;
 use gcheck_engine::Touch;
 
 use crate::declare::declare_rule;
@@ -61,15 +62,30 @@ fn finding(cx: &PathCx<'_>) -> crate::Finding {
     let name = probing_code(cx).map(|code| cx.name_of(code)).unwrap_or_default();
     let keep = keeping_code(cx);
     let message = format!("`{name}` measures between two touches, but no first touch was kept");
+    let finding = cx.finding(&META, range, message).label("the second touch; the first is missing");
+    if let Some(passed) = passed_by(cx) {
+        return finding.also(passed, "this way skips the first touch").help(
+            "make every way to the second touch run the first: without `/` and without a jump over it",
+        );
+    }
     let note = if cx.state().touched() == Touch::None {
         "there is no probing move before it".to_owned()
     } else {
         format!("the probing moves before it keep no point: they have no `{keep}`")
     };
-    cx.finding(&META, range, message)
-        .label("the second touch; the first is missing")
+    finding
         .note(note)
         .help(format!("touch the first side with `G31 … F… {keep}`, move to the other side, then measure"))
+}
+
+/// A code in the text before the block that keeps a touch; no path to the block executes it.
+fn passed_by(cx: &PathCx<'_>) -> Option<std::ops::Range<u32>> {
+    let control = cx.control();
+    let mut codes = cx.survey.codes.iter();
+    let keeps = |number| {
+        control.code_at(control.code_ix(number)).is_some_and(|code| code.effect() == Effect::KeepTouch)
+    };
+    codes.find(|(number, at)| keeps(*number) && at.end <= cx.range().start).map(|(_, at)| at.clone())
 }
 
 #[cfg(test)]
@@ -103,6 +119,24 @@ mod tests {
                   |     ^^^^ error[first-touch-missing] `G136` measures between two touches, but no first touch was kept
             "#]],
         );
+    }
+
+    #[test]
+    fn a_first_touch_that_the_way_leads_past_is_shown() {
+        let found = findings(
+            &only(&RULE),
+            "haas-mill",
+            "G91\n/G31 Y-1. F10. M75\nG136 Y1. F10.\nG90\nM30\n",
+            &World::default(),
+        );
+        expect![[r#"
+            `G136` measures between two touches, but no first touch was kept
+              here: the second touch; the first is missing
+              there: this way skips the first touch
+              note: it holds with block delete on, when the control skips blocks with `/`
+              help: make every way to the second touch run the first: without `/` and without a jump over it
+        "#]]
+        .assert_eq(&found.iter().map(words).collect::<String>());
     }
 
     #[test]

@@ -58,7 +58,8 @@ impl PathRule for ProbeFeedTooHigh {
         // Of several possible feeds the lowest counts.
         let Some((lowest, _)) = Abstract::bounds(cx.state().feed()) else { return };
         let feed = lowest / units.in_mm();
-        if feed <= fastest * (1.0 + 1e-9) {
+        // The limit itself is too fast.
+        if feed < fastest * (1.0 - 1e-9) {
             return;
         }
         let finding = cx
@@ -86,11 +87,13 @@ mod tests {
         check_rule(
             &RULE,
             "haas-mill",
-            "G21 G91 G31 Y-1. F3000. M79\nG31 Y-1. F2500.\nG36 Y-1. F4000.\nG90\nM30\n",
+            "G21 G91 G31 Y-1. F3000. M79\nG31 Y-1. F2499.\nG31 Y-1. F2500.\nG36 Y-1. F4000.\nG90\nM30\n",
             &expect![[r#"
                 1 | G21 G91 G31 Y-1. F3000. M79
                   |                  ^^^^^^ warning[probe-feed-too-high] probing at 3000 mm/min (`F`)
-                3 | G36 Y-1. F4000.
+                3 | G31 Y-1. F2500.
+                  |          ^^^^^^ warning[probe-feed-too-high] probing at 2500 mm/min (`F`)
+                4 | G36 Y-1. F4000.
                   |          ^^^^^^ warning[probe-feed-too-high] probing at 4000 mm/min (`F`)
             "#]],
         );

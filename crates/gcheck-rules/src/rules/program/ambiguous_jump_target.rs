@@ -51,6 +51,8 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
     }
     let index = label_index(cx);
     let mut told: BTreeSet<(u32, u32)> = BTreeSet::new();
+    let places =
+        cx.places(cx.survey.jumps.iter().filter_map(|jump| Some((jump.target?, jump.range.clone()))));
     for jump in &cx.survey.jumps {
         let Some(target) = jump.target else { continue };
         let word = target_word(cx, jump.code, WordKind::Label, cx.slice(jump.range.clone()));
@@ -61,7 +63,8 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
         if let [first, second, ..] = index.within(target, &program)
             && told.insert((program.start, target))
         {
-            report.add(finding(jump, first, second));
+            let same = places.get(&target).map_or(&[][..], Vec::as_slice);
+            report.add(cx.if_run(finding(jump, first, second), same));
         }
     }
 }

@@ -58,7 +58,8 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
         let word = target_word(cx, jump.code, WordKind::Label, cx.slice(jump.range.clone()));
         let is_elsewhere = word.is_some_and(|(_, word)| word.elsewhere);
         if !is_elsewhere && index.within(target, &program_around(cx, jump.range.start)).is_empty() {
-            report.add(finding(jump, target, word, index.all(target).first().copied()));
+            let finding = finding(jump, target, word, index.all(target).first().copied());
+            report.add(cx.if_run(finding, std::slice::from_ref(&jump.range)));
         }
     }
 }

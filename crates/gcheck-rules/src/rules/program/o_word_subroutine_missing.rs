@@ -47,6 +47,10 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
         cx.survey.o_words.iter().filter(|o| o.keyword == OKeyword::Sub).map(|o| &o.label).collect();
     let programs: HashSet<u32> = cx.survey.programs.iter().filter_map(|p| p.number).collect();
     let mut told: HashSet<&OLabel> = HashSet::new();
+    let places = cx.places(cx.survey.calls.iter().filter_map(|call| match &call.target {
+        CallKind::OWord(label) => Some((label, call.range.clone())),
+        _ => None,
+    }));
     for call in &cx.survey.calls {
         let CallKind::OWord(label) = &call.target else { continue };
         if told.contains(&label) {
@@ -58,14 +62,15 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
             OLabel::Number(number) => {
                 here()
                     || programs.contains(number)
-                    || cx.environment.programs.has_number(*number)
+                    // In another file its name counts, not the number of a program in it.
                     || cx.environment.programs.has_name(&number.to_string())
             }
             OLabel::Name(name) => here() || cx.environment.programs.has_name(name),
         };
         if !known {
             told.insert(label);
-            report.add(finding(call, label));
+            let same = places.get(label).map_or(&[][..], Vec::as_slice);
+            report.add(cx.if_run(finding(call, label), same));
         }
     }
 }

@@ -7,7 +7,7 @@ use gcheck_program::OKeyword;
 
 use crate::declare::declare_rule;
 use crate::facts::sections::{Section, keeps_programs_by_number, sections};
-use crate::{FileCx, Finding, Fix, Report, Run};
+use crate::{FileCx, Finding, Fix, Report, Run, Severity};
 use gcheck_lint::line_end;
 
 declare_rule! {
@@ -84,7 +84,8 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
         let jumps_at_end = is_last && survey.jumps.iter().any(|j| last.contains(&j.range.start));
         if !jumps_at_end {
             let fix = if is_last { end(cx, last) } else { None };
-            report.add(finding(cx, section, is_last.then(|| last.clone())).fix_if(fix));
+            let found = finding(cx, section, is_last.then(|| last.clone())).fix_if(fix);
+            report.add(if syntax.program_end_optional { as_streamed(found) } else { found });
         }
     }
 }
@@ -112,6 +113,16 @@ fn finding(cx: &FileCx<'_>, section: &Section<'_>, last: Option<Range<u32>>) -> 
         .label(if is_at_block { "the last block" } else { "no `M30`, `M2` or `M99` before the next program" })
         .note("at the end of the text the control stops with an alarm or with everything still on  [general knowledge]")
         .help("end the program with `M30`, a subprogram with `M99`; check that the file is complete")
+}
+
+/// On a control that is sent one line after the other.
+fn as_streamed(mut finding: Finding) -> Finding {
+    finding.notes.clear();
+    finding
+        .note(
+            "the control stops after the last line that is sent; spindle, coolant and modes stay as they are",
+        )
+        .at_most(Severity::Info)
 }
 
 /// An end of the program on the line below the last block.

@@ -57,6 +57,10 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
     }
     let programs = Programs::new(cx.environment, cx.survey);
     let mut told: BTreeSet<u32> = BTreeSet::new();
+    let places = cx.places(cx.survey.calls.iter().filter_map(|call| match call.target {
+        CallKind::Program(number) => Some((number, call.range.clone())),
+        _ => None,
+    }));
     for call in &cx.survey.calls {
         let CallKind::Program(number) = call.target else { continue };
         if told.contains(&number) {
@@ -68,7 +72,8 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
         };
         if let Some(missing) = programs.missing(number, word) {
             told.insert(number);
-            report.add(finding(call, code, missing));
+            let same = places.get(&number).map_or(&[][..], Vec::as_slice);
+            report.add(cx.if_run(finding(call, code, missing), same));
         }
     }
 }

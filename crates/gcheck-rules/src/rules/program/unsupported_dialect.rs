@@ -45,7 +45,7 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
         Finding::new(&META, first, format!("the file is for {}, which gcheck does not read", dialect.name))
             .note(format!("it looks like {}  [{}]", dialect.reads, dialect.source))
             .note("no other rule is run on it")
-            .help("leave such files out (`exclude` in `gcheck.toml`), or choose a control (`control = …`) to check it all the same"),
+            .help("leave such files out (`exclude` under `[files]` in `gcheck.toml`), or name a control (`control = …`) to check it all the same"),
     );
 }
 

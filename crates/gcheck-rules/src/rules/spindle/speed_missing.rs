@@ -66,9 +66,8 @@ impl PathRule for SpeedMissing {
         }
         let set_by = cx.trace().set_by(Fact::Speed);
         // A laser is off at `S0`, and its blocks that move say so, long after it was started.
-        if set_by != started_by
-            && set_by.and_then(|at| cx.place_of(at)).is_some_and(|place| names_axes(cx, &place))
-        {
+        let moves = |place: Place| cx.has_axis_among(place.block().letters);
+        if set_by != started_by && set_by.and_then(|at| cx.place_of(at)).is_some_and(moves) {
             return;
         }
         self.told = started_by;
@@ -108,11 +107,6 @@ fn start_code(cx: &PathCx<'_>, at: At) -> Option<String> {
     let words = place.table.words(place.block()).iter();
     let code = words.map(|word| word.code).find(|code| code.is_some() && is_start(cx.model.effect(*code)))?;
     Some(cx.name_of(code))
-}
-
-fn names_axes(cx: &PathCx<'_>, place: &Place) -> bool {
-    let is_axis = |letter| cx.control().letter(letter).is_some_and(|entry| entry.axis);
-    place.block().letters.iter().any(is_axis)
 }
 
 #[cfg(test)]

@@ -1,13 +1,15 @@
 //! A cut while the spindle is stopped.
 
-use gcheck_controls::{Code, Effect};
+use gcheck_controls::{Code, CodeIx, Effect};
 use gcheck_engine::{Abstract, At, Domain, Event, Fact, Fault, FeedMode, Role, Spindle, Truth};
 
 use crate::declare::declare_rule;
 use crate::facts::cutting::{is_cut, starts_spindle};
 use crate::facts::cycles::cycle_code;
 use crate::facts::feed::goes_by_feed;
+use crate::facts::live_tool::{LiveTool, live_tool};
 use crate::facts::probing::is_near;
+use crate::facts::tool_words::ToolWords;
 use crate::{Finding, PathCx, PathRule, Report, Run, Severity, Watch, limit};
 use crate::{Remembers, remembers};
 
@@ -49,6 +51,16 @@ declare_rule! {
     /// G1 X20. F0.2
     /// M5
     /// G94 G1 Z50. F500.
+    /// M30
+    /// ```
+    /// A bar puller grips the bar with the spindle stopped, and a chuck that opens lets it out.
+    /// ```nc,quiet,fanuc-lathe
+    /// G21 G99 T0909 (BAR PULLER)
+    /// G97 S500 M3
+    /// M5
+    /// G0 X0 Z-35.
+    /// G98 G1 Z-50. F2000
+    /// M69
     /// M30
     /// ```
     /// A feed move straight up is a retract, not a cut.
@@ -151,7 +163,11 @@ impl PathRule for SpindleStoppedWhileCutting {
         if self.told.contains(&stopped_by) || !is_ever_started && !self.told.is_empty() {
             return;
         }
-        if is_near(cx, probes) {
+        if is_near(cx, probes) || feeds_bar(cx) || ToolWords::of(cx).needs_no_spindle() {
+            return;
+        }
+        let live = live_tool(cx);
+        if live == LiveTool::MayTurn {
             return;
         }
         self.told.push(stopped_by);
@@ -165,6 +181,11 @@ impl PathRule for SpindleStoppedWhileCutting {
             (Some(at), false) if self.is_oriented => {
                 format!("cut with the spindle held at an angle (`{}`)", stop_code(cx, at))
             }
+            (Some(at), false) if stop_effect(cx, at) == Some(Effect::ToolChange) => format!(
+                "no `{}` since the tool change (`{}` stopped the spindle)",
+                cx.name_of_effect(Effect::SpindleClockwise).unwrap_or_else(|| "M3".to_owned()),
+                stop_code(cx, at)
+            ),
             (Some(at), false) => format!("cut after the spindle was stopped (`{}`)", stop_code(cx, at)),
             (None, false) => "cut, and the spindle was not started (no `M3`)".to_owned(),
             (Some(at), true) => {
@@ -176,12 +197,11 @@ impl PathRule for SpindleStoppedWhileCutting {
             .finding(&META, cx.range(), message)
             .label(match (needs_turns, is_ever_started) {
                 (true, _) => "the axes wait for the spindle, which does not turn",
+                (false, _) if live == LiveTool::Stands => "neither the spindle nor a live tool turns here",
                 (false, true) => "the spindle does not turn here",
                 (false, false) => "the program never starts the spindle",
             })
-            .help(
-                "start the spindle with `S` and `M3` or `M4`; probing, engraving and drag knives are exceptions to suppress",
-            )
+            .help(help(cx, live, needs_turns))
             .at_most(Severity::Warning);
         // `S` may be a laser's power if no tool is changed.
         let is_mill = is_ever_started || has_length || cx.file_uses(|effect| effect == Effect::ToolChange);
@@ -206,6 +226,43 @@ impl PathRule for SpindleStoppedWhileCutting {
             .help("start the spindle with `S` and `M3` or `M4` before this block");
         report.add(refused(cx, since(cx, finding, cx.trace().set_by(Fact::Spindle))));
     }
+}
+
+fn help(cx: &PathCx<'_>, live: LiveTool, needs_turns: bool) -> String {
+    if live != LiveTool::Stands {
+        return "start the spindle with `S` and `M3` or `M4`; probing, engraving and drag knives are exceptions to suppress"
+            .to_owned();
+    }
+    let start = match cx.name_of_effect(Effect::LiveToolOn) {
+        Some(name) => format!("start the live tool with `{name}` and its speed"),
+        None => "start the live tool with the code of the machine builder and its speed".to_owned(),
+    };
+    let mode = if needs_turns { ", and feed per minute" } else { "" };
+    format!("{start}{mode}; the spindle holds the part as the C axis, so `M3` does not help")
+}
+
+/// Blocks beside the move in which a chuck that opens or closes shows that bar is fed.
+const BESIDE: u32 = 4;
+
+/// Does a chuck or collet open or close beside the block, with no tool change and no start of the spindle between them?
+fn feeds_bar(cx: &PathCx<'_>) -> bool {
+    let here = cx.origin().at;
+    let shows = |block: u32| {
+        let place = cx.place_of(At { block, ..here })?;
+        let words = place.table.words(place.block());
+        let effects = words.iter().map(|word| cx.model.effect(word.code));
+        if effects.clone().any(|effect| matches!(effect, Effect::ChuckClamp | Effect::ChuckUnclamp)) {
+            return Some(true);
+        }
+        let by_t = cx.model.semantics().tools.change_by_t;
+        let parts = effects.clone().any(starts_spindle)
+            || by_t && words.iter().any(|word| word.letter.ascii() == b'T');
+        parts.then_some(false)
+    };
+    let first = here.block.saturating_sub(BESIDE);
+    let before = (first..=here.block).rev().find_map(shows);
+    let after = (here.block + 1..=here.block.saturating_add(BESIDE)).find_map(shows);
+    !cx.is_mill() && (before == Some(true) || after == Some(true))
 }
 
 /// The control refuses the block: an error where the program itself stopped the spindle, on every path.
@@ -241,12 +298,18 @@ fn stops(effect: Effect) -> bool {
 
 /// The code that stopped the spindle, as programs write it.
 fn stop_code(cx: &PathCx<'_>, at: At) -> String {
-    let place = cx.place_of(at);
-    let code = place.and_then(|place| {
-        let mut words = place.table.words(place.block()).iter();
-        words.find(|word| stops(cx.model.effect(word.code))).map(|word| word.code)
-    });
-    code.map_or_else(|| "M5".to_owned(), |code| cx.name_of(code))
+    stopping(cx, at).map_or_else(|| "M5".to_owned(), |code| cx.name_of(code))
+}
+
+fn stop_effect(cx: &PathCx<'_>, at: At) -> Option<Effect> {
+    stopping(cx, at).map(|code| cx.model.effect(code))
+}
+
+/// The code of a block that stops the spindle.
+fn stopping(cx: &PathCx<'_>, at: At) -> Option<CodeIx> {
+    let place = cx.place_of(at)?;
+    let mut words = place.table.words(place.block()).iter();
+    words.find(|word| stops(cx.model.effect(word.code))).map(|word| word.code)
 }
 
 /// Is it a cycle that stops the spindle at an angle to bring the tool off the wall?
@@ -328,7 +391,7 @@ mod tests {
             "S1000 M3\nG1 X1. F10.\nT20 M6\nG31 Y1. F8.\nT2 M6\nG1 X2. F10.\nM30\n",
             &expect![[r#"
                 6 | G1 X2. F10.
-                  | ^^^^^^^^^^^ info[spindle-stopped-while-cutting] cut after the spindle was stopped (`M6`)
+                  | ^^^^^^^^^^^ info[spindle-stopped-while-cutting] no `M3` since the tool change (`M6` stopped the spindle)
             "#]],
         );
     }
@@ -343,7 +406,7 @@ mod tests {
                 4 | G1 X3.
                   | ^^^^^^ warning[spindle-stopped-while-cutting] cut after the spindle was stopped (`M5`)
                 8 | G1 X5.
-                  | ^^^^^^ warning[spindle-stopped-while-cutting] cut after the spindle was stopped (`M6`)
+                  | ^^^^^^ warning[spindle-stopped-while-cutting] no `M3` since the tool change (`M6` stopped the spindle)
             "#]],
         );
     }
@@ -375,7 +438,7 @@ mod tests {
             "T1 M6\nS1000\nG1 X2. F10.\nM30\n",
             &expect![[r#"
                 3 | G1 X2. F10.
-                  | ^^^^^^^^^^^ warning[spindle-stopped-while-cutting] cut after the spindle was stopped (`M6`)
+                  | ^^^^^^^^^^^ warning[spindle-stopped-while-cutting] no `M3` since the tool change (`M6` stopped the spindle)
             "#]],
         );
     }
@@ -426,6 +489,70 @@ mod tests {
     #[test]
     fn a_live_tool_turns() {
         check_rule(&RULE, "haas-lathe", "T101\nP1000 M133\nG1 X2. F.01\nM135\nM30\n", &expect![[""]]);
+    }
+
+    #[test]
+    fn a_live_tool_is_started_by_its_own_code() {
+        let program = "G21 G98 T0303\nG97 S900 M3\nG1 X20. F99.\nM5\nM154\nG0 C90.\nG1 X10. F60.\nM30\n";
+        let found = findings(&only(&RULE), "haas-lathe", program, &World::default());
+        expect![[r#"
+            cut after the spindle was stopped (`M5`)
+              here: neither the spindle nor a live tool turns here
+              there: stopped here
+              help: start the live tool with `M133` and its speed; the spindle holds the part as the C axis, so `M3` does not help
+        "#]].assert_eq(&found.iter().map(words).collect::<String>());
+        let found = findings(&only(&RULE), "fanuc-lathe", &program.replace("M154\n", ""), &World::default());
+        expect![[r#"
+            cut after the spindle was stopped (`M5`)
+              here: neither the spindle nor a live tool turns here
+              there: stopped here
+              help: start the live tool with the code of the machine builder and its speed; the spindle holds the part as the C axis, so `M3` does not help
+        "#]].assert_eq(&found.iter().map(words).collect::<String>());
+        // A function of the machine builder with a speed.
+        check_rule(&RULE, "fanuc-lathe", &program.replace("M154", "M33 S1500"), &expect![[""]]);
+        check_rule(
+            &RULE,
+            "fanuc-lathe",
+            "G21 G98 T0303\nG97 S900\nM33 S1500\nG0 X20. C0\nG1 X10. F60.\nM30\n",
+            &expect![[""]],
+        );
+    }
+
+    #[test]
+    fn tools_that_need_no_spindle() {
+        for comment in ["DRAG KNIFE", "BROACH 6MM", "ENGRAVER, SPINDLE OFF", "PROBE"] {
+            let program = format!("S900 M3\nG1 X1. F9.\nT5 M6 ({comment})\nG1 X2.\nM30\n");
+            check_rule(&RULE, "haas-mill", &program, &expect![[""]]);
+        }
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "S900 M3\nG1 X1. F9.\nT5 M6 (1/2 END MILL)\nG1 X2.\nM30\n",
+            &expect![[r#"
+                4 | G1 X2.
+                  | ^^^^^^ warning[spindle-stopped-while-cutting] no `M3` since the tool change (`M6` stopped the spindle)
+            "#]],
+        );
+    }
+
+    #[test]
+    fn a_bar_is_fed_with_the_chuck_open() {
+        let program = |code: &str| {
+            format!(
+                "G21 G99 T0101\nG97 S900 M3\nG1 X20. F.2\nM5\nG0 X0 Z2.\n{code}\nG98 G1 Z-50. F2000.\nM30\n"
+            )
+        };
+        check_rule(&RULE, "fanuc-lathe", &program("M69"), &expect![[""]]);
+        check_rule(&RULE, "haas-lathe", &program("M11"), &expect![[""]]);
+        check_rule(
+            &RULE,
+            "fanuc-lathe",
+            &program("M8"),
+            &expect![[r#"
+            7 | G98 G1 Z-50. F2000.
+              | ^^^^^^^^^^^^^^^^^^^ warning[spindle-stopped-while-cutting] cut after the spindle was stopped (`M5`)
+        "#]],
+        );
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! A block-delete sign on a control that passes over it.
+//! A block-delete sign on a control that ignores it.
 
 use gcheck_controls::Confidence;
 use gcheck_program::BlockFlags;
@@ -25,7 +25,7 @@ declare_rule! {
     /// G0 X10 (with / in a comment)
     /// ```
     rule "block-delete-not-read" in "syntax" {
-        summary: "block-delete sign that the control passes over",
+        summary: "block-delete sign that the control ignores",
         severity: Warning,
         tier: Block,
         since: "0.1.0",
@@ -50,7 +50,7 @@ fn finding(cx: &BlockCx<'_>) -> Finding {
     let start = cx.block().range.start;
     let at = cx.block_text().find('/').map_or(start, |at| start + at as u32);
     Finding::new(&META, cx.in_file(at..at + 1), "block delete `/` does not skip this block")
-        .label("the control passes over this sign")
+        .label("the control ignores this sign")
         .note(format!("{} has no block delete: the block runs every time", cx.control().title()))
         .help("remove the block, or make a second program without it")
 }

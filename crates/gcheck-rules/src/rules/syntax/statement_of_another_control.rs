@@ -61,6 +61,12 @@ fn finding(cx: &BlockCx<'_>, error: &SyntaxError, form: ForeignForm) -> Finding 
         ForeignForm::MacroStatement => {
             (format!("`{written}` is not a statement of this control"), "write it without macro statements")
         }
+        ForeignForm::Variable => {
+            (format!("variable `{written}` on a control without variables"), "write the number itself")
+        }
+        ForeignForm::Expression => {
+            ("expression on a control that does not compute".to_owned(), "write the number itself")
+        }
         ForeignForm::NamedParameter => {
             (format!("named parameter `{written}` on a control without names"), "use a numbered variable")
         }
@@ -100,6 +106,21 @@ mod tests {
                 3 | #1=#2**2
                   |      ^^ error[statement-of-another-control] operator `**` does not exist on this control
             "#]],
+        );
+    }
+
+    #[test]
+    fn a_control_may_read_plain_numbers_alone() {
+        check_rule(
+            &RULE,
+            "grbl",
+            "#1=3\nG1 Z[0-#1] F100\n",
+            &expect![[r#"
+            1 | #1=3
+              | ^^ error[statement-of-another-control] variable `#1` on a control without variables
+            2 | G1 Z[0-#1] F100
+              |     ^ error[statement-of-another-control] expression on a control that does not compute
+        "#]],
         );
     }
 

@@ -7,7 +7,7 @@ use crate::declare::declare_rule;
 use crate::facts::boundary::with_tool_change;
 use crate::facts::coolant::CoolantWatch;
 use crate::facts::cutting::is_cut;
-use crate::{Finding, FinishCx, PathCx, PathRule, Report, Run, Uses, Watch};
+use crate::{Finding, FollowedCx, PathCx, PathRule, Report, Run, Uses, Watch};
 use crate::{Remembers, remembers};
 
 declare_rule! {
@@ -50,7 +50,7 @@ declare_rule! {
         tier: Path,
         since: "0.1.0",
         run: Run::Path {
-            watch: Watch::CHANGES.union(Watch::CUTS).union(Watch::FINISH),
+            watch: Watch::CHANGES.union(Watch::CUTS).union(Watch::FOLLOWED),
             make: || Box::new(CoolantForgotten::default()),
         },
     }
@@ -134,7 +134,7 @@ impl PathRule for CoolantForgotten {
         self.dry = Some(with_tool_change(cx, finding));
     }
 
-    fn finish(&mut self, _: &FinishCx<'_>, report: &mut Report<'_>) {
+    fn followed(&mut self, _: &FollowedCx<'_>, report: &mut Report<'_>) {
         // Many programs switch everything off at their end, whatever was on: there one other tool is not evidence.
         let enough = if self.is_last { 2 } else { 1 };
         let is_alone = self.odd_ones == 1 && self.silent == 0 && self.dry.is_none();

@@ -8,7 +8,8 @@ use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// The length of a tool is cancelled (`G49`), and the block moves in Z, or a rapid move in Z follows, that does not rise by the length of a tool.
+    /// The length of a tool is cancelled (`G49`), and the move in Z of this block, or the next rapid move in Z, does not rise by
+    /// the length of a tool.
     ///
     /// ## Why it matters
     /// From there Z is the position of the spindle nose: the tool comes down by its own length, at rapid.
@@ -87,6 +88,10 @@ impl PathRule for LengthCancelledBeforeMove {
             return;
         }
         let Some((at, before)) = self.cancelled.take() else { return };
+        // Another code gives a length again (`G234`, `G143`).
+        if cx.state().effect(Role::Length, cx.model) != Some(Effect::LengthOff) {
+            return;
+        }
         // A later cut is another rule's; in the block that cancels the length a feed goes the same way.
         if travel.kind != TravelKind::Rapid && at != cx.origin().at
             || cx.state().is_incremental(cx.model) != Some(false)
@@ -138,6 +143,14 @@ mod tests {
                   |     ^^^ warning[length-cancelled-before-move] the tool comes down: its length was cancelled before this move (`G49`)
             "#]],
         );
+    }
+
+    #[test]
+    fn another_length_may_follow() {
+        for code in ["G43 H2", "G143 H1", "G234 H1"] {
+            let program = format!("G20 G90 G54 G0 X0. Y0.\nG43 H1 Z1.\nG49\n{code} Z.1\nM30\n");
+            check_rule(&RULE, "haas-mill", &program, &expect![[""]]);
+        }
     }
 
     #[test]

@@ -6,7 +6,7 @@ use gcheck_engine::{Abstract, Domain, Event, Fact, Role};
 use crate::declare::declare_rule;
 use crate::facts::boundary::is_before;
 use crate::facts::offset_schemes::{Pairs, whole};
-use crate::{FinishCx, PathCx, PathRule, Report, Run, Severity, Watch};
+use crate::{FollowedCx, PathCx, PathRule, Report, Run, Severity, Watch};
 use crate::{Remembers, remembers};
 
 declare_rule! {
@@ -62,7 +62,7 @@ declare_rule! {
         fixable: OnRequest,
         since: "0.1.0",
         run: Run::Path {
-            watch: Watch::CUTS.union(Watch::CHANGES).union(Watch::FINISH),
+            watch: Watch::CUTS.union(Watch::CHANGES).union(Watch::FOLLOWED),
             make: || Box::new(LengthOffsetOfAnotherTool { pairs: Pairs::new() }),
         },
     }
@@ -127,7 +127,7 @@ impl PathRule for LengthOffsetOfAnotherTool {
         }
     }
 
-    fn finish(&mut self, cx: &FinishCx<'_>, report: &mut Report<'_>) {
+    fn followed(&mut self, cx: &FollowedCx<'_>, report: &mut Report<'_>) {
         let by_t = cx.model.semantics().tools.offset_in_t;
         for (finding, scheme) in self.pairs.take_odd('H', !by_t) {
             let finding = finding.at_most(if scheme.is_unsure { Severity::Info } else { Severity::Warning });

@@ -7,7 +7,7 @@ use crate::declare::declare_rule;
 use crate::facts::boundary::with_tool_change;
 use crate::facts::coolant::CoolantWatch;
 use crate::facts::cutting::is_cut;
-use crate::{Finding, FinishCx, PathCx, PathRule, Report, Run, Uses, Watch};
+use crate::{Finding, FollowedCx, PathCx, PathRule, Report, Run, Uses, Watch};
 use crate::{Remembers, remembers};
 
 declare_rule! {
@@ -52,7 +52,7 @@ declare_rule! {
         sets: [Strict],
         since: "0.1.0",
         run: Run::Path {
-            watch: Watch::CHANGES.union(Watch::CUTS).union(Watch::FINISH),
+            watch: Watch::CHANGES.union(Watch::CUTS).union(Watch::FOLLOWED),
             make: || Box::new(ToolCutsDry::default()),
         },
     }
@@ -99,7 +99,7 @@ impl PathRule for ToolCutsDry {
         self.dry.push(with_tool_change(cx, finding));
     }
 
-    fn finish(&mut self, _: &FinishCx<'_>, report: &mut Report<'_>) {
+    fn followed(&mut self, _: &FollowedCx<'_>, report: &mut Report<'_>) {
         if self.dry.len() >= self.wet {
             return;
         }

@@ -53,7 +53,8 @@ fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
     };
     for word in cx.words() {
         let is_axis = cx.control().letter(word.letter).is_some_and(|entry| entry.axis);
-        if !is_axis || read.contains(word.letter) || forbidden(word.letter) {
+        let is_disputed = taker.entry().disputed.iter().any(|row| row.letter == word.letter.to_string());
+        if !is_axis || read.contains(word.letter) || forbidden(word.letter) || is_disputed {
             continue;
         }
         let (name, entry) = (taker.number(), taker.entry());

@@ -5,6 +5,7 @@ use gcheck_engine::Fault;
 use gcheck_program::Value;
 
 use crate::declare::declare_rule;
+use crate::facts::beside::unfit;
 use crate::facts::callers::CallerValues;
 use crate::facts::computed_words::{self, refused};
 use crate::{PathCx, PathRule, Report, Run, Severity, Watch, limit};
@@ -77,7 +78,7 @@ impl PathRule for ComputedValueOutOfRange {
         if refused(cx, &self.callers).iter().any(|one| one.is_certain && one.word.letter == *letter) {
             return;
         }
-        if self.callers.may_decide(cx) {
+        if self.callers.may_decide(cx) || is_unfit_for_another(cx, *letter) {
             return;
         }
         // Other rules judge a written number without executing the block.
@@ -105,6 +106,14 @@ impl PathRule for ComputedValueOutOfRange {
         }
         report.add(finding);
     }
+}
+
+/// Does another word of the block decide that the value is wrong? Another rule reports it with that word.
+fn is_unfit_for_another(cx: &PathCx<'_>, letter: Letter) -> bool {
+    cx.codes().iter().filter_map(|code| cx.control().code_at(*code)).any(|code| {
+        let mut words = code.entry().words.iter();
+        words.any(|word| Letter::parse(&word.letter) == Some(letter) && unfit(cx, word, letter).is_some())
+    })
 }
 
 #[cfg(test)]

@@ -4,6 +4,7 @@ use gcheck_controls::{Code, LastingEnd, Letter};
 use gcheck_program::NeverGiven;
 
 use crate::declare::declare_rule;
+use crate::facts::lasting::{first_call_elsewhere, goes_by_way};
 use crate::facts::usage::may_be_called;
 use crate::{FileCx, Finding, Report, Run, Severity, limit};
 
@@ -49,19 +50,27 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
     if may_be_called(survey) || survey.has_mistakes {
         return;
     }
+    let elsewhere = first_call_elsewhere(survey);
     for missing in &survey.never_given {
         if let Some(code) = cx.control().code_at(missing.code)
             && is_first(cx, missing)
+            && !goes_by_way(survey, cx.control(), code, missing.letter)
+            && elsewhere.is_none_or(|call| missing.range.start <= call)
         {
-            report.add(finding(cx, missing, code));
+            let same: Vec<_> = survey.never_given.iter().filter(|other| is_same(other, missing)).collect();
+            let same: Vec<_> = same.into_iter().map(|other| other.range.clone()).collect();
+            report.add(cx.if_run(finding(cx, missing, code), &same));
         }
     }
 }
 
 /// Reported where it is first missing; later blocks miss the same word.
 fn is_first(cx: &FileCx<'_>, missing: &NeverGiven) -> bool {
-    let same = |other: &&NeverGiven| other.code == missing.code && other.letter == missing.letter;
-    cx.survey.never_given.iter().find(same) == Some(missing)
+    cx.survey.never_given.iter().find(|other| is_same(other, missing)) == Some(missing)
+}
+
+fn is_same(one: &NeverGiven, other: &NeverGiven) -> bool {
+    one.code == other.code && one.letter == other.letter
 }
 
 fn finding(cx: &FileCx<'_>, missing: &NeverGiven, code: Code<'_>) -> Finding {
@@ -78,7 +87,11 @@ fn finding(cx: &FileCx<'_>, missing: &NeverGiven, code: Code<'_>) -> Finding {
         missing.range.clone(),
         format!("`{written}` without `{letter}`, which no earlier block gives"),
     )
-    .label(if is_refused { format!("needs {is}") } else { format!("takes {is} from before the program") })
+    .label(if is_refused {
+        format!("needs {is}")
+    } else {
+        format!("uses whatever `{letter}` the last program left")
+    })
     .note(format!("`{}` ({}) uses the last `{letter}`  [{}]", entry.code, entry.title, entry.source))
     .help(format!("add `{letter}` to the block"));
     if is_refused {
@@ -151,6 +164,41 @@ mod tests {
         "#]],
         );
         check_rule(&RULE, "fanuc-mill", &program("D1\n"), &expect![[""]]);
+    }
+
+    #[test]
+    fn a_call_hides_no_word() {
+        let calls = [
+            ("G0 X0.\nM97 P9\n", "N9 G0 X1.\nM99\n"),
+            ("G0 X0.\nM98 P9\n", "O9\nG0 X1.\nM99\n"),
+            (
+                "G150 P9 X0. Y0. Z-0.5 Q0.25 R0.1 I0.2 K0.01 G41 D1 F10.\nG40 X0. Y0.\n",
+                "N9 G1 Y1.\nX1.\nY0.\nM99\n",
+            ),
+        ];
+        for (call, program) in calls {
+            let text = format!("T1 M6\n{call}G161 X1. F5.\nM30\n{program}");
+            check_rule(
+                &RULE,
+                "haas-mill",
+                &text,
+                &expect![[r#"
+                    4 | G161 X1. F5.
+                      | ^^^^ warning[lasting-word-never-given] `G161` without `E`, which no earlier block gives
+                "#]],
+            );
+        }
+        // A program of another file may give the word.
+        check_rule(&RULE, "haas-mill", "T1 M6\nM98 P9\nG83 Z-1. R.1 F5.\nM30\n", &expect![[""]]);
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "T1 M6\nG83 Z-1. R.1 F5.\nM98 P9\nM30\n",
+            &expect![[r#"
+            2 | G83 Z-1. R.1 F5.
+              | ^^^ warning[lasting-word-never-given] `G83` without `Q`, which no earlier block gives
+        "#]],
+        );
     }
 
     #[test]

@@ -14,7 +14,9 @@ declare_rule! {
     /// place at rapid, or feeds a thousand times too slow. A control can be set to read `X10` as ten; the finding names
     /// the setting that it assumes. One finding names all such words of a block. If much of a program is written like
     /// this, the shop's controls are probably set that way, and there is one finding for the file. Values that only
-    /// make sense in least increments, `Z0040000` or `U250` in a roughing cycle, are not reported.
+    /// make sense in least increments, `Z0040000` or `U250` in a roughing cycle, are not reported. In a program in which no
+    /// number has a point and some only make sense in least increments, all count least increments; only values below 100
+    /// are reported there.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -47,16 +49,17 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
     if cx.control().numbers().unpointed == Unpointed::AsWritten {
         return;
     }
+    let in_steps = counts_steps(cx);
     let mut count = 0_usize;
     for block in &cx.survey.unpointed {
-        cx.reread(block.clone(), |block| count += usize::from(!scaled(block).is_empty()));
+        cx.reread(block.clone(), |block| count += usize::from(!scaled(block, in_steps).is_empty()));
     }
     // Single blocks may be slips; a quarter of all blocks is not a slip.
     let is_habit = count >= HABIT && count * 4 > cx.survey.pointed;
     let mut is_told = false;
     for block in &cx.survey.unpointed {
         cx.reread(block.clone(), |block| {
-            let words = scaled(block);
+            let words = scaled(block, in_steps);
             if words.is_empty() {
                 return;
             }
@@ -71,14 +74,34 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
 }
 
 /// The block's words whose value the missing point changes.
-fn scaled<'a>(cx: &BlockCx<'a>) -> Vec<&'a Word> {
+fn scaled<'a>(cx: &BlockCx<'a>, in_steps: bool) -> Vec<&'a Word> {
     if !cx.words_are_plain() {
         return Vec::new();
     }
-    cx.words().iter().filter(|word| is_scaled(cx, word)).collect()
+    cx.words().iter().filter(|word| is_scaled(cx, word, in_steps)).collect()
 }
 
-fn is_scaled(cx: &BlockCx<'_>, word: &Word) -> bool {
+/// Is the program one of least increments throughout: no number with a point, and some that make sense in no other way?
+fn counts_steps(cx: &FileCx<'_>) -> bool {
+    // Most programs have points, and need not be read again.
+    if cx.survey.unpointed.len() <= cx.survey.pointed {
+        return false;
+    }
+    let (mut has_points, mut has_steps) = (false, false);
+    cx.each_block(|block| {
+        for word in block.words() {
+            let Some(value) = word.number() else { continue };
+            let Some(entry) = block.control().letter(word.letter).filter(|entry| entry.scaled) else {
+                continue;
+            };
+            has_points |= word.shape.point;
+            has_steps |= entry.axis && !word.shape.point && is_large(word, value, 10_000.0);
+        }
+    });
+    has_steps && !has_points
+}
+
+fn is_scaled(cx: &BlockCx<'_>, word: &Word, in_steps: bool) -> bool {
     let Some(value) = word.number().filter(|value| *value != 0.0) else { return false };
     let Some(entry) = cx.control().letter(word.letter).filter(|entry| entry.scaled) else { return false };
     let Some(facts) = cx.facts(word) else { return false };
@@ -86,20 +109,26 @@ fn is_scaled(cx: &BlockCx<'_>, word: &Word) -> bool {
         && !word.shape.point
         && matches!(facts.kind, WordKind::Length | WordKind::Angle | WordKind::Feed)
         && (facts.code.is_some() || means_one_thing(cx, word.letter, entry))
-        && !is_deliberate(word, facts.code, entry)
+        && !is_deliberate(word, facts.code, entry, in_steps)
         && !matches!(setting(&cx.environment, entry), Setting::AsWritten)
 }
 
 /// Is the value implausible in whole units? `Z+0040000`, and `U250` for a quarter of a millimetre in a roughing cycle,
 /// are in least increments.
-fn is_deliberate(word: &Word, code: Option<Code<'_>>, entry: &LetterEntry) -> bool {
-    let (digits, value) = (word.shape.whole_digits, word.number().unwrap_or_default().abs());
-    let is_padded = digits >= 4 && value < 10_f64.powi(i32::from(digits) - 1);
+fn is_deliberate(word: &Word, code: Option<Code<'_>>, entry: &LetterEntry, in_steps: bool) -> bool {
     let from = match code.map(Code::motion) {
         Some(Motion::Operation) => 10.0,
         Some(Motion::Cycle) if !entry.axis && entry.kind != WordKind::Feed => 100.0,
+        _ if in_steps => 100.0,
         _ => 10_000.0,
     };
+    is_large(word, word.number().unwrap_or_default(), from)
+}
+
+/// Is the value that large, or padded with zeros?
+fn is_large(word: &Word, value: f64, from: f64) -> bool {
+    let (digits, value) = (word.shape.whole_digits, value.abs());
+    let is_padded = digits >= 4 && value < 10_f64.powi(i32::from(digits) - 1);
     is_padded || value >= from
 }
 
@@ -255,6 +284,37 @@ mod tests {
                 2 | G71 P100 Q101 U2 W50 F0.2
                   |               ^^ warning[missing-decimal-point] decimal point missing: `U2`
             "#]],
+        );
+    }
+
+    #[test]
+    fn a_program_of_least_increments_throughout() {
+        let program = |last: &str| {
+            format!(
+                "G21G17G40G90\nG54G0X-50000Y-30000S1200M3\nG43Z5000H1\nG1Z-4000F120\nX40000\nY30000\nX-40000\n{last}\nG0Z50000\nM30\n"
+            )
+        };
+        check_rule(&RULE, "fanuc-mill", &program("Y-10000"), &expect![[""]]);
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            &program("Y10"),
+            &expect![[r#"
+            8 | Y10
+              | ^^^ warning[missing-decimal-point] decimal point missing: `Y10`
+        "#]],
+        );
+        // A point somewhere else shows that the shop writes them.
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            &program("Y-10."),
+            &expect![[r#"
+            3 | G43Z5000H1
+              |    ^^^^^ warning[missing-decimal-point] decimal point missing: `Z5000`
+            4 | G1Z-4000F120
+              |   ^^^^^^ warning[missing-decimal-point] decimal point missing: `Z-4000`
+        "#]],
         );
     }
 

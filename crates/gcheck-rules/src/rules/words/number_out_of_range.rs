@@ -1,10 +1,10 @@
 //! A value outside the range of its word.
 
-use gcheck_controls::{Code, Letter, WordEntry, WordKind};
+use gcheck_controls::{Code, Letter, Unpointed, WordEntry, WordKind};
 use gcheck_program::{BlockFlags, Word};
 
 use crate::declare::declare_rule;
-use crate::facts::computed_words::{is_among, range_of};
+use crate::facts::computed_words::{gaps_of, is_among, is_in_gap, range_of};
 use crate::{BlockCx, Finding, Reads, Report, Run, Severity, WordFacts, limit};
 
 declare_rule! {
@@ -57,6 +57,7 @@ fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
             continue;
         }
         let Some(facts) = cx.facts(word) else { continue };
+        let value = counted(cx, word, &facts, value);
         let low = facts.min.is_some_and(|min| value < min) || facts.above.is_some_and(|above| value <= above);
         let high = facts.max.is_some_and(|max| value > max);
         // Another rule reports a minus sign that is not accepted.
@@ -75,6 +76,14 @@ fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
             report.add(unlisted(cx, word, &facts));
         }
     }
+}
+
+/// The value that the control takes: a factor without a point counts thousandths where other numbers count steps.
+fn counted(cx: &BlockCx<'_>, word: &Word, facts: &WordFacts<'_>, value: f64) -> f64 {
+    let in_thousandths = facts.kind == WordKind::Ratio
+        && !word.shape.point
+        && cx.control().numbers().unpointed != Unpointed::AsWritten;
+    if in_thousandths { value / 1000.0 } else { value }
 }
 
 /// Is it known what the word is? In a block without its code, the mode in effect may read it.
@@ -121,17 +130,11 @@ fn no_spindle(cx: &BlockCx<'_>, word: &Word, facts: &WordFacts<'_>) -> Finding {
         .at_most(Severity::Warning)
 }
 
-/// Is it between the bounds, where the word has no meaning?
-fn is_in_gap(value: f64, facts: &WordFacts<'_>) -> bool {
-    facts.gaps.iter().any(|[first, last]| (*first..=*last).contains(&value))
-}
-
 fn in_gap(cx: &BlockCx<'_>, word: &Word, facts: &WordFacts<'_>) -> Finding {
     let of = facts.code.map(|code| format!(" for `{}`", cx.written(code))).unwrap_or_default();
-    let gaps: Vec<String> = facts.gaps.iter().map(|[first, last]| format!("{first} to {last}")).collect();
     Finding::new(&META, cx.range(word), format!("value names nothing{of}: `{}`", cx.text(word)))
         .label(facts.is)
-        .note(format!("`{}`{of} cannot be {}  [{}]", word.letter, gaps.join(", "), facts.source))
+        .note(format!("`{}`{of} cannot be {}  [{}]", word.letter, gaps_of(facts), facts.source))
         .help("correct the value")
         .at_most(limit(facts.range_confidence))
 }

@@ -5,6 +5,7 @@ use gcheck_program::{BlockFlags, Word};
 
 use crate::declare::declare_rule;
 use crate::facts::dwell::time_in_other_word;
+use crate::facts::word_sets::letters_of;
 use crate::{BlockCx, Finding, Reads, Report, Run, limit};
 
 declare_rule! {
@@ -54,6 +55,9 @@ fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
             }
             let stands =
                 Letter::parse(&needed.letter).is_none_or(|letter| cx.block().letters.contains(letter));
+            if is_excluded(cx, code, needed) {
+                continue;
+            }
             // Another rule reports a time in a word of another control.
             let is_elsewhere = !stands && time_in_other_word(cx, code).is_some();
             if !stands && !is_elsewhere && is_certain(cx, word, code) {
@@ -63,9 +67,22 @@ fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
     }
 }
 
-/// The word of the block beside which the code needs another one, as data writes it: `L2`.
+/// Does the code not take the word beside another one of the block? Then the other one is at fault.
+fn is_excluded(cx: &BlockCx<'_>, code: Code<'_>, needed: &WordEntry) -> bool {
+    code.entry().not_together.iter().any(|items| {
+        let (own, others): (Vec<_>, Vec<_>) = items.iter().partition(|item| {
+            Letter::parse(&needed.letter).is_some_and(|letter| letters_of(item).contains(letter))
+        });
+        !own.is_empty() && others.iter().any(|item| cx.block().letters.intersects(letters_of(item)))
+    })
+}
+
+/// The word of the block beside which the code needs another one, as data writes it: `L2`, or `J` for any value.
 fn beside<'a>(cx: &BlockCx<'a>, needed: &'a WordEntry) -> Option<&'a str> {
     let stands = |item: &&String| {
+        if let Some(letter) = Letter::parse(item) {
+            return cx.block().letters.contains(letter);
+        }
         let (letter, value) = item.split_at_checked(1).unwrap_or_default();
         let value: Option<f64> = value.parse().ok();
         let is = |word: &Word| Some(word.letter) == Letter::parse(letter) && word.number() == value;
@@ -149,6 +166,34 @@ mod tests {
         let found = findings(&only(&RULE), "linuxcnc", "G10 L2 X0 Y0\n", &World::default());
         let text = words(&found[0]);
         assert!(text.contains("needs `P` in its block with `L2`"), "{text}");
+    }
+
+    #[test]
+    fn a_letter_asks_for_another_with_any_value() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G83 Z-1. R.1 I.2 F5.\nG83 Z-1. R.1 I.2 J.05 K.1 F5.\nG83 Z-1. R.1 Q.3 K.5 F5.\nG73 Z-1. R.1 Q.3 K.5 F5.\nG73 Z-1. R.1 J#1 F5.\n",
+            &expect![[r#"
+                1 | G83 Z-1. R.1 I.2 F5.
+                  | ^^^ warning[required-word-missing] `G83` without `J`
+                1 | G83 Z-1. R.1 I.2 F5.
+                  | ^^^ warning[required-word-missing] `G83` without `K`
+                5 | G73 Z-1. R.1 J#1 F5.
+                  | ^^^ warning[required-word-missing] `G73` without `I`
+            "#]],
+        );
+        check_rule(
+            &RULE,
+            "haas-lathe",
+            "G72 W0.05 R0.02\nG72 P10 Q20 U0.01 W0.005 F0.01\nG71 U0.05 R0.02\nG71 P10 Q20 U0.01 W0.005 F0.01\nG71 U0.01 W0.005 D0.05 F0.01\n",
+            &expect![[r#"
+                5 | G71 U0.01 W0.005 D0.05 F0.01
+                  | ^^^ error[required-word-missing] `G71` without `P`
+                5 | G71 U0.01 W0.005 D0.05 F0.01
+                  | ^^^ error[required-word-missing] `G71` without `Q`
+            "#]],
+        );
     }
 
     #[test]

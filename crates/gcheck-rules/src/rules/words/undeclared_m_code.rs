@@ -1,12 +1,15 @@
 //! An M code of the machine builder that is not declared.
 
-use gcheck_controls::CodeNumber;
+use gcheck_controls::{CodeNumber, Effect};
 
 use crate::declare::declare_rule;
 use crate::{FileCx, Finding, Report, Run};
 
 declare_rule! {
     /// An M code is not in the control's list, and machine builders add their own M codes to this control.
+    ///
+    /// A code that runs a program of the machine's folder is reported as well: the configuration does not say that the
+    /// machine has that program.
     ///
     /// ## Why it matters
     /// gcheck cannot check a code of unknown meaning: it may stop the spindle, open a door or wait. If the
@@ -16,6 +19,10 @@ declare_rule! {
     /// ## Reported
     /// ```nc,reported,fanuc-mill
     /// M244
+    /// ```
+    /// ```nc,reported,linuxcnc
+    /// M101 P1
+    /// M2
     /// ```
     /// ## Not reported
     /// ```nc,quiet,fanuc-mill
@@ -36,11 +43,13 @@ declare_rule! {
 }
 
 fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
-    if !cx.control().code_list().builder_m_codes {
-        return;
-    }
+    let adds_codes = cx.control().code_list().builder_m_codes;
     for (number, range) in &cx.survey.codes {
-        if number.letter() != b'M' || cx.control().code(*number).is_some() {
+        let is_undeclared = match cx.control().code(*number) {
+            Some(code) => code.effect() == Effect::UserCommand && !code.is_user(),
+            None => adds_codes,
+        };
+        if number.letter() != b'M' || !is_undeclared {
             continue;
         }
         let mut is_argument = false;
@@ -48,15 +57,29 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
             is_argument |= block.block_range().contains(&range.start) && block.words_may_be_arguments();
         });
         if !is_argument {
-            report.add(finding(*number, range.clone()));
+            report.add(finding(cx, *number, range.clone()));
         }
     }
 }
 
-fn finding(number: CodeNumber, range: std::ops::Range<u32>) -> Finding {
+fn finding(cx: &FileCx<'_>, number: CodeNumber, range: std::ops::Range<u32>) -> Finding {
+    let (label, note) = match cx.control().code(number) {
+        Some(code) => (
+            format!("runs the machine's own program `{number}`, if the machine has it"),
+            format!(
+                "without that program the control stops here, and so does `gcheck run`  [{}]",
+                code.entry().source
+            ),
+        ),
+        None => (
+            "a code of the machine builder, if the machine has it".to_owned(),
+            "machine builders add their own M codes to this control; the machine's manual lists them"
+                .to_owned(),
+        ),
+    };
     Finding::new(&META, range, format!("M code `{number}` is not declared"))
-        .label("a code of the machine builder, if the machine has it")
-        .note("machine builders add their own M codes to this control; the machine's manual lists them")
+        .label(label)
+        .note(note)
         .help(format!("declare `{number}` under `[codes]` in the configuration"))
 }
 

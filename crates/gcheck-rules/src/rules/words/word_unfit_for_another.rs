@@ -4,6 +4,7 @@ use gcheck_controls::{Beside, Code, Letter, WordEntry};
 use gcheck_program::{Value, Word};
 
 use crate::declare::declare_rule;
+use crate::facts::beside::{Unfit, given, number, unfit};
 use crate::facts::callers::CallerValues;
 use crate::facts::computed_words::bounds_of;
 use crate::{Finding, PathCx, PathRule, Report, Run, Severity, Watch, limit};
@@ -85,46 +86,20 @@ impl PathRule for WordUnfitForAnother {
 /// What is wrong with the word of an entry, and the word that decides it.
 fn judged(cx: &PathCx<'_>, code: Code<'_>, entry: &WordEntry, letter: Letter) -> Option<(Letter, Finding)> {
     let word = cx.origin().letters.contains(letter);
-    for beside in entry.beside.iter().filter(|_| word) {
-        let Some((item, other)) = beside.with.iter().find_map(|item| Some((item, given(cx, item)?))) else {
-            continue;
+    if let Some(Unfit { beside, item, other, outside }) = unfit(cx, entry, letter) {
+        let finding = match outside {
+            None => refused(cx, code, entry, letter, item),
+            Some((value, side)) => out_of_range(cx, code, entry, (letter, value), beside, (item, side)),
         };
-        if beside.refused {
-            return Some((other, refused(cx, code, entry, letter, item)));
-        }
-        if let Some(value) = number(cx, letter)
-            && let Some(side) = outside(value, beside)
-        {
-            return Some((other, out_of_range(cx, code, entry, (letter, value), beside, (item, side))));
-        }
+        return Some((other, finding));
     }
     // Where both are written, a rule that reads the block alone reports it.
     let (item, other) = entry.required_with.iter().find_map(|item| Some((item, given(cx, item)?)))?;
     (!word && is_computed(cx, other)).then(|| (other, missing(cx, code, entry, item)))
 }
 
-/// The address of a word like `L2`, where the block has it with that value.
-fn given(cx: &PathCx<'_>, item: &str) -> Option<Letter> {
-    let (letter, value) = item.split_at_checked(1)?;
-    let (letter, value) = (Letter::parse(letter)?, value.parse::<f64>().ok()?);
-    number(cx, letter).is_some_and(|number| (number - value).abs() < 1e-4).then_some(letter)
-}
-
-fn number(cx: &PathCx<'_>, letter: Letter) -> Option<f64> {
-    cx.known_number(char::from(letter.ascii()))
-}
-
 fn is_computed(cx: &PathCx<'_>, letter: Letter) -> bool {
     cx.has_word(|word| word.letter == letter && matches!(word.value, Value::Expr(_)))
-}
-
-fn outside(value: f64, beside: &Beside) -> Option<&'static str> {
-    let is_small =
-        beside.min.is_some_and(|min| value < min) || beside.above.is_some_and(|above| value <= above);
-    if is_small {
-        return Some("small");
-    }
-    beside.max.is_some_and(|max| value > max).then_some("large")
 }
 
 fn range(cx: &PathCx<'_>, letter: Letter) -> std::ops::Range<u32> {

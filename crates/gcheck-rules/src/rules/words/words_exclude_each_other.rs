@@ -1,6 +1,6 @@
 //! Words that a code does not accept together.
 
-use gcheck_controls::Code;
+use gcheck_controls::{Code, Confidence};
 use gcheck_program::{BlockFlags, Word};
 
 use crate::declare::declare_rule;
@@ -49,16 +49,19 @@ fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
 fn finding(cx: &BlockCx<'_>, code: Code<'_>, first: &Word, second: &Word) -> Finding {
     let entry = code.entry();
     let (a, b) = (first.letter, second.letter);
+    let confidence = entry.choice_confidence.unwrap_or(entry.confidence);
+    let note = if confidence == Confidence::Assumed && entry.confidence > confidence {
+        format!("gcheck assumes that `{}` ({}) takes `{a}` or `{b}`, not both", entry.code, entry.title)
+    } else {
+        format!("`{}` ({}) accepts `{a}` or `{b}`, not both", entry.code, entry.title)
+    };
     Finding::new(&META, cx.range(second), format!("`{a}` and `{b}` together with `{}`", cx.written(code)))
         .label(meaning(code, second))
         .also(cx.range(first), meaning(code, first))
-        .note(format!(
-            "`{}` ({}) accepts `{a}` or `{b}`, not both  [{}]",
-            entry.code, entry.title, entry.source
-        ))
+        .note(format!("{note}  [{}]", entry.source))
         .help(format!("keep `{a}` or `{b}`"))
         .alarm(cx.alarm_of(META.id, &entry.code))
-        .at_most(limit(entry.choice_confidence.unwrap_or(entry.confidence)))
+        .at_most(limit(confidence))
 }
 
 fn meaning<'a>(code: Code<'a>, word: &Word) -> &'a str {

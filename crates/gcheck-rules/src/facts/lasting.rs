@@ -1,0 +1,53 @@
+//! Words of earlier blocks that a code relies on.
+//!
+//! Knows: which words last, by the control's data. Must not know: any rule, values.
+
+use std::collections::HashSet;
+
+use gcheck_controls::{Code, Control, LastingFrom, Letter, LetterSet, Need};
+use gcheck_program::{CallKind, Survey};
+
+/// Words whose absence rules of their own report: feed, speed, tool, size of cutter compensation.
+const OF_OTHER_RULES: LetterSet = LetterSet::of("FSTD");
+
+/// The words that the code takes from earlier blocks, whatever their codes, where its own block does not give them.
+pub(crate) fn relied_on(control: &Control, code: Code<'_>) -> LetterSet {
+    let entry = code.entry();
+    let mut letters = LetterSet::EMPTY;
+    // Without the word the code may mean the tool in the spindle.
+    if control.semantics().tools.length_from_tool {
+        return letters;
+    }
+    let words = entry.words.iter().filter(|word| word.need == Need::Modal && word.default.is_none());
+    for word in words.filter(|word| word.instead.is_empty() && word.instead_here.is_empty()) {
+        let Some(letter) = Letter::parse(&word.letter).filter(|letter| !OF_OTHER_RULES.contains(*letter))
+        else {
+            continue;
+        };
+        let row = control.lasting_in(letter, &entry.group);
+        if row.is_some_and(|row| row.from == LastingFrom::AnyBlock) {
+            letters.insert(letter);
+        }
+    }
+    letters
+}
+
+/// Does only following the program show whether a word is given? Calls or jumps may run a block that the text has after the
+/// code, or one of another file.
+pub(crate) fn goes_by_way(survey: &Survey, control: &Control, code: Code<'_>, letter: Letter) -> bool {
+    let moves_about = survey.letters.contains(letter) && !survey.jumps.is_empty();
+    (moves_about || !survey.calls.is_empty()) && relied_on(control, code).contains(letter)
+}
+
+/// Where the text first calls a program that is not in the file: from there on that program may have given any word.
+pub(crate) fn first_call_elsewhere(survey: &Survey) -> Option<u32> {
+    let programs = survey.programs.iter().filter_map(|program| program.number);
+    let here: HashSet<u32> = programs.chain(survey.labels.iter().map(|label| label.number)).collect();
+    let o_words: HashSet<_> = survey.o_words.iter().map(|word| &word.label).collect();
+    let is_elsewhere = |target: &CallKind| match target {
+        CallKind::Program(number) => !here.contains(number),
+        CallKind::OWord(label) => !o_words.contains(label),
+        CallKind::Unknown => true,
+    };
+    survey.calls.iter().find(|call| is_elsewhere(&call.target)).map(|call| call.range.start)
+}

@@ -1,0 +1,65 @@
+//! Whether a block of a lathe works with a live tool, and whether that may turn.
+//!
+//! Knows: the C axis, the cycles of live tools, functions of machine builders with a speed. Must not know: any rule.
+
+use gcheck_controls::{CodeIx, Effect, LetterSet};
+use gcheck_engine::{At, Fact, Role};
+use gcheck_geometry::Plane;
+
+use crate::PathCx;
+use crate::facts::cutting::starts_spindle;
+
+/// What shows of a live tool.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum LiveTool {
+    /// Nothing: the part turns, or should.
+    No,
+    /// The block works with one, and nothing starts it.
+    Stands,
+    /// A code whose meaning is the machine builder's may have started it.
+    MayTurn,
+}
+
+/// The modal groups of codes that a lathe has for live tools.
+const GROUPS: [&str; 2] = ["c-axis", "live-tool"];
+/// Blocks before this one that are searched, as far as they belong to the same tool.
+const BEFORE: u32 = 60;
+
+/// Of the block, with what comes before it since the tool came.
+pub(crate) fn live_tool(cx: &PathCx<'_>) -> LiveTool {
+    if cx.is_mill() {
+        return LiveTool::No;
+    }
+    let here = cx.origin().at;
+    let changed = cx.trace().set_by(Fact::Tool).filter(|at| at.file == here.file && at.block <= here.block);
+    let first = changed.map_or(0, |at| at.block).max(here.block.saturating_sub(BEFORE));
+    let is_polar =
+        cx.state().effect(Role::PolarInterpolation, cx.model) == Some(Effect::PolarInterpolationOn);
+    let is_other_plane = cx.state().plane(cx.model).is_some_and(|plane| plane != Plane::Zx);
+    let mut is_live = is_polar || is_other_plane;
+    for block in (first..=here.block).rev() {
+        let Some(place) = cx.place_of(At { block, ..here }) else { continue };
+        let words = place.table.words(place.block());
+        if words.iter().any(|word| starts_spindle(cx.model.effect(word.code))) {
+            break;
+        }
+        let has_speed = place.block().letters.intersects(LetterSet::of("SP"));
+        if has_speed && words.iter().any(|word| is_function(cx, word.letter.ascii(), word.code)) {
+            return LiveTool::MayTurn;
+        }
+        // In a feed move with X or Z the letter may be a chamfer.
+        let letters = place.block().letters;
+        let is_rapid = words.iter().any(|word| cx.model.effect(word.code) == Effect::Rapid);
+        let turns = letters.intersects(LetterSet::of("C"))
+            && (is_rapid || !letters.intersects(LetterSet::of("XZUW")));
+        let is_of_live_tools =
+            |code: CodeIx| cx.code_of(code).is_some_and(|code| GROUPS.contains(&code.entry().group.as_str()));
+        is_live |= turns || words.iter().any(|word| is_of_live_tools(word.code));
+    }
+    if is_live { LiveTool::Stands } else { LiveTool::No }
+}
+
+/// Is it an M code that does what the machine builder made of it?
+fn is_function(cx: &PathCx<'_>, letter: u8, code: CodeIx) -> bool {
+    letter == b'M' && cx.code_of(code).is_none_or(|code| code.is_user() || code.entry().group == "m-user")
+}

@@ -1,0 +1,69 @@
+//! The words of a threading cycle of several passes: which word is the height, the first cut, the lead, and their lengths.
+//!
+//! Knows: the forms of one block and of two. Must not know: any rule, where the tool is.
+
+use gcheck_controls::{Effect, LetterSet};
+use gcheck_program::Word;
+
+use crate::PathCx;
+
+/// Does the code cut a thread in several passes?
+pub(crate) fn is_cycle(effect: Effect) -> bool {
+    effect == Effect::ThreadCycle
+}
+
+/// Words of a cycle of several passes.
+pub(crate) struct Words {
+    /// From crest to root, in X as a radius.
+    pub(crate) height: Word,
+    /// Depth of the first pass.
+    pub(crate) first: Option<Word>,
+    /// Length a turn.
+    pub(crate) lead: Option<Word>,
+}
+
+/// In the form that the block uses; `None` for a first block of two, which only prepares.
+pub(crate) fn words(cx: &PathCx<'_>) -> Option<Words> {
+    let letters = cx.origin().letters;
+    let has = |of: &'static str| letters.intersects(LetterSet::of(of));
+    if !has("XZUW") {
+        return None;
+    }
+    let code = cx.codes().iter().copied().find(|code| is_cycle(cx.model.effect(*code)))?;
+    let names_peak = cx.code_of(code)?.entry().words.iter().any(|word| word.letter == "J");
+    let [height, first, lead] = match (names_peak, has("KD")) {
+        (true, _) => ['K', 'J', 'P'],
+        (false, true) => ['K', 'D', 'F'],
+        (false, false) => ['P', 'Q', 'F'],
+    };
+    Some(Words { height: cx.word(height)?, first: cx.word(first), lead: cx.word(lead) })
+}
+
+/// The number of a word of the block; `None` for a computed one that is not known.
+pub(crate) fn number(cx: &PathCx<'_>, word: &Word) -> Option<f64> {
+    cx.known_number(word.letter.ascii().into())
+}
+
+/// Does the number count as one with a decimal point?
+pub(crate) fn is_pointed(cx: &PathCx<'_>, word: &Word) -> bool {
+    word.shape.point || word.is_computed() && cx.model.semantics().computed_words_are_pointed
+}
+
+/// Millimetres; `None` for a computed word that is not known. Without a point, lengths of a cycle count least increments on the controls that
+/// write leads with a point.
+pub(crate) fn length(cx: &PathCx<'_>, word: &Word) -> Option<f64> {
+    let number = number(cx, word)?;
+    let units = cx.state().units(cx.model)?;
+    let as_written = cx.control().numbers().unpointed == gcheck_controls::Unpointed::AsWritten;
+    let least = match units {
+        gcheck_engine::Units::Inch => 0.0001,
+        gcheck_engine::Units::Mm => 0.001,
+    };
+    let is_feed = word.letter == gcheck_controls::Letter::of('F');
+    let step = if is_pointed(cx, word) || as_written || is_feed { 1.0 } else { least };
+    // The form that names the peak counts its depths like X.
+    let counts_twice = word.letter == gcheck_controls::Letter::of('K')
+        && cx.word('J').is_some()
+        && cx.state().is_diameter(cx.model)?;
+    Some(number * step * units.in_mm() / if counts_twice { 2.0 } else { 1.0 })
+}

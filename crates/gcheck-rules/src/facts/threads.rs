@@ -1,0 +1,257 @@
+//! Threads that comments name, with their pitch.
+//!
+//! Knows: how shops write threads (`M6X1`, `1/4-20`), and which comments belong to a tool or a block. Must not know: any rule,
+//! how a thread is cut.
+
+use gcheck_engine::{Abstract, At, Domain};
+use gcheck_program::BlockFlags;
+
+use crate::PathCx;
+use crate::facts::offset_schemes::whole;
+use crate::facts::tool_comment::{HEAD, entries};
+
+/// The rounding error of a number with these digits.
+pub(crate) fn rounding(number: f64) -> f64 {
+    let text = trimmed(number);
+    let digits = text.split_once('.').map_or(0, |(_, behind)| behind.len());
+    // A little more, for the numbers of the machine.
+    0.501 / 10_f64.powi(i32::try_from(digits).unwrap_or(0))
+}
+
+pub(crate) fn trimmed(number: f64) -> String {
+    let text = format!("{number:.4}");
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
+/// A thread that a comment names.
+pub(crate) struct Thread {
+    /// As the comment writes it.
+    pub(crate) name: String,
+    /// Millimetres.
+    pub(crate) pitch: f64,
+    /// The block of the comment.
+    pub(crate) at: At,
+}
+
+/// What a comment must show for its thread to count.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Wanted {
+    /// That the tool is a tap; a size alone stands for its coarse pitch.
+    Tap,
+    /// The pitch itself (`M20X1.5`, `1/4-20`): the comment belongs to an operation that cuts a thread.
+    Written,
+}
+
+/// The thread that the comment at a tool change names: in its block, in the one before it or in the one after it.
+pub(crate) fn thread_of_tool(cx: &PathCx<'_>, changed: At, wanted: Wanted) -> Option<Thread> {
+    let before = changed.block.checked_sub(1).map(|block| At { block, ..changed });
+    let own = thread_in_block(cx, changed, wanted);
+    // Only a comment alone in its block belongs to the tool beside it.
+    let is_alone = |at: &At| {
+        at.file == 0 && cx.place_of(*at).is_some_and(|place| place.table.words(place.block()).is_empty())
+    };
+    let mut beside = [before, Some(changed.next())].into_iter().flatten().filter(is_alone);
+    own.or_else(|| beside.find_map(|at| thread_in_block(cx, at, wanted)))
+}
+
+/// The thread that the comment of a block of the main file names.
+pub(crate) fn thread_in_block(cx: &PathCx<'_>, at: At, wanted: Wanted) -> Option<Thread> {
+    let place = cx.place_of(at).filter(|_| at.file == 0)?;
+    let block = place.block();
+    if !block.flags.contains(BlockFlags::COMMENT) {
+        return None;
+    }
+    let file = cx.program.file(0)?;
+    let text = file.loaded.chunk_text(place.chunk);
+    let text = text.get(block.range.start as usize..block.range.end as usize)?;
+    let comment = text.get(text.find(['(', ';'])?..)?;
+    let (name, pitch) = thread_in(comment, wanted)?;
+    Some(Thread { name, pitch, at })
+}
+
+/// The thread that the entry of the tool in a list at the head of the program names.
+pub(crate) fn thread_in_list(cx: &PathCx<'_>) -> Option<Thread> {
+    let tool = Abstract::known(cx.state().tool()).and_then(whole)?;
+    let file = cx.program.file(0)?;
+    let mut found: Option<Thread> = None;
+    for block in 0..HEAD {
+        let at = At { file: 0, block };
+        let Some(place) = cx.place_of(at) else { break };
+        let block = place.block();
+        if !block.flags.contains(BlockFlags::COMMENT) || !place.table.words(block).is_empty() {
+            continue;
+        }
+        let text = file.loaded.chunk_text(place.chunk);
+        let text = text.get(block.range.start as usize..block.range.end as usize).unwrap_or_default();
+        for entry in entries(text).filter(|(number, _)| *number == tool) {
+            let Some((name, pitch)) = thread_in(entry.1, Wanted::Tap) else { continue };
+            // Two entries of one tool: a list for another machine, or of two set-ups.
+            if found.as_ref().is_some_and(|thread| thread.pitch.to_bits() != pitch.to_bits()) {
+                return None;
+            }
+            found = Some(Thread { name, pitch, at });
+        }
+    }
+    found
+}
+
+/// The one thread that a comment names, and its pitch in millimetres.
+fn thread_in(comment: &str, wanted: Wanted) -> Option<(String, f64)> {
+    let upper = comment.to_ascii_uppercase();
+    let is_letter = |c: char| c.is_ascii_alphanumeric();
+    let has = |names: &[&str]| upper.split(|c: char| !is_letter(c)).any(|word| names.contains(&word));
+    // A drill for a tap, and a thread that is milled, are not taps. Several starts have a lead of several pitches.
+    let is_other = has(&["DRILL", "MILL", "PREDRILL", "CHAMFER", "SPOT", "START", "STARTS", "LEAD"]);
+    if is_other || wanted == Wanted::Tap && !has(&["TAP", "TAPS", "TAPPING"]) {
+        return None;
+    }
+    let is_thread =
+        has(&["THREAD", "THREADS", "THREADING", "THD", "TAP", "TAPS", "TAPPING", "UNC", "UNF", "UNEF"]);
+    let mut found: Vec<(String, f64)> = Vec::new();
+    let pieces = upper.split(|c: char| !(is_letter(c) || matches!(c, '.' | '/' | '-' | '#' | '*')));
+    for piece in pieces.filter(|piece| !piece.is_empty()) {
+        // A size alone names a hole or a bolt as well, and two numbers name holes, drawings and dates.
+        let is_marked = piece.contains(['#', '/', 'M']) || piece.contains("UN") || piece.contains("NP");
+        let is_written = wanted == Wanted::Tap || piece.contains(['X', '-', '*']) && (is_marked || is_thread);
+        if let Some(pitch) = metric(piece).or_else(|| inch(piece)).filter(|_| is_written) {
+            found.push((piece.to_owned(), pitch));
+        }
+    }
+    match found.as_slice() {
+        [one] => Some(one.clone()),
+        // `M6 (M6X1.0)` names one thread twice; anything else is not clear.
+        [first, others @ ..] if others.iter().all(|other| other.1.to_bits() == first.1.to_bits()) => {
+            Some(first.clone())
+        }
+        _ => None,
+    }
+}
+
+/// `M6X1`, `M10-1.25`, `M8` with its coarse pitch.
+fn metric(piece: &str) -> Option<f64> {
+    const COARSE: [(f64, f64); 13] = [
+        (2.0, 0.4),
+        (2.5, 0.45),
+        (3.0, 0.5),
+        (4.0, 0.7),
+        (5.0, 0.8),
+        (6.0, 1.0),
+        (8.0, 1.25),
+        (10.0, 1.5),
+        (12.0, 1.75),
+        (14.0, 2.0),
+        (16.0, 2.0),
+        (20.0, 2.5),
+        (24.0, 3.0),
+    ];
+    let size = piece.strip_prefix('M')?;
+    match size.split_once(['X', '-', '*']) {
+        Some((size, pitch)) => {
+            // `M20X1.5-6H` names its tolerance too.
+            let pitch = pitch.split_once('-').map_or(pitch, |(pitch, _)| pitch);
+            let (size, pitch) = (number(size)?, number(pitch)?);
+            ((0.2..=6.0).contains(&pitch) && pitch < size).then_some(pitch)
+        }
+        None => {
+            let size = number(size)?;
+            COARSE.iter().find(|(known, _)| known.to_bits() == size.to_bits()).map(|(_, pitch)| *pitch)
+        }
+    }
+}
+
+/// `1/4-20`, `#10-32`, `10-24`: threads per inch after the dash, and only if such a thread exists.
+fn inch(piece: &str) -> Option<f64> {
+    const NUMBERED: [(u32, u32); 17] = [
+        (0, 80),
+        (1, 64),
+        (1, 72),
+        (2, 56),
+        (2, 64),
+        (3, 48),
+        (4, 40),
+        (4, 48),
+        (5, 40),
+        (6, 32),
+        (6, 40),
+        (8, 32),
+        (8, 36),
+        (10, 24),
+        (10, 32),
+        (12, 24),
+        (12, 28),
+    ];
+    const FRACTIONS: [(&str, [u32; 2]); 10] = [
+        ("1/4", [20, 28]),
+        ("5/16", [18, 24]),
+        ("3/8", [16, 24]),
+        ("7/16", [14, 20]),
+        ("1/2", [13, 20]),
+        ("9/16", [12, 18]),
+        ("5/8", [11, 18]),
+        ("3/4", [10, 16]),
+        ("7/8", [9, 14]),
+        ("1", [8, 12]),
+    ];
+    let (size, threads) = piece.split_once('-')?;
+    let digits = threads.bytes().take_while(u8::is_ascii_digit).count();
+    let (threads, series) = threads.split_at_checked(digits)?;
+    // `13`, `13UNC`, `13UNC-2A`, `13-2A`; a date has more digits.
+    let is_class = |class: &str| class.len() == 3 && class.ends_with(['A', 'B']);
+    let is_series = series.is_empty() || series.starts_with(|c: char| c.is_ascii_alphabetic());
+    let threads: u32 = threads.parse().ok().filter(|_| is_series || is_class(series))?;
+    let is_made = match FRACTIONS.iter().find(|(known, _)| *known == size) {
+        Some((_, made)) => made.contains(&threads),
+        None => {
+            let number: u32 = size.trim_start_matches('#').parse().ok()?;
+            NUMBERED.contains(&(number, threads))
+        }
+    };
+    is_made.then(|| 25.4 / f64::from(threads))
+}
+
+fn number(text: &str) -> Option<f64> {
+    let is_number = !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit() || byte == b'.');
+    text.parse().ok().filter(|_| is_number)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Wanted, thread_in};
+
+    #[test]
+    fn threads_as_shops_write_them() {
+        for (comment, expected) in [
+            ("(M6X1 TAP)", Some(1.0)),
+            ("(TAP M8)", Some(1.25)),
+            ("(T5 - M10-1.25 SPIRAL TAP)", Some(1.25)),
+            ("(1/4-20 TAP)", Some(25.4 / 20.0)),
+            ("(#10-32UNF TAP)", Some(25.4 / 32.0)),
+            ("(TAPER PIN M6)", None),
+            ("(DRILL 5.0 FOR M6 TAP)", None),
+            ("(TAP 1-1/4 DEEP)", None),
+            ("(TAP M6 OR M8)", None),
+            ("(M6 THREAD MILL TAP)", None),
+        ] {
+            assert_eq!(thread_in(comment, Wanted::Tap).map(|(_, pitch)| pitch), expected, "{comment}");
+        }
+    }
+
+    #[test]
+    fn a_pitch_that_is_written_needs_no_tap() {
+        for (comment, expected) in [
+            ("(M20X1.5)", Some(1.5)),
+            ("(1/2-13 THREAD)", Some(25.4 / 13.0)),
+            ("(M24X2 THREAD)", Some(2.0)),
+            ("(M20X1.5-6H)", Some(1.5)),
+            ("(1/2-13UNC-2A)", Some(25.4 / 13.0)),
+            ("(1/4-20-2B)", Some(25.4 / 20.0)),
+            ("(REV 10-24-2020)", None),
+            ("(M20 NUT)", None),
+            ("(M20X2 DRILL)", None),
+            ("(M30X3 2 START)", None),
+            ("(M20X1.5 OR M20X2)", None),
+        ] {
+            assert_eq!(thread_in(comment, Wanted::Written).map(|(_, pitch)| pitch), expected, "{comment}");
+        }
+    }
+}

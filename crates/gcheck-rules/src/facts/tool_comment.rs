@@ -1,0 +1,128 @@
+//! Comments that say what a tool is.
+//!
+//! Knows: which comments belong to a tool, and how lists of tools at the head of a program are written. Must not know: any
+//! rule, what kinds of tools there are.
+
+use gcheck_engine::{Abstract, At, Domain};
+use gcheck_program::BlockFlags;
+
+use crate::PathCx;
+use crate::facts::offset_schemes::whole;
+
+/// Blocks at the head of a program that are searched for a list of its tools.
+pub(crate) const HEAD: u32 = 100;
+
+/// What comments say of a tool.
+pub(crate) struct ToolComment {
+    /// The block of the comment.
+    pub(crate) at: At,
+    /// Its words, in capitals.
+    pub(crate) words: Vec<String>,
+}
+
+impl ToolComment {
+    /// Is one of these words in it?
+    pub(crate) fn has(&self, names: &[&str]) -> bool {
+        self.words.iter().any(|word| names.contains(&word.as_str()))
+    }
+}
+
+/// What the comment of the tool says that a block put in: the one of its block, one alone in the block before or after, or
+/// the tool's entry in a list at the head of the program.
+pub(crate) fn comment_of_tool(cx: &PathCx<'_>, changed: At) -> Option<ToolComment> {
+    let is_alone =
+        |at: &At| cx.place_of(*at).is_some_and(|place| place.table.words(place.block()).is_empty());
+    let before = changed.block.checked_sub(1).map(|block| At { block, ..changed });
+    let beside = [before, Some(changed.next())].into_iter().flatten().filter(is_alone);
+    let mut near = std::iter::once(changed).chain(beside);
+    let near = near.find_map(|at| Some((at, comments_in(cx, at)?)));
+    let (at, text) = near.or_else(|| in_list(cx))?;
+    let words = text.split(|c: char| !c.is_ascii_alphanumeric()).filter(|word| !word.is_empty());
+    Some(ToolComment { at, words: words.map(str::to_ascii_uppercase).collect() })
+}
+
+/// The comments of a block of the main file.
+fn comments_in(cx: &PathCx<'_>, at: At) -> Option<String> {
+    let place = cx.place_of(at).filter(|_| at.file == 0)?;
+    let block = place.block();
+    if !block.flags.contains(BlockFlags::COMMENT) {
+        return None;
+    }
+    let file = cx.program.file(0)?;
+    let text = file.loaded.chunk_text(place.chunk);
+    let text = text.get(block.range.start as usize..block.range.end as usize)?;
+    Some(only_comments(text)).filter(|comments| !comments.trim().is_empty())
+}
+
+/// The text in parentheses, and what follows a semicolon.
+fn only_comments(text: &str) -> String {
+    let mut comments = String::new();
+    let mut rest = text;
+    while let Some(open) = rest.find(['(', ';']) {
+        let (_, comment) = rest.split_at(open);
+        let is_to_the_end = comment.starts_with(';');
+        let comment = comment.get(1..).unwrap_or_default();
+        let end = comment.find(')').filter(|_| !is_to_the_end).unwrap_or(comment.len());
+        let (own, behind) = comment.split_at(end);
+        comments.push_str(own);
+        comments.push(' ');
+        rest = behind;
+    }
+    comments
+}
+
+/// The entry of the tool in the spindle in a list at the head of the program.
+fn in_list(cx: &PathCx<'_>) -> Option<(At, String)> {
+    let tool = Abstract::known(cx.state().tool()).and_then(whole)?;
+    (0..HEAD).map(|block| At { file: 0, block }).find_map(|at| {
+        let place = cx.place_of(at)?;
+        // A list is in comments alone.
+        let comments = comments_in(cx, at).filter(|_| place.table.words(place.block()).is_empty())?;
+        let text = format!(" {comments}");
+        let own = entries(&text).find(|(number, _)| *number == tool).map(|(_, entry)| entry.to_owned());
+        own.map(|entry| (at, entry))
+    })
+}
+
+/// The entries of a list of tools in a comment: `T4 1/4-20 TAP`, `T1 END MILL, T2 M6 TAP`; the number, and what follows.
+pub(crate) fn entries(text: &str) -> impl Iterator<Item = (u32, &str)> {
+    let starts = text.char_indices().filter_map(move |(at, letter)| {
+        let before = text.get(..at)?.bytes().next_back();
+        let begins = matches!(letter, 'T' | 't') && before.is_some_and(|b| !b.is_ascii_alphanumeric());
+        let rest = text.get(at + 1..).filter(|_| begins)?;
+        let digits = rest.bytes().take_while(u8::is_ascii_digit).count();
+        let (number, behind) = rest.split_at_checked(digits)?;
+        let ends = behind.starts_with([' ', ':', '-', '=', '|', ',', '\t']);
+        number.parse().ok().filter(|_| ends && digits <= 4).map(|number: u32| (at, number, behind))
+    });
+    let starts: Vec<_> = starts.collect();
+    let ends: Vec<usize> = starts.iter().skip(1).map(|(at, ..)| *at).chain([text.len()]).collect();
+    starts.into_iter().zip(ends).filter_map(move |((_, number, behind), end)| {
+        let length = end.saturating_sub(text.len() - behind.len());
+        Some((number, behind.get(..length)?))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{entries, only_comments};
+
+    #[test]
+    fn comments_without_the_code_beside_them() {
+        for (block, comments) in [
+            ("T1 M6 (1/4 DRILL) M4", "1/4 DRILL "),
+            ("(A)(B) X1.", "A B "),
+            ("T1 M6 ; 6 mm drill (long)", " 6 mm drill (long) "),
+            ("(not closed", "not closed "),
+            ("X1.", ""),
+        ] {
+            assert_eq!(only_comments(block), comments, "{block}");
+        }
+    }
+
+    #[test]
+    fn lists_of_tools() {
+        let list = entries("(T4 1/4-20 TAP, T5 - M6 DRILL)");
+        assert_eq!(list.collect::<Vec<_>>(), [(4, " 1/4-20 TAP, "), (5, " - M6 DRILL)")]);
+    }
+}

@@ -1,0 +1,71 @@
+//! Kinds of tools by the words of their comments: a boring bar, a drill, a bar puller, a knife.
+//!
+//! Knows: the words that shops use. Must not know: any rule, which comments belong to a tool.
+
+use gcheck_engine::Fact;
+
+use crate::PathCx;
+use crate::facts::tool_comment::{ToolComment, comment_of_tool};
+
+/// The comment of the tool that works, if it has one.
+pub(crate) struct ToolWords(Option<ToolComment>);
+
+impl ToolWords {
+    /// Of the tool that works.
+    pub(crate) fn of(cx: &PathCx<'_>) -> Self {
+        let changed = cx.trace().set_by(Fact::Tool).filter(|at| at.file == 0);
+        Self(changed.and_then(|at| comment_of_tool(cx, at)))
+    }
+
+    /// Is the tool a bar that bores, and nothing else?
+    pub(crate) fn bores(&self) -> bool {
+        self.has(&["BORING", "BORE", "BORINGBAR"])
+            && !self.has(&["DRILL", "DRILLING", "OD", "TURN", "TURNING", "FACE", "FACING"])
+    }
+
+    /// May the tool work in a bore?
+    pub(crate) fn may_bore(&self) -> bool {
+        self.has(&["BORING", "BORE", "BORINGBAR", "ID", "INSIDE", "INTERNAL", "BAR"])
+    }
+
+    /// Is the tool one that drills?
+    pub(crate) fn drills(&self) -> bool {
+        self.has(&[
+            "DRILL", "DRILLING", "TAP", "TAPPING", "REAM", "REAMER", "REAMING", "SPOT", "CENTER", "CENTRE",
+        ])
+    }
+
+    /// Does the tool push, hold or touch the work, or cut it while the spindle is stopped: a bar puller, a bar stop, a probe, a
+    /// drag knife, a broach?
+    pub(crate) fn needs_no_spindle(&self) -> bool {
+        let holds = [
+            "PULLER",
+            "PULL",
+            "BARPULLER",
+            "GRIPPER",
+            "GRIP",
+            "FEEDER",
+            "BARFEED",
+            "BARSTOP",
+            "STOPPER",
+            "PROBE",
+            "PROBING",
+            "DRAG",
+            "DRAGKNIFE",
+            "KNIFE",
+            "BROACH",
+            "BROACHING",
+            "SCRIBE",
+            "SCRIBER",
+            "SCRATCH",
+        ];
+        let is_bar_stop = self.has(&["STOP"]) && !self.has(&["OPTIONAL", "OPT", "PROGRAM", "SPINDLE"]);
+        let is_bar_feed = self.has(&["FEED"]) && self.has(&["BAR", "STOCK"]);
+        let is_off = self.has(&["SPINDLE"]) && self.has(&["OFF", "NO", "STOPPED"]);
+        self.has(&holds) || is_bar_stop || is_bar_feed || is_off
+    }
+
+    fn has(&self, wanted: &[&str]) -> bool {
+        self.0.as_ref().is_some_and(|comment| comment.has(wanted))
+    }
+}

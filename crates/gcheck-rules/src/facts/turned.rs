@@ -1,0 +1,361 @@
+//! What a lathe program has turned so far, and which of it is the outside of the part or a bore.
+//!
+//! Knows: the cuts of every path up to a move, as long as all of them are known, and how the tool came to each and left it.
+//! Must not know: any rule, stock, the shape of tools.
+
+use std::ops::Range;
+
+use gcheck_controls::Effect;
+use gcheck_engine::{At, Axis, Event, Fact, Position, Role, Travel, TravelKind, Truth};
+use gcheck_geometry::Plane;
+
+use crate::facts::parting::Parting;
+use crate::facts::tool_words::ToolWords;
+use crate::facts::turning::is_roughing;
+use crate::{PathCx, remembers};
+
+/// X as a radius, and Z: millimetres.
+pub(crate) type Spot = [f64; 2];
+
+/// Radii and levels that differ by less are one: millimetres.
+pub(crate) const SLACK: f64 = 0.05;
+/// So far inside a surface, and under the zero of the part, a place is in the part: millimetres.
+pub(crate) const UNDER: f64 = 1.0;
+
+/// Cuts that are kept. Longer programs come from a system.
+const MOST: usize = 2000;
+/// A tool that comes in by more than this may come from its change, to a bore as well: millimetres, of the radius.
+const STEP: f64 = 6.0;
+/// Half the width of a tool that plunges, at most: millimetres.
+const WIDTH: f64 = 6.0;
+/// A bore does not leave less of the part than this: millimetres.
+const THIN: f64 = 3.0;
+
+/// What was cut so far, as far as it is known throughout.
+#[derive(Default, Clone, PartialEq)]
+pub(crate) struct Turned {
+    cuts: Vec<Cut>,
+    chain: Option<Chain>,
+    /// Where the tool is; NaN where that is not known.
+    last: Option<Spot>,
+    /// The block that moves, and the radius at which it began.
+    block: Option<(At, f64)>,
+    tool: Option<At>,
+    frame: Option<(u16, [u64; 2])>,
+    blind: bool,
+}
+
+remembers!(Turned: cuts, block, tool);
+
+/// A cut, with both ends.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Cut {
+    pub(crate) ends: [Spot; 2],
+    pub(crate) bytes: Range<u32>,
+    side: Side,
+    tool: Option<At>,
+}
+
+remembers!(Cut: bytes, tool);
+
+/// Which side of the part a cut along Z is on.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Side {
+    Unknown,
+    Outside,
+    Inside,
+}
+
+/// Cuts one after the other, without a rapid move between them.
+#[derive(Clone, PartialEq)]
+struct Chain {
+    /// The radius before the rapid move that leads to them, and after it, if that is a move in X alone beside the part.
+    approach: Option<[f64; 2]>,
+    /// The first of its cuts.
+    first: usize,
+}
+
+impl Turned {
+    /// Is everything known that was cut up to here, and does the part turn under a tool that does not?
+    pub(crate) fn knows(&self, cx: &PathCx<'_>) -> bool {
+        !self.blind
+            && self.frame.is_some()
+            && self.frame == frame(cx)
+            && cx.state().plane(cx.model) == Some(Plane::Zx)
+            && cx.state().live_tool() == Truth::False
+    }
+
+    /// Nothing can be known any more.
+    pub(crate) fn is_blind(&self) -> bool {
+        self.blind
+    }
+
+    /// Where the tool is before the move that is shown.
+    pub(crate) fn here(&self) -> Option<Spot> {
+        self.last.filter(|spot| spot.iter().all(|coordinate| !coordinate.is_nan()))
+    }
+
+    /// After the move was judged.
+    pub(crate) fn moved(&mut self, cx: &PathCx<'_>, event: &Event) {
+        let is_known = cx.is_on_every_path() && !cx.is_called_only() && !cx.is_after_unknown_program();
+        if self.blind || !is_known || self.cuts.len() >= MOST {
+            *self = Self { blind: true, ..Self::default() };
+            return;
+        }
+        let frame = frame(cx);
+        if self.frame != frame {
+            *self = Self { frame, ..Self::default() };
+        }
+        let tool = cx.trace().set_by(Fact::Tool);
+        if self.tool != tool {
+            (self.tool, self.chain, self.last) = (tool, None, None);
+        }
+        let is_turning =
+            cx.state().plane(cx.model) == Some(Plane::Zx) && cx.state().live_tool() == Truth::False;
+        let (to, is_rapid, is_expanded) = match event {
+            Event::Travel(travel) => (end(cx, travel), travel.kind == TravelKind::Rapid, travel.expanded),
+            Event::Arc(arc) => (spot(&arc.programmed), false, arc.expanded),
+            _ => {
+                self.blind |= is_turning;
+                (self.chain, self.last) = (None, None);
+                return;
+            }
+        };
+        if !is_turning {
+            (self.chain, self.last) = (None, None);
+            return;
+        }
+        let from = self.last.replace(to).unwrap_or([f64::NAN; 2]);
+        let at = cx.origin().at;
+        if self.block.is_none_or(|(block, _)| block != at) {
+            self.block = Some((at, from[0]));
+        }
+        if is_rapid {
+            self.rapid(from, to);
+        } else {
+            self.cut(cx, from, to, is_expanded);
+        }
+        if Parting::of(cx, event).is_some() {
+            self.forget();
+        }
+    }
+
+    /// Another part, or the same one elsewhere in the chuck.
+    pub(crate) fn forget(&mut self) {
+        *self = Self { blind: self.blind, frame: self.frame, ..Self::default() };
+    }
+
+    fn rapid(&mut self, from: Spot, to: Spot) {
+        self.close(Some(to[0] - from[0]).filter(|_| is_level(from, to)));
+        let is_beside = is_level(from, to) && to[1] > -SLACK;
+        let is_along = (from[0] - to[0]).abs() < SLACK;
+        let approach = if is_beside && !is_along {
+            Some([from[0], to[0]])
+        } else {
+            // Along Z the tool stays at its radius.
+            self.chain.take().and_then(|chain| chain.approach).filter(|_| is_along)
+        };
+        self.chain = Some(Chain { approach, first: self.cuts.len() });
+    }
+
+    fn cut(&mut self, cx: &PathCx<'_>, from: Spot, to: Spot, is_expanded: bool) {
+        if from.iter().chain(&to).any(|coordinate| coordinate.is_nan()) {
+            *self = Self { blind: true, ..Self::default() };
+            return;
+        }
+        // A shoulder of a bore goes on where the bore ends.
+        let goes_on = self.cuts.last().filter(|cut| cut.side == Side::Inside && is_one(cut.ends[1], from));
+        let side = match goes_on {
+            _ if is_deep(from, to) => self.side(cx, from, to, is_expanded),
+            Some(_) => Side::Inside,
+            None => Side::Unknown,
+        };
+        self.cuts.push(Cut { ends: [from, to], bytes: cx.range(), side, tool: self.tool });
+    }
+
+    /// On which side is a cut along Z, as far as it shows before the tool leaves it?
+    fn side(&self, cx: &PathCx<'_>, from: Spot, to: Spot, is_expanded: bool) -> Side {
+        let radius = from[0].min(to[0]);
+        if radius < UNDER {
+            return Side::Unknown;
+        }
+        if is_expanded {
+            // A cycle comes from the side where the stock is to be taken off.
+            let is_cycle = cx.has_effect(is_roughing) || is_turning_pass(cx);
+            let begins = self.block.map_or(f64::NAN, |(_, radius)| radius);
+            return match begins - radius {
+                _ if !is_cycle => Side::Unknown,
+                way if way > SLACK => Side::Outside,
+                way if way < -SLACK => Side::Inside,
+                _ => Side::Unknown,
+            };
+        }
+        let words = ToolWords::of(cx);
+        if words.bores() {
+            return Side::Inside;
+        }
+        let approach = self.chain.as_ref().and_then(|chain| chain.approach);
+        let step = approach.filter(|[_, to]| (to - from[0]).abs() < SLACK).map(|[before, to]| before - to);
+        let comes_in = step.is_some_and(|step| step > SLACK && step < STEP);
+        let is_straight = (from[0] - to[0]).abs() < SLACK;
+        if comes_in && is_straight && !words.may_bore() && !self.has_hole(to[1]) {
+            Side::Outside
+        } else {
+            Side::Unknown
+        }
+    }
+
+    /// A rapid move ends a chain of cuts; `out` is its way in X, if it is a move in X alone.
+    fn close(&mut self, out: Option<f64>) {
+        let Some(chain) = &self.chain else { return };
+        let Some(cuts) = self.cuts.get_mut(chain.first..).filter(|cuts| !cuts.is_empty()) else { return };
+        let Some([before, begins]) = chain.approach else { return };
+        let deep = cuts.iter().filter(|cut| is_deep(cut.ends[0], cut.ends[1]));
+        let radii = deep.flat_map(|cut| cut.ends.map(|[radius, _]| radius));
+        let (least, most) =
+            radii.fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), r| (least.min(r), most.max(r)));
+        let end = cuts.last().map_or(f64::NAN, |cut| cut.ends[1][0]);
+        let leaves_out = end > most + SLACK || end > most - SLACK && out.is_some_and(|out| out > SLACK);
+        let leaves_in = end < least - SLACK || end < least + SLACK && out.is_some_and(|out| out < -SLACK);
+        let side = if before > begins + SLACK && leaves_out {
+            Side::Outside
+        } else if before < begins - SLACK && leaves_in {
+            Side::Inside
+        } else {
+            return;
+        };
+        for cut in cuts.iter_mut().filter(|cut| cut.side == Side::Unknown) {
+            // Of an outside, only what is along Z is a surface.
+            if side == Side::Outside && !cut.is_surface() {
+                continue;
+            }
+            cut.side = side;
+        }
+    }
+
+    /// May there be a hole as deep as this?
+    fn has_hole(&self, z: f64) -> bool {
+        self.cuts.iter().any(|cut| (cut.side == Side::Inside || cut.is_centre()) && cut.reaches(z))
+    }
+
+    /// The radius of the bore at this level, and the cut that made it.
+    pub(crate) fn bore(&self, z: f64) -> Option<(f64, &Cut)> {
+        let at = self.cuts.iter().filter(|cut| cut.side == Side::Inside && cut.spans(z));
+        let walls = at.map(|cut| (cut.ends[0][0].max(cut.ends[1][0]), cut));
+        walls.max_by(|a, b| a.0.total_cmp(&b.0))
+    }
+
+    /// Was the part cut through this radius near this level, so that a tool can go in or out there?
+    pub(crate) fn is_open_across(&self, z: f64, radius: f64) -> bool {
+        self.cuts.iter().any(|cut| {
+            let [[r0, z0], [r1, z1]] = cut.ends;
+            let is_across = r0.min(r1) < radius + SLACK && r0.max(r1) > radius + UNDER;
+            is_across && z0.min(z1) - WIDTH < z && z < z0.max(z1) + WIDTH
+        })
+    }
+
+    /// The outside of the part that a straight way goes through, with the cut that made it.
+    pub(crate) fn outside_crossed(&self, from: Spot, to: Spot) -> Option<&Cut> {
+        let [[r0, z0], [r1, z1]] = [from, to];
+        if r1 >= r0 || z1 > -UNDER || self.is_cut_to(to) {
+            return None;
+        }
+        self.cuts.iter().rev().find(|cut| {
+            let radius = cut.ends[0][0].max(cut.ends[1][0]);
+            if cut.side != Side::Outside || r0 < radius - SLACK || r1 > radius - UNDER || !cut.spans(z1) {
+                return false;
+            }
+            let through = z0 + (r0 - radius) / (r0 - r1) * (z1 - z0);
+            let face = cut.ends[0][1].max(cut.ends[1][1]).min(0.0);
+            if through <= face + SLACK {
+                return true;
+            }
+            // Through the face, so near the outside that no bore leaves as little.
+            let at_face = r0 + (z0 - face) / (z0 - z1) * (r1 - r0);
+            radius - at_face < THIN && at_face > r1 + UNDER && !self.has_hole(z1)
+        })
+    }
+
+    /// Was the part cut as near to the centre as this place, and as deep, from outside?
+    fn is_cut_to(&self, [radius, z]: Spot) -> bool {
+        self.cuts.iter().any(|cut| {
+            let least = cut.ends[0][0].min(cut.ends[1][0]);
+            let is_hole = cut.side == Side::Inside || cut.is_centre();
+            let depth = cut.ends[0][1].min(cut.ends[1][1]);
+            !is_hole && least <= radius + SLACK && depth <= z + WIDTH
+        })
+    }
+
+    /// How deep the tools before this one have gone along the centre; zero without any.
+    pub(crate) fn depth_at_centre(&self, tool: Option<At>) -> f64 {
+        let at = self.cuts.iter().filter(|cut| cut.tool != tool && cut.is_centre());
+        at.map(|cut| cut.ends[0][1].min(cut.ends[1][1])).fold(0.0, f64::min)
+    }
+}
+
+impl Cut {
+    /// Along the centre: a hole.
+    fn is_centre(&self) -> bool {
+        let [[r0, _], [r1, _]] = self.ends;
+        r0.abs() < SLACK && r1.abs() < SLACK && is_deep(self.ends[0], self.ends[1])
+    }
+
+    /// Along Z, not at the centre.
+    fn is_surface(&self) -> bool {
+        let [from, to] = self.ends;
+        is_deep(from, to) && from[0].min(to[0]) > UNDER
+    }
+
+    fn spans(&self, z: f64) -> bool {
+        let [[_, z0], [_, z1]] = self.ends;
+        is_deep(self.ends[0], self.ends[1]) && (z0.min(z1) - SLACK..=z0.max(z1) + SLACK).contains(&z)
+    }
+
+    fn reaches(&self, z: f64) -> bool {
+        self.ends[0][1].min(self.ends[1][1]) < z + UNDER
+    }
+}
+
+/// X as a radius, and Z, of a position.
+fn spot(position: &Position) -> Spot {
+    [position.raw(Axis::X), position.raw(Axis::Z)]
+}
+
+/// Where a move ends, as it is programmed; a move to a place of the machine ends where the axes are then.
+pub(crate) fn end(cx: &PathCx<'_>, travel: &Travel) -> Spot {
+    spot(if goes_home(cx) { &travel.to } else { &travel.programmed })
+}
+
+/// Does the block go to a place of the machine?
+pub(crate) fn goes_home(cx: &PathCx<'_>) -> bool {
+    cx.has_effect(|effect| matches!(effect, Effect::MachineCoordinates | Effect::ReturnReference(_)))
+}
+
+/// After this, the part is another one, or elsewhere in the chuck.
+pub(crate) fn is_other_part(event: &Event) -> bool {
+    matches!(event, Event::Chuck(_) | Event::BarFeed(_) | Event::BarPush(_) | Event::WorkOffset { .. })
+}
+
+/// A move in X alone.
+pub(crate) fn is_level(from: Spot, to: Spot) -> bool {
+    (from[1] - to[1]).abs() < SLACK
+}
+
+fn is_one(a: Spot, b: Spot) -> bool {
+    (a[0] - b[0]).abs() < SLACK && (a[1] - b[1]).abs() < SLACK
+}
+
+/// A cut along Z into the part.
+fn is_deep(from: Spot, to: Spot) -> bool {
+    from[1] - to[1] > UNDER && to[1] < -UNDER
+}
+
+fn is_turning_pass(cx: &PathCx<'_>) -> bool {
+    cx.state().effect(Role::Motion, cx.model) == Some(Effect::TurningPass)
+}
+
+/// What the coordinates count from: the work offset, and the shift as bits.
+fn frame(cx: &PathCx<'_>) -> Option<(u16, [u64; 2])> {
+    let shift = cx.state().shift();
+    cx.state().work().map(|work| (work, [Axis::X, Axis::Z].map(|axis| shift.raw(axis).to_bits())))
+}

@@ -1,0 +1,199 @@
+//! A rotary axis that is indexed while the tool is in its cut.
+
+use gcheck_controls::{Effect, LetterSet};
+use gcheck_engine::{At, Axis, Event, Role, Travel};
+use gcheck_geometry::Mm;
+
+use crate::declare::declare_rule;
+use crate::facts::depth::Depth;
+use crate::{MakeShared, PathCx, PathRule, Report, Run, Uses, Watch};
+use crate::{Remembers, remembers};
+
+declare_rule! {
+    /// A rapid move turns a rotary axis of a mill, and nothing else, while the tool is still where its last cut ended.
+    ///
+    /// Moves at feed are not looked at, nor those that take the tool sideways too, nor those while the control follows the
+    /// tool's tip or a drawing is wrapped around the axis.
+    ///
+    /// ## Why it matters
+    /// The part turns with its edges past the tool, or into it: the tool breaks, or leaves a mark. A retract is missing
+    /// before the axis is indexed.
+    ///
+    /// ## Reported
+    /// ```nc,reported,haas-mill
+    /// T2 M6
+    /// G20 G90 G54 G0 X0. Y0. A0. S600 M3
+    /// G43 H2 Z1.1
+    /// G1 Z.8 F20.
+    /// X2.
+    /// G0 A90.
+    /// G1 X0.
+    /// G0 Z2.
+    /// M30
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,haas-mill
+    /// T2 M6
+    /// G20 G90 G54 G0 X0. Y0. A0. S600 M3
+    /// G43 H2 Z1.1
+    /// G1 Z.8 F20.
+    /// X2.
+    /// G0 Z1.1
+    /// A90.
+    /// G1 Z.8
+    /// X0.
+    /// G0 Z2.
+    /// M30
+    /// ```
+    rule "index-before-retract" in "motion" {
+        summary: "rotary axis indexed while the tool is in its cut",
+        severity: Warning,
+        tier: Path,
+        since: "0.1.0",
+        run: Run::Path { watch: Watch::RAPIDS, make: || Box::new(IndexBeforeRetract { told: None }) },
+    }
+}
+
+#[derive(Clone, PartialEq)]
+struct IndexBeforeRetract {
+    /// The block that was reported: a loop repeats it.
+    told: Option<At>,
+}
+
+remembers!(IndexBeforeRetract: told);
+
+const ROTARY: LetterSet = LetterSet::of("ABC");
+
+impl PathRule for IndexBeforeRetract {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
+    fn shares(&self) -> Option<MakeShared> {
+        Some(Depth::shared)
+    }
+
+    fn concerns(&self, program: &Uses<'_>) -> bool {
+        program.environment.control().machine() == gcheck_controls::Machine::Mill
+    }
+
+    fn rapid(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
+        let Event::Travel(travel) = event else { return };
+        if !cx.origin().letters.intersects(ROTARY) || !turns_in_place(cx, travel) || !cx.is_on_every_path() {
+            return;
+        }
+        let is_plain = cx.state().wrapped().cylinder().is_none() && !follows_the_tool(cx);
+        let Some(z) = travel.from.get(Axis::Z).filter(|_| is_plain) else { return };
+        let Some(cut) = cx.shared::<Depth>().and_then(|depth| depth.last_cut(z)) else { return };
+        if self.told.replace(cx.origin().at) == Some(cx.origin().at) {
+            return;
+        }
+        let range = cx.word_range(|word| !word.letter.is_corner() && ROTARY.contains(word.letter));
+        let finding = cx
+            .finding(&META, range, "the part is turned at rapid while the tool is in its cut")
+            .label(format!("the tool stays at Z {}, the level of its last cut", cx.shown(Mm(z))));
+        let finding = match cx.range_of(cut) {
+            Some(range) => finding.also(range, "the tool's last cut"),
+            None => finding,
+        };
+        report.add(
+            finding
+                .assuming("the tool has not left the part sideways")
+                .help("retract the tool before the axis turns, and feed it down again after that"),
+        );
+    }
+}
+
+/// Does a rotary axis that the block names turn while the tool stays?
+fn turns_in_place(cx: &PathCx<'_>, travel: &Travel) -> bool {
+    let differs = |axis: Axis| {
+        let (from, to) = (travel.from.raw(axis), travel.to.raw(axis));
+        to.is_nan() || from.is_nan() || (from - to).abs() > 0.001
+    };
+    let stays = ![Axis::X, Axis::Y, Axis::Z].into_iter().any(differs);
+    let named = |axis: &Axis| cx.origin().letters.contains(axis.letter());
+    stays && [Axis::A, Axis::B, Axis::C].into_iter().filter(named).any(differs)
+}
+
+/// Does the control move the linear axes with the rotary ones?
+fn follows_the_tool(cx: &PathCx<'_>) -> bool {
+    let state = cx.state();
+    let length = state.effect(Role::Length, cx.model);
+    length.is_none_or(|effect| matches!(effect, Effect::LengthFiveAxis | Effect::ToolCentrePoint))
+        || state.effect(Role::DynamicOffset, cx.model) == Some(Effect::DynamicOffsetOn)
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::check_rule;
+
+    fn program(after: &str) -> String {
+        format!(
+            "T1 M6\nG21 G90 G54 G0 X0. Y0. A0. S4000 M3\nG43 H1 Z50.\nZ22.\nG1 Z18. F200.\nX50.\n{after}\nG0 Z50.\nM30\n"
+        )
+    }
+
+    #[test]
+    fn the_rotary_word_is_marked() {
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            &program("G0 A90."),
+            &expect![[r#"
+            7 | G0 A90.
+              |    ^^^^ warning[index-before-retract] the part is turned at rapid while the tool is in its cut
+        "#]],
+        );
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            &program("G91 G0 A90."),
+            &expect![[r#"
+            7 | G91 G0 A90.
+              |        ^^^^ warning[index-before-retract] the part is turned at rapid while the tool is in its cut
+        "#]],
+        );
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            &program("#1=90.\nG0 A#1"),
+            &expect![[r#"
+            8 | G0 A#1
+              |    ^^^ warning[index-before-retract] the part is turned at rapid while the tool is in its cut
+        "#]],
+        );
+    }
+
+    #[test]
+    fn lifted_or_moved_away_it_is_fine() {
+        check_rule(&RULE, "fanuc-mill", &program("G0 Z22.\nA90."), &expect![[""]]);
+        check_rule(&RULE, "fanuc-mill", &program("G0 Z30. A90."), &expect![[""]]);
+        check_rule(&RULE, "fanuc-mill", &program("G0 X80.\nA90."), &expect![[""]]);
+        check_rule(&RULE, "fanuc-mill", &program("G91 G28 Z0\nG90 G0 A90."), &expect![[""]]);
+        check_rule(&RULE, "fanuc-mill", &program("G0 X80. A90."), &expect![[""]]);
+        // The same angle again.
+        check_rule(&RULE, "fanuc-mill", &program("G0 A0."), &expect![[""]]);
+    }
+
+    #[test]
+    fn turned_at_feed_it_is_a_cut() {
+        check_rule(&RULE, "fanuc-mill", &program("G1 A90."), &expect![[""]]);
+    }
+
+    #[test]
+    fn each_side_of_a_loop_is_told_once() {
+        let hex = "#1=0\nWHILE [#1 LT 6] DO1\nG0 A[#1*60]\nG1 Z18. F200.\nX0.\nX50.\n#1=#1+1\nEND1";
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            &program(hex),
+            &expect![[r#"
+            9 | G0 A[#1*60]
+              |    ^^^^^^^^ warning[index-before-retract] the part is turned at rapid while the tool is in its cut
+        "#]],
+        );
+    }
+}

@@ -1,0 +1,242 @@
+//! A rapid move of a lathe through an outside surface that the program has turned.
+
+use gcheck_controls::{LetterSet, Machine};
+use gcheck_engine::{At, Event, TravelKind};
+use gcheck_geometry::Mm;
+
+use crate::declare::declare_rule;
+use crate::facts::tool_words::ToolWords;
+use crate::facts::turned::{SLACK, Spot, Turned, end, is_level, is_other_part};
+use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
+use crate::{Remembers, remembers};
+
+declare_rule! {
+    /// A tool of a lathe moves inwards at rapid, through the outside of the part as the program has turned it, to where
+    /// nothing was cut.
+    ///
+    /// A cut counts as the outside of the part if a roughing cycle or a turning pass begins farther from the centre, or
+    /// if the tool comes to it inwards, in a move in X beside the part. Where there is a hole, nothing is taken for the
+    /// outside by its approach alone.
+    ///
+    /// ## Why it matters
+    /// The tool is driven into the part at rapid. Mostly the sign of a retract (`U`) is wrong, or `G0` was written instead
+    /// of `G1`.
+    ///
+    /// ## Reported
+    /// ```nc,reported,fanuc-lathe
+    /// G21 G99 T0101
+    /// G97 S900 M3
+    /// G0 X52. Z2.
+    /// X48.
+    /// G1 Z-30. F0.2
+    /// G0 U-4.
+    /// Z2.
+    /// M30
+    /// ```
+    /// ```nc,reported,fanuc-lathe
+    /// G21 G99 T0101
+    /// G97 S900 M3
+    /// G0 X52. Z2.
+    /// X48.
+    /// G1 Z-30. F0.2
+    /// X52.
+    /// G0 Z2.
+    /// G0 X20. Z-10.
+    /// G1 Z-15.
+    /// M30
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,fanuc-lathe
+    /// G21 G99 T0101
+    /// G97 S900 M3
+    /// G0 X52. Z2.
+    /// X48.
+    /// G1 Z-30. F0.2
+    /// G0 U4.
+    /// Z2.
+    /// M30
+    /// ```
+    rule "rapid-into-turned-part" in "motion" {
+        summary: "rapid move of a lathe through an outside surface that it has turned",
+        severity: Warning,
+        tier: Path,
+        since: "0.1.0",
+        run: Run::Path {
+            watch: Watch::MOVES.union(Watch::CHANGES),
+            make: || Box::new(RapidIntoTurnedPart::default()),
+        },
+    }
+}
+
+#[derive(Default, Clone, PartialEq)]
+struct RapidIntoTurnedPart {
+    turned: Turned,
+    /// The move that was reported.
+    told: Option<At>,
+}
+
+remembers!(RapidIntoTurnedPart: turned, told);
+
+impl PathRule for RapidIntoTurnedPart {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
+    fn concerns(&self, program: &Uses<'_>) -> bool {
+        program.environment.control().machine() == Machine::Lathe
+    }
+
+    fn changed(&mut self, _: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
+        if is_other_part(event) {
+            self.turned.forget();
+        }
+    }
+
+    fn moved(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
+        if let (Event::Travel(travel), Some(here)) = (event, self.turned.here())
+            && travel.kind == TravelKind::Rapid
+            && !travel.expanded
+            && self.turned.knows(cx)
+            && self.told != Some(cx.origin().at)
+            && !cx.origin().letters.intersects(LetterSet::of("CYHV"))
+        {
+            self.judge(cx, here, end(cx, travel), report);
+        }
+        self.turned.moved(cx, event);
+        if self.turned.is_blind() {
+            cx.enough();
+        }
+    }
+}
+
+impl RapidIntoTurnedPart {
+    fn judge(&mut self, cx: &PathCx<'_>, from: Spot, to: Spot, report: &mut Report<'_>) {
+        let Some(cut) = self.turned.outside_crossed(from, to) else { return };
+        if ToolWords::of(cx).bores() {
+            return;
+        }
+        self.told = Some(cx.origin().at);
+        let is_diameter = cx.state().is_diameter(cx.model) == Some(true);
+        let shown = |radius: f64| cx.shown(Mm(if is_diameter { radius * 2.0 } else { radius }));
+        let radius = cut.ends[0][0].max(cut.ends[1][0]);
+        let is_retract = is_level(from, to) && (from[0] - radius).abs() < SLACK;
+        let (message, help) = if is_retract {
+            (
+                "rapid retract into the part after an outside cut",
+                "retract outwards: check the sign of `U`, or the number of `X`",
+            )
+        } else {
+            (
+                "rapid move into the part, through a surface that was turned",
+                "check X and Z of the move, or make it at feed (`G1`)",
+            )
+        };
+        report.add(
+            cx.finding(&META, cx.range(), message)
+                .label(format!("to X {} at Z {}, where nothing was cut", shown(to[0]), cx.shown(Mm(to[1]))))
+                .also(cut.bytes.clone(), format!("the outside is turned to X {} here", shown(radius)))
+                .assuming("the part is not hollow there before the program starts")
+                .help(help),
+        );
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::check_rule;
+
+    fn program(comment: &str, moves: &str) -> String {
+        format!("G21 G99 G40\nT0101 {comment}\nG97 S900 M3\n{moves}\nG0 X150. Z100.\nM30\n")
+    }
+
+    const TURNED: &str = "G0 X52. Z2.\nX48.\nG1 Z-30. F.2\nX52.\nG0 Z2.\n";
+
+    #[test]
+    fn a_bore_is_left_inwards() {
+        let bored = "G0 X52. Z2.\nX48.\nG1 Z-30. F.2\nG0 U-1.\nG0 Z2.";
+        check_rule(&RULE, "fanuc-lathe", &program("", bored), &expect![[""]]);
+        let bored = bored.replace("U-1.", "U-4.");
+        for comment in ["(BORING BAR)", "(ID FINISH)"] {
+            check_rule(&RULE, "fanuc-lathe", &program(comment, &bored), &expect![[""]]);
+        }
+        // With a hole in the part, the cut may be a bore.
+        let drilled = "G0 X0 Z2.\nG1 Z-40. F.1\nG0 Z2.\n";
+        check_rule(&RULE, "fanuc-lathe", &program("", &format!("{drilled}{bored}")), &expect![[""]]);
+        // From far away it comes from its change.
+        check_rule(
+            &RULE,
+            "fanuc-lathe",
+            &program("", "G0 X100. Z2.\nX48.\nG1 Z-30. F.2\nG0 U-4.\nG0 Z2."),
+            &expect![[""]],
+        );
+    }
+
+    #[test]
+    fn into_the_part_behind_its_face() {
+        check_rule(
+            &RULE,
+            "fanuc-lathe",
+            &program("", &format!("{TURNED}X60.\nZ-10.\nX40.")),
+            &expect![[r#"
+            11 | X40.
+               | ^^^^ warning[rapid-into-turned-part] rapid move into the part, through a surface that was turned
+        "#]],
+        );
+        check_rule(
+            &RULE,
+            "haas-lathe",
+            &program("", &format!("{TURNED}X52.\nG0 X20. Z-10.")),
+            &expect![[r#"
+                10 | G0 X20. Z-10.
+                   | ^^^^^^^^^^^^^ warning[rapid-into-turned-part] rapid move into the part, through a surface that was turned
+            "#]],
+        );
+        // To the face of a bore, for all that is known.
+        check_rule(
+            &RULE,
+            "fanuc-lathe",
+            &program("", &format!("{TURNED}X150. Z100.\nG0 X20. Z-10.")),
+            &expect![[""]],
+        );
+    }
+
+    #[test]
+    fn a_bore_within_does_not_open_the_outside() {
+        let bored = "G0 X15.5 Z3.\nG71 U1. R.3\nG71 P30 Q40 U-.3 W.05 F.15\nN30 G0 X26.\nG1 Z-20.\nX20.\nZ-40.\nN40 X15.5\nG70 P30 Q40\nG0 X52. Z5.\nG0 X45. Z-15.";
+        check_rule(
+            &RULE,
+            "fanuc-lathe",
+            &program("", &format!("{TURNED}{bored}")),
+            &expect![[r#"
+                19 | G0 X45. Z-15.
+                   | ^^^^^^^^^^^^^ warning[rapid-into-turned-part] rapid move into the part, through a surface that was turned
+            "#]],
+        );
+    }
+
+    #[test]
+    fn where_a_groove_was_cut_the_way_is_free() {
+        let groove = "G0 X52.\nZ-12.\nG1 X38. F.1\nG0 X52.\nZ-10.\nX40.";
+        check_rule(&RULE, "fanuc-lathe", &program("", &format!("{TURNED}{groove}")), &expect![[""]]);
+        let step = "G0 X30.\nG1 Z-20.\nX52.\nG0 Z-10.\nX32.";
+        check_rule(&RULE, "fanuc-lathe", &program("", &format!("{TURNED}{step}")), &expect![[""]]);
+    }
+
+    #[test]
+    fn a_roughing_cycle_turns_the_outside() {
+        let roughed = "G0 X52. Z2.\nG71 U2. R1.\nG71 P10 Q20 U.4 W.1 F.25\nN10 G0 X20.\nG1 Z-20. F.1\nX40.\nZ-40.\nN20 X52.\nG70 P10 Q20\n";
+        check_rule(
+            &RULE,
+            "fanuc-lathe",
+            &program("", &format!("{roughed}G0 Z-30.\nX30.")),
+            &expect![[r#"
+            14 | X30.
+               | ^^^^ warning[rapid-into-turned-part] rapid move into the part, through a surface that was turned
+        "#]],
+        );
+        check_rule(&RULE, "fanuc-lathe", &program("", &format!("{roughed}G0 Z-10.\nX30.")), &expect![[""]]);
+    }
+}

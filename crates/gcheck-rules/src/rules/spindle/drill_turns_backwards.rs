@@ -1,0 +1,192 @@
+//! A drill that turns counter-clockwise.
+
+use gcheck_controls::Effect;
+use gcheck_engine::{At, Axis, Event, Fact, Spindle, Travel, TravelKind};
+
+use crate::declare::declare_rule;
+use crate::facts::tool_comment::{ToolComment, comment_of_tool};
+use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
+use crate::{Remembers, remembers};
+
+declare_rule! {
+    /// A drilling cycle, or a feed move straight down, while the spindle turns counter-clockwise (`M4`), with a tool that its
+    /// comment calls a drill. A comment that names a left-hand drill is accepted (`LH`, `LEFT`).
+    ///
+    /// ## Why it matters
+    /// A drill cuts only clockwise (`M3`). Turning backwards, it rubs, gets hot and breaks.
+    ///
+    /// ## Reported
+    /// ```nc,reported,haas-mill
+    /// T4 M6 (5.1 DRILL)
+    /// G21 G90 G54 G0 X0. Y0.
+    /// S2000 M4
+    /// G43 H4 Z10.
+    /// G81 Z-12. R2. F150.
+    /// G80
+    /// M30
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,haas-mill
+    /// T4 M6 (5.1 DRILL LH)
+    /// G21 G90 G54 G0 X0. Y0.
+    /// S2000 M4
+    /// G43 H4 Z10.
+    /// G81 Z-12. R2. F150.
+    /// G80
+    /// M30
+    /// ```
+    rule "drill-turns-backwards" in "spindle" {
+        summary: "drill that turns counter-clockwise",
+        severity: Warning,
+        tier: Path,
+        since: "0.1.0",
+        run: Run::Path { watch: Watch::CUTS, make: || Box::new(DrillTurnsBackwards { told: None }) },
+    }
+}
+
+#[derive(Clone, PartialEq)]
+struct DrillTurnsBackwards {
+    /// The tool change whose tool was reported.
+    told: Option<At>,
+}
+
+remembers!(DrillTurnsBackwards: told);
+
+/// Millimetres: less is not a move.
+const WAY: f64 = 0.01;
+
+impl PathRule for DrillTurnsBackwards {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
+    fn concerns(&self, program: &Uses<'_>) -> bool {
+        program.may(turns_backwards)
+            && program.environment.control().machine() == gcheck_controls::Machine::Mill
+    }
+
+    fn cut(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
+        let Event::Travel(travel) = event else { return };
+        if cx.state().spindle() != Some(Spindle::CounterClockwise) || !drills(cx, travel) {
+            return;
+        }
+        let Some(changed) = cx.trace().set_by(Fact::Tool).filter(|at| self.told != Some(*at)) else { return };
+        let Some(comment) = comment_of_tool(cx, changed).filter(is_drill) else { return };
+        self.told = Some(changed);
+        let started = cx.trace().set_by(Fact::Spindle);
+        let start =
+            started.and_then(|at| cx.find_word(at, |word| turns_backwards(cx.model.effect(word.code))));
+        let name = cx.name_of_effect(Effect::SpindleCounterClockwise).unwrap_or_default();
+        let right = cx.name_of_effect(Effect::SpindleClockwise).unwrap_or_default();
+        let mut finding = match start {
+            Some(range) => cx
+                .finding(&META, range, format!("the drill turns backwards (`{name}`)"))
+                .label("counter-clockwise")
+                .also(cx.range(), "drills here"),
+            None => cx
+                .finding(&META, cx.range(), format!("the drill turns backwards (`{name}`)"))
+                .label("drills here"),
+        };
+        if let Some(range) = cx.range_of(comment.at) {
+            finding = finding.also(range, "names a drill");
+        }
+        report.add(
+            finding.help(format!("start the spindle with `{right}`, or name the drill left-hand (`LH`)")),
+        );
+    }
+}
+
+fn turns_backwards(effect: Effect) -> bool {
+    matches!(effect, Effect::SpindleCounterClockwise | Effect::SpindleCounterClockwiseWithCoolant)
+}
+
+/// Is it a stroke of a drilling cycle, or a feed move straight down?
+fn drills(cx: &PathCx<'_>, travel: &Travel) -> bool {
+    if travel.expanded {
+        let cycle = cx.state().active_cycle(cx.model).filter(|code| code.is_some());
+        return cycle.is_some_and(|code| {
+            matches!(
+                cx.model.effect(code),
+                Effect::CycleDrill | Effect::CycleDrillDwell | Effect::CyclePeck | Effect::CycleChipBreak
+            )
+        });
+    }
+    let way = |axis: Axis| travel.to.raw(axis) - travel.from.raw(axis);
+    travel.kind == TravelKind::Feed && way(Axis::X).hypot(way(Axis::Y)) < WAY && way(Axis::Z) < -WAY
+}
+
+fn is_drill(comment: &ToolComment) -> bool {
+    let is_left = comment.has(&["LH", "L", "LEFT", "LEFTHAND", "REVERSE", "CCW", "M4", "M04", "MILL"]);
+    comment.has(&["DRILL", "DRILLS", "DRILLING"]) && !is_left
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::{World, check_rule, findings, only, words};
+
+    fn program(comment: &str, start: &str, cut: &str) -> String {
+        format!(
+            "T4 M6 ({comment})\nG21 G90 G54 G0 X0. Y0.\nS900 {start}\nG43 H4 Z5.\n{cut}\nG80\nG0 Z5.\nM30\n"
+        )
+    }
+
+    #[test]
+    fn straight_down_at_feed_too() {
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            &program("5.1 drill", "M4", "G1 Z-9. F90."),
+            &expect![[r#"
+            3 | S900 M4
+              |      ^^ warning[drill-turns-backwards] the drill turns backwards (`M4`)
+        "#]],
+        );
+        check_rule(&RULE, "fanuc-mill", &program("5.1 drill", "M3", "G1 Z-9. F90."), &expect![[""]]);
+    }
+
+    #[test]
+    fn tools_that_turn_so() {
+        for comment in ["5.1 DRILL LEFT HAND", "5.1 L.H. DRILL", "DRILL MILL", "6 MM END MILL"] {
+            check_rule(&RULE, "haas-mill", &program(comment, "M4", "G81 Z-9. R2. F90."), &expect![[""]]);
+        }
+        // A tap, and a boring bar.
+        check_rule(&RULE, "haas-mill", &program("DRILL TAP", "M4", "G74 Z-9. R2. F90."), &expect![[""]]);
+        check_rule(
+            &RULE,
+            "haas-mill",
+            &program("BORE AFTER DRILL", "M4", "G86 Z-9. R2. F90."),
+            &expect![[""]],
+        );
+    }
+
+    #[test]
+    fn the_list_at_the_head_names_the_drill() {
+        let program = program("", "M4", "G81 Z-9. R2. F90.");
+        check_rule(
+            &RULE,
+            "haas-mill",
+            &format!("O1\n(T3 TAP)\n(T4 5.1 DRILL)\n{}", program.replace("()", "")),
+            &expect![[r#"
+                6 | S900 M4
+                  |      ^^ warning[drill-turns-backwards] the drill turns backwards (`M4`)
+            "#]],
+        );
+    }
+
+    #[test]
+    fn what_it_says() {
+        let program = program("5.1 DRILL", "M4", "G83 Z-9. R2. Q3. F90.");
+        let found = findings(&only(&RULE), "haas-mill", &program, &World::default());
+        expect![[r#"
+            the drill turns backwards (`M4`)
+              here: counter-clockwise
+              there: drills here
+              there: names a drill
+              help: start the spindle with `M3`, or name the drill left-hand (`LH`)
+        "#]]
+        .assert_eq(&found.iter().map(words).collect::<String>());
+    }
+}
