@@ -10,18 +10,23 @@ use crate::{ControlSource, Report};
 /// Reasons that are listed in one line.
 const REASONS: usize = 3;
 
+/// What the files of one line share: the control, the source of the choice, and the reason where it is of one file alone.
+type Shared<'a> = (&'a str, ControlSource, &'a str);
+
 /// Says which control was used: one line for all files that share a control and the source of the choice.
 pub fn control_lines(report: &Report) -> Vec<String> {
-    let mut groups: BTreeMap<(&str, ControlSource), Vec<(&str, &str)>> = BTreeMap::new();
+    let mut groups: BTreeMap<Shared<'_>, Vec<(&str, &str)>> = BTreeMap::new();
     for file in report.files() {
         let reason = file.control.because.as_deref().unwrap_or_default();
-        let key = (file.control.name.as_str(), file.control.source);
+        // What a file is for does not hold for another one that nothing decided.
+        let own = if file.control.source == ControlSource::Default { reason } else { "" };
+        let key = (file.control.name.as_str(), file.control.source, own);
         groups.entry(key).or_default().push((&file.path, reason));
     }
     // The first file leads, so that the lines are in the order in which findings will be.
     let mut groups: Vec<_> = groups.into_iter().collect();
     groups.sort_by_key(|(_, files)| files.first().map(|(path, _)| *path));
-    groups.into_iter().map(|((name, source), files)| line(name, source, &files)).collect()
+    groups.into_iter().map(|((name, source, _), files)| line(name, source, &files)).collect()
 }
 
 fn line(name: &str, source: ControlSource, files: &[(&str, &str)]) -> String {
@@ -53,6 +58,21 @@ mod tests {
             }
         });
         control_lines(&Report::new(files.collect()))
+    }
+
+    #[test]
+    fn the_reason_of_one_file_is_not_that_of_another() {
+        let by_default = |path, because| (path, "generic-mill", ControlSource::Default, because);
+        assert_eq!(
+            lines(&[
+                by_default("a.mpf", Some("the file is for a SINUMERIK control")),
+                by_default("b.nc", None)
+            ]),
+            [
+                "a.mpf: control generic-mill, by default: the file is for a SINUMERIK control",
+                "b.nc: control generic-mill, by default",
+            ]
+        );
     }
 
     #[test]

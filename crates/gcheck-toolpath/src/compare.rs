@@ -20,7 +20,7 @@ use crate::trail::{Act, Doing, Driven, Feed, Setting, Stand};
 use curve::Curve;
 
 pub use difference::{Aspect, Difference, Differences, Parting, Place, Value};
-use same::{known_differ, rate_differs};
+use same::{known_differ, rate_differs, table_differs};
 
 /// Acts that are given together and are matched with each other at most.
 const MAX_STANDS: usize = 64;
@@ -222,7 +222,7 @@ impl<A: Iterator<Item = Act>, B: Iterator<Item = Act>> Comparison<A, B> {
         if parted.is_some() {
             return parted;
         }
-        settings(&mut self.found, a, b);
+        settings(&mut self.found, a, b, self.tolerance);
         let (a_is_done, b_is_done) = (a.done >= 1.0, b.done >= 1.0);
         if a_is_done {
             self.a.finish();
@@ -261,7 +261,7 @@ fn follow(short: &mut Piece, long: &mut Piece, tolerance: f64) -> Result<(), f64
 }
 
 /// Compares what is in effect while both move.
-fn settings(found: &mut Differences, a: &Piece, b: &Piece) {
+fn settings(found: &mut Differences, a: &Piece, b: &Piece, tolerance: f64) {
     let places = || (Some(a.place()), Some(b.place()));
     let (of_a, of_b) = (&a.act.setting, &b.act.setting);
     let mut compare = |aspect: Aspect, differs: bool, values: [Value; 2]| {
@@ -273,16 +273,29 @@ fn settings(found: &mut Differences, a: &Piece, b: &Piece) {
     };
     compare(Aspect::Drive, a.driven != b.driven, [a.driven, b.driven].map(Value::Driven));
     compare(Aspect::Tool, known_differ(of_a.tool, of_b.tool), [of_a.tool, of_b.tool].map(Value::Tool));
-    compare(
-        Aspect::WorkOffset,
-        known_differ(of_a.work, of_b.work),
-        [of_a.work, of_b.work].map(Value::WorkOffset),
-    );
-    compare(
-        Aspect::Length,
-        known_differ(of_a.length, of_b.length),
-        [of_a.length, of_b.length].map(Value::Length),
-    );
+    match (of_a.work, of_b.work) {
+        (Some(work), Some(same)) if work == same => {
+            let axes = of_a.zero.into_iter().zip(of_b.zero);
+            let differs = axes.into_iter().any(|(a, b)| table_differs(a, b, tolerance));
+            compare(Aspect::WorkOffset, differs, [of_a, of_b].map(|of| Value::of_zero(work, of)));
+        }
+        works => compare(
+            Aspect::WorkOffset,
+            known_differ(of_a.work, of_b.work),
+            <[_; 2]>::from(works).map(Value::WorkOffset),
+        ),
+    }
+    match (of_a.length, of_b.length) {
+        (Some(length), Some(same)) if length == same && length != 0 => {
+            let differs = table_differs(of_a.length_by, of_b.length_by, tolerance);
+            compare(Aspect::Length, differs, [of_a, of_b].map(|of| Value::of_length(length, of)));
+        }
+        lengths => compare(
+            Aspect::Length,
+            known_differ(of_a.length, of_b.length),
+            <[_; 2]>::from(lengths).map(Value::Length),
+        ),
+    }
     if a.driven == Driven::Rapid || b.driven == Driven::Rapid {
         return;
     }

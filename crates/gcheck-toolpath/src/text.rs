@@ -164,9 +164,12 @@ fn line(out: &mut Vec<u8>, cell: &mut Vec<u8>, view: View, step: &Step<'_>, reco
             _ => "",
         };
         out.extend_from_slice(before.as_bytes());
-        brief(out, value, 4, "?");
+        // Programs in inches give surface speeds in feet.
+        let is_feet = name == "metres_per_minute" && step.units == Units::Inch;
+        brief(out, if is_feet { value * 1000.0 / 25.4 / 12.0 } else { value }, 4, "?");
         out.extend_from_slice(match name {
             "rpm" => b" rpm".as_slice(),
+            "metres_per_minute" if is_feet => b" ft/min",
             "metres_per_minute" => b" m/min",
             "degrees" => b" deg",
             _ => b"",

@@ -299,6 +299,14 @@ impl Clock {
         }
     }
 
+    /// Turns of the spindle a minute, on the average of a movement: 0 when it is stopped, NaN when the speed is unknown.
+    pub(crate) fn rpm(&self, step: &Step<'_>, motion: &Motion) -> f64 {
+        if step.rpm == 0.0 {
+            return 0.0;
+        }
+        self.minutes_a_turn(step, motion).map_or(f64::NAN, |minutes| 1.0 / minutes)
+    }
+
     /// Minutes of one turn of the spindle, on the average of the movement.
     fn minutes_a_turn(&self, step: &Step<'_>, motion: &Motion) -> Result<f64, Untimed> {
         let Some(limit) = self.surface else { return Ok(1.0 / positive(step.rpm, Untimed::Speed)?) };

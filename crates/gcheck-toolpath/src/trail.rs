@@ -115,8 +115,12 @@ pub struct Setting {
     pub tool: Option<u32>,
     /// Number of the work coordinate system, 1 the first.
     pub work: Option<u16>,
+    /// Where the zero of that system lies in X, Y and Z of the machine, millimetres.
+    pub zero: [f64; 3],
     /// Number of the tool length offset, 0 none.
     pub length: Option<u32>,
+    /// How long it is in Z, millimetres.
+    pub length_by: f64,
     /// Number of the cutter offset; `Some(0)` while the path is not shifted by a cutter.
     pub cutter: Option<u32>,
     /// Mist, flood and through the spindle; `None` while the program has not said.
@@ -142,19 +146,21 @@ pub struct Trail {
 }
 
 impl Trail {
-    /// At the begin of a run, with the number of the work coordinate system in effect there.
-    pub fn new(work: Option<u16>) -> Self {
+    /// At the begin of a run, with the work coordinate system in effect there.
+    pub fn new(work: WorkCoordinates) -> Self {
         Self {
             clock: Clock::new(Timing::new(None, None)),
-            placing: Placing::new(WorkCoordinates { number: work, ..WorkCoordinates::UNKNOWN }),
+            placing: Placing::new(WorkCoordinates { number: work.number, ..WorkCoordinates::UNKNOWN }),
             setting: Setting {
                 feed: None,
                 spindle: None,
                 speed: f64::NAN,
                 surface: false,
                 tool: None,
-                work,
+                work: work.number,
+                zero: zero(&work.origin),
                 length: None,
+                length_by: f64::NAN,
                 cutter: Some(0),
                 coolant: [None; 3],
             },
@@ -194,8 +200,14 @@ impl Trail {
             }
             Event::SpindleMode(limit) => setting.surface = limit.is_some(),
             Event::ToolChange(tool) | Event::SetToolNumber(tool) => setting.tool = *tool,
-            Event::WorkOffset { number, .. } => setting.work = Some(*number),
-            Event::LengthOffset(_) => setting.length = step.h,
+            Event::WorkOffset { number, offset, .. } => {
+                setting.work = Some(*number);
+                setting.zero = zero(offset);
+            }
+            Event::LengthOffset(by) => {
+                setting.length = step.h;
+                setting.length_by = by.raw(Axis::Z);
+            }
             Event::Coolant { kind, on } => {
                 let [mist, flood, through] = &mut setting.coolant;
                 let slot = match kind {
@@ -273,6 +285,10 @@ impl Trail {
             (FeedMode::InverseTime, _) => Feed::PerMinute(f64::NAN),
         })
     }
+}
+
+fn zero(origin: &Position) -> [f64; 3] {
+    [Axis::X, Axis::Y, Axis::Z].map(|axis| origin.raw(axis))
 }
 
 fn is_unknown(point: &Position) -> bool {

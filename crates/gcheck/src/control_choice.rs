@@ -1,11 +1,12 @@
 //! Which control runs a program: option, comment, configuration, detection, neighbours, fallback, in this order.
 //!
-//! Knows: the order, and how a comment names a control. Must not know: any control.
+//! Knows: the order. Must not know: any control.
 
 use std::path::Path;
 
 use gcheck_controls::{Evidence, Guess, UnsupportedDialect};
 use gcheck_lint::Selection;
+use gcheck_program::control_comment;
 use gcheck_report::{ControlChoice, ControlSource};
 use gcheck_syntax::SourceText;
 
@@ -13,9 +14,6 @@ use crate::config::validate_control;
 use crate::detection::{detected, evidence};
 use crate::neighbours::Neighbours;
 use crate::{Problem, paths};
-
-/// Lines in which a comment may name the control.
-const HEAD_LINES: usize = 50;
 
 /// Chooses the control of a program; `configured` is the configuration's, with the file that says so.
 pub(crate) fn choose(
@@ -106,29 +104,11 @@ const UNSUPPORTED_DIALECT: &str = "unsupported-dialect";
 /// `(gcheck: control=NAME)` in the first lines: the name, and the comment as written.
 fn named_in_comment(path: &Path, source: &SourceText) -> Result<Option<(String, String)>, Problem> {
     let text = source.text();
-    let mut start = 0;
-    for line in text.split_inclusive(['\n', '\r']).take(HEAD_LINES) {
-        if let Some((before, directive)) = line.split_once("gcheck:") {
-            let directive = directive.trim_start();
-            let name = directive
-                .strip_prefix("control")
-                .map(str::trim_start)
-                .and_then(|rest| rest.strip_prefix('='));
-            if let Some(rest) = name.map(str::trim_start) {
-                let end = rest.find(|c: char| !(c.is_ascii_alphanumeric() || c == '-')).unwrap_or(rest.len());
-                let name = rest.get(..end).unwrap_or_default();
-                let at = start + line.len() - rest.len();
-                validate_control(name)
-                    .map_err(|message| Problem::at(&paths::shown(path), text, &(at..at + end), message))?;
-                let open = before.rfind(['(', ';']).unwrap_or(before.len());
-                let comment = line.get(open..).unwrap_or_default();
-                let comment = comment.split_inclusive(')').next().unwrap_or(comment).trim_end();
-                return Ok(Some((name.to_owned(), comment.to_owned())));
-            }
-        }
-        start += line.len();
-    }
-    Ok(None)
+    let Some(found) = control_comment(text) else { return Ok(None) };
+    let name = text.get(found.name.clone()).unwrap_or_default();
+    validate_control(name).map_err(|message| Problem::at(&paths::shown(path), text, &found.name, message))?;
+    let comment = text.get(found.comment).unwrap_or_default();
+    Ok(Some((name.to_owned(), comment.to_owned())))
 }
 
 #[cfg(test)]

@@ -18,6 +18,8 @@ pub(crate) use equipment::{Equipment, Start};
 pub(crate) use session::{Prepared, Session, prepare};
 pub(crate) use steps::Steps;
 
+use crate::{Problem, config};
+
 use bridge::Bridge;
 use equipment::AxesMoved;
 
@@ -25,6 +27,11 @@ impl Session<'_> {
     /// Executes the program; `steps` sees every event. The error is that of the output, which ends the run early.
     pub(crate) fn run<S: Steps>(&self, steps: S) -> std::io::Result<(RunResult, S)> {
         self.run_with(self.prepared.options, steps)
+    }
+
+    /// Does a block say in which units it is written?
+    pub(crate) fn says_units(&self) -> bool {
+        self.axes.says_units
     }
 
     /// As [`Self::run`]; a fault does not end it.
@@ -69,6 +76,17 @@ impl Session<'_> {
         let view = View::new(axes);
         if self.model.semantics().diameter { view.with_diameters() } else { view }
     }
+}
+
+/// The numbers of the tools in the text of a tool table, in its order; the error points at what is wrong.
+pub(crate) fn tool_table_of(
+    name: &str,
+    text: &str,
+    is_csv: bool,
+    units: config::Units,
+) -> Result<Vec<u32>, Problem> {
+    let read = tool_table::parsed(name, text, is_csv, equipment::units(units))?;
+    Ok(read.tools.iter().map(|(number, _)| *number).collect())
 }
 
 /// The exit code of a run: 0 it came to its end, 1 it did not, or the control would have stopped on the way.

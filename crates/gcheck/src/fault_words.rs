@@ -3,7 +3,9 @@
 //! Knows: the wording of every fault. Must not know: where it happened, how it is printed.
 
 use gcheck_controls::{Code, CodeIx, Letter, LetterSet};
-use gcheck_engine::{ArcFault, CompensationFault, CycleFault, Fault, Model, Role, Units, ValueFault};
+use gcheck_engine::{
+    ArcFault, CompensationFault, CornerFault, CycleFault, Fault, Model, Role, Units, ValueFault,
+};
 
 /// A fault in words.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -106,7 +108,8 @@ pub(crate) fn words(fault: &Fault, model: &Model<'_>, block: &Written<'_>, units
             .help("write `G0`, `G1`, `G2` or `G3` on this block"),
         Fault::NoAxisWords => Words::new("the code needs axis words, and the block has none"),
         Fault::Arc(arc) => of_arc(arc, units),
-        Fault::Cycle(cycle) => of_cycle(*cycle),
+        Fault::Corner(corner) => of_corner(*corner, units),
+        Fault::Cycle(cycle) => of_cycle(*cycle, block),
         Fault::Compensation(compensation) => of_compensation(compensation, units),
         Fault::NoSuchTool(tool) => Words::new(format!("the tool table has no tool {tool}"))
             .help("add it to the tool table, or to `[tools]` in gcheck.toml"),
@@ -179,9 +182,9 @@ fn conflict(block: &Written<'_>) -> Words {
             }
         }
     }
-    Words::new("two codes of this block cannot be together")
-        .why("they belong to one modal group, or both use the same words")
-        .help("put one of them on a block of its own")
+    Words::new("the codes and words of this block do not go together")
+        .why("two of them exclude each other, or one of them does not go with a mode in effect")
+        .help("`gcheck check` names them")
 }
 
 /// The addresses of an item of `one-of` or `not-together`.
@@ -282,14 +285,51 @@ fn of_arc(fault: &ArcFault, units: Units) -> Words {
     }
 }
 
-fn of_cycle(fault: CycleFault) -> Words {
+fn of_corner(fault: CornerFault, units: Units) -> Words {
     match fault {
+        CornerFault::NoTurn => {
+            Words::new("a chamfer or rounding, and the next cut goes on in the same direction")
+                .why("a corner is between two straight cuts that turn")
+                .help("check the end points of the two cuts, or take the word of the corner away")
+        }
+        CornerFault::NoCutAfter => {
+            Words::new("a chamfer or rounding, and no straight cut in the plane comes after it")
+                .why("a corner is between two straight cuts")
+                .help("write the second cut, or take the word of the corner away")
+        }
+        CornerFault::RapidAfter => Words::new("a chamfer or rounding before a rapid move")
+            .why("a corner is between two straight cuts")
+            .help("end the contour with a cut after the corner, or take the word away"),
+        CornerFault::TooLong { needed, available } => {
+            let words = Words::new("the chamfer or rounding does not fit between the two cuts")
+                .help("make the corner smaller, or the shorter cut longer");
+            if needed.is_finite() {
+                words.why(format!(
+                    "it takes {} of each cut, and the shorter one has {}",
+                    length(needed, units),
+                    length(available, units)
+                ))
+            } else {
+                words.why("the second cut goes straight back")
+            }
+        }
+    }
+}
+
+fn of_cycle(fault: CycleFault, block: &Written<'_>) -> Words {
+    match fault {
+        CycleFault::Missing(letter) if block.letters.contains(letter) => {
+            Words::new(format!("`{letter}` of the canned cycle is below zero"))
+                .why("the control takes such a value for one that is not given")
+        }
         CycleFault::Missing(letter) => Words::new(format!("the canned cycle needs `{letter}`"))
             .why("it is neither in this block nor in an earlier one of the cycle"),
         CycleFault::RBelowBottom => Words::new("the retract level `R` lies below the bottom of the hole"),
         CycleFault::NotPositive(letter) => {
             Words::new(format!("`{letter}` of the canned cycle must be above zero"))
         }
+        CycleFault::Zero(letter) => Words::new(format!("`{letter}` of the pattern is zero"))
+            .why("all its holes would lie on each other"),
         CycleFault::ZeroRepeats => Words::new("the canned cycle is repeated `L0` times"),
         CycleFault::Rotary => Words::new("rotary axes cannot move in a canned cycle"),
         CycleFault::InverseTime => Words::new("a canned cycle cannot run with inverse-time feed")
@@ -393,7 +433,9 @@ pub(crate) fn culprit(fault: &Fault) -> Option<Culprit> {
         | Fault::NoSuchAxis(letter)
         | Fault::OverTravel(letter)
         | Fault::Arc(ArcFault::WrongPlane(letter))
-        | Fault::Cycle(CycleFault::NotPositive(letter)) => Culprit::Letter(*letter),
+        | Fault::Cycle(CycleFault::NotPositive(letter) | CycleFault::Zero(letter)) => {
+            Culprit::Letter(*letter)
+        }
         Fault::Arc(ArcFault::Turns) => Culprit::Letter(Letter::of('P')),
         Fault::Arc(ArcFault::RadiusTooSmall { .. } | ArcFault::FullCircleByRadius) => {
             Culprit::Letter(Letter::of('R'))

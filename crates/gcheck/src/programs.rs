@@ -243,6 +243,24 @@ fn is_named(path: &Path, number: u32) -> bool {
     stem(path).is_some_and(|stem| number_of_name(&stem) == Some(number))
 }
 
+/// Words after a number that call or steer: `O100 call` and `O101 while` begin no program.
+const NOT_A_BEGINNING: [&[u8]; 14] = [
+    b"call",
+    b"endsub",
+    b"return",
+    b"if",
+    b"elseif",
+    b"else",
+    b"endif",
+    b"while",
+    b"endwhile",
+    b"do",
+    b"repeat",
+    b"endrepeat",
+    b"break",
+    b"continue",
+];
+
 /// Numbers of `O1234` and `:1234` at the heads of lines.
 fn numbers_in(content: &[u8]) -> impl Iterator<Item = u32> {
     content.split(|b| matches!(b, b'\n' | b'\r')).filter_map(|line| {
@@ -252,7 +270,13 @@ fn numbers_in(content: &[u8]) -> impl Iterator<Item = u32> {
             .or_else(|| line.strip_prefix(b"o"))
             .or_else(|| line.strip_prefix(b":"))?;
         let end = digits.iter().position(|b| !b.is_ascii_digit()).unwrap_or(digits.len());
-        std::str::from_utf8(digits.get(..end)?).ok()?.parse().ok()
+        let (number, rest) = digits.split_at_checked(end)?;
+        let rest = rest.trim_ascii_start();
+        let word = rest.split(|b| !b.is_ascii_alphabetic()).next().unwrap_or_default();
+        if NOT_A_BEGINNING.iter().any(|not| word.eq_ignore_ascii_case(not)) {
+            return None;
+        }
+        std::str::from_utf8(number).ok()?.parse().ok()
     })
 }
 
@@ -263,7 +287,8 @@ mod tests {
     #[test]
     fn numbers_stand_at_the_heads_of_lines() {
         let numbers: Vec<u32> =
-            numbers_in(b"%\r\nO0100 (A)\nG0 O5\n :200\no300 sub\nO<name> call\n").collect();
+            numbers_in(b"%\r\nO0100 (A)\nG0 O5\n :200\no300 sub\nO<name> call\nO400 call\no401 While [1]\n")
+                .collect();
         assert_eq!(numbers, [100, 200, 300]);
     }
 }

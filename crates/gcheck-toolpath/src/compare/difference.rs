@@ -94,8 +94,12 @@ pub enum Value {
     Tool(Option<u32>),
     /// Number of a work coordinate system.
     WorkOffset(Option<u16>),
+    /// A work coordinate system, and where its zero lies: X, Y and Z of the machine, millimetres; `None` as the control has it.
+    Zero(u16, [Option<f64>; 3]),
     /// Number of a tool length offset.
     Length(Option<u32>),
+    /// A tool length offset and its length, millimetres; `None` as the control has it.
+    LengthBy(u32, Option<f64>),
     /// Number of a cutter offset.
     Cutter(Option<u32>),
     /// Mist, flood, through the spindle.
@@ -105,6 +109,14 @@ pub enum Value {
 }
 
 impl Value {
+    pub(super) fn of_zero(work: u16, setting: &Setting) -> Self {
+        Self::Zero(work, setting.zero.map(|at| Some(at).filter(|at| !at.is_nan())))
+    }
+
+    pub(super) fn of_length(length: u32, setting: &Setting) -> Self {
+        Self::LengthBy(length, Some(setting.length_by).filter(|by| !by.is_nan()))
+    }
+
     pub(super) fn of_spindle(setting: &Setting) -> Self {
         Self::Spindle(setting.spindle, Some(setting.speed).filter(|speed| !speed.is_nan()), setting.surface)
     }

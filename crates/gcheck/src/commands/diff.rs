@@ -11,7 +11,7 @@ use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::{mem, thread};
 
 use gcheck_engine::Units;
-use gcheck_toolpath::{Act, Differences, Step, Trail, compare};
+use gcheck_toolpath::{Act, Differences, Step, Trail, WorkCoordinates, compare};
 
 use super::json as to_text;
 use crate::args::{DiffOptions, ExecutionOptions, Global, ListFormat};
@@ -120,7 +120,7 @@ fn acts(batches: Receiver<Vec<Act>>) -> impl Iterator<Item = Act> {
 
 fn run_one(prepared: &Prepared, to: SyncSender<Vec<Act>>) -> Ran {
     prepared.session(|session| {
-        let trail = Trail::new(session.model.work_at_power_on());
+        let trail = Trail::new(WorkCoordinates::at_power_on(session.model, &prepared.equipment.machine));
         let sender = Sender { trail, batch: Vec::with_capacity(BATCH), to, inch: 0, mm: 0 };
         let control = execution::control_line(session);
         let units = prepared.equipment.units;

@@ -5,7 +5,7 @@
 use std::collections::BTreeMap;
 use std::io;
 
-use gcheck_controls::{CodeNumber, Control, Effect, Letter, LetterSet, Unset};
+use gcheck_controls::{Control, Effect, Letter, LetterSet, Unset};
 use gcheck_engine::{Axis, BarFeeder, Dynamics, Event, Machine, Model, Position, Tool, Units, WorkOffset};
 use gcheck_geometry::{Mm, MmPerMin, Rpm, Seconds};
 use gcheck_program::{BlockTable, OKeyword, StatementKind};
@@ -123,7 +123,7 @@ impl Equipment {
             None => {}
         }
         machine.bar.new_bar = value(&table.bar_length).map(|bar| Mm(bar * mm)).or(machine.bar.new_bar);
-        machine.bar.bars = table.bars.or(machine.bar.bars);
+        machine.bar.bars = table.bars.as_ref().map(|bars| bars.value).or(machine.bar.bars);
         machine.tool_change = value(&table.tool_change_seconds).map(Seconds).or(machine.tool_change);
         for (name, value) in &layer.variables {
             if let Some(variable) = VariableName::parse(name) {
@@ -132,7 +132,7 @@ impl Equipment {
         }
         for (name, axes) in &layer.offsets {
             // An offset that the control does not have is for other programs of the folder.
-            if let Some(number) = work_offset(name, control) {
+            if let Some(number) = config::work_offset(name, control) {
                 self.put_offset(number, axes, mm);
             }
         }
@@ -174,15 +174,24 @@ impl Equipment {
 
     /// Positions that the control's switches do not have.
     fn switch_positions(&self, control: &Control) -> Result<(), Problem> {
-        match (self.machine.dynamics.feed_override, &control.limits().feed_override) {
-            (Some(percent), Some(switch)) if !switch.takes(percent) => Err(Problem::new(format!(
-                "[machine] feed_override is {percent}: the switch of {} has {}  [{}]",
-                control.name(),
-                switch.positions(),
-                switch.source
-            ))),
-            _ => Ok(()),
+        let dynamics = &self.machine.dynamics;
+        let (limits, name) = (control.limits(), control.name());
+        let refused = |key: &str, percent: f64, positions: String, source: &str| {
+            let message =
+                format!("[machine] {key} is {percent}: the switch of {name} has {positions}  [{source}]");
+            Err(Problem::new(message))
+        };
+        if let (Some(percent), Some(switch)) = (dynamics.feed_override, &limits.feed_override)
+            && !switch.takes(percent)
+        {
+            return refused("feed_override", percent, switch.positions(), &switch.source);
         }
+        if let (Some(percent), Some(switch)) = (dynamics.rapid_override, &limits.rapid_override)
+            && !switch.takes(percent)
+        {
+            return refused("rapid_override", percent, switch.positions(), &switch.source);
+        }
+        Ok(())
     }
 
     fn put_offset(&mut self, number: u16, axes: &[(String, f64)], mm: f64) {
@@ -287,7 +296,7 @@ fn by_axis(
     })
 }
 
-fn units(units: config::Units) -> Units {
+pub(super) fn units(units: config::Units) -> Units {
     match units {
         config::Units::Mm => Units::Mm,
         config::Units::Inch => Units::Inch,
@@ -300,18 +309,6 @@ fn axis_of(name: &str) -> Option<Axis> {
 
 fn in_mm(axis: Axis, value: f64, mm: f64) -> f64 {
     if axis.is_rotary() { value } else { value * mm }
-}
-
-/// The number of a work offset as a configuration names it: `G54`, `G154 P3`.
-fn work_offset(name: &str, control: &Control) -> Option<u16> {
-    let mut parts = name.split_whitespace();
-    let effect = control.code(CodeNumber::parse(&parts.next()?.to_ascii_uppercase())?)?.effect();
-    let p = parts.next().and_then(|part| part.strip_prefix(['P', 'p']));
-    match (effect, p) {
-        (Effect::WorkOffset(number), None) => Some(number),
-        (Effect::WorkOffsetByP(first), Some(p)) => first.checked_add(p.parse::<u16>().ok()?.checked_sub(1)?),
-        _ => None,
-    }
 }
 
 /// The axes that a control may have.

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use gcheck_controls::Control;
 use gcheck_engine::{Model, Options, Program};
-use gcheck_program::{Dialect, Loaded, ToolNames};
+use gcheck_program::{Dialect, Heading, Headings, Loaded, ToolNames};
 use gcheck_report::ControlChoice;
 use gcheck_syntax::SourceText;
 
@@ -84,6 +84,8 @@ pub(crate) struct Session<'s> {
     pub(crate) model: &'s Model<'s>,
     pub(super) axes: &'s AxesSeen<'s>,
     pub(super) tools: &'s ToolNames<'s>,
+    /// What comments of the file call the blocks after them.
+    pub(crate) headings: &'s [Heading],
 }
 
 impl Prepared {
@@ -94,11 +96,21 @@ impl Prepared {
         let library = Reachable::new(Arc::default(), &self.path, &self.search);
         let mut axes = AxesSeen::new(&model);
         let mut tools = ToolNames::new(&self.control);
-        let loaded = Loaded::new(self.source.text(), &dialect, |_, table, text| {
+        let mut headings = Headings::default();
+        let loaded = Loaded::new(self.source.text(), &dialect, |base, table, text| {
             axes.look(table);
             tools.look(table, text);
+            headings.look(base, table, text);
         });
+        let headings = headings.into_found();
         let program = Program::new(loaded, &dialect, &library);
-        with(&Session { prepared: self, program: &program, model: &model, axes: &axes, tools: &tools })
+        with(&Session {
+            prepared: self,
+            program: &program,
+            model: &model,
+            axes: &axes,
+            tools: &tools,
+            headings: &headings,
+        })
     }
 }

@@ -36,10 +36,14 @@ pub(super) fn read(path: &Path, units: Units) -> Result<ToolTableFile, Problem> 
     let source = reading::text(Path::new(&name), &bytes)
         .map_err(|problem| problem.help("`tools.table` names this file"))?;
     let is_csv = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("csv"));
-    let read = if is_csv { columns } else { words };
-    read(source.text(), units.in_mm())
-        .map_err(|Mistake { range, message }| Problem::at(&name, source.text(), &range, message))
+    parsed(&name, source.text(), is_csv, units)
         .map_err(|problem| if Workspace::here().may_quote(path) { problem } else { problem.without_text() })
+}
+
+/// Reads the text of a table; `name` is what messages call it.
+pub(super) fn parsed(name: &str, text: &str, is_csv: bool, units: Units) -> Result<ToolTableFile, Problem> {
+    let read = if is_csv { columns } else { words };
+    read(text, units.in_mm()).map_err(|Mistake { range, message }| Problem::at(name, text, &range, message))
 }
 
 /// What is wrong, and where.

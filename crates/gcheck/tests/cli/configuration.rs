@@ -185,11 +185,11 @@ fn options_select_over_the_configuration() {
 
 #[test]
 fn codes_of_the_shop_are_known() {
-    let program = "%\nO0001 G90\nM451\nG999 X1.\nM30\n%\n";
+    let program = "%\nO0001 G90\nM451\nG245 X1.\nM30\n%\n";
     check_part(program, "control = \"haas-mill\"", &["unknown-code", "unknown-code"]);
     check_part(
         program,
-        "control = \"haas-mill\"\n[codes]\nM451 = { title = \"air blast on\", group = \"user\" }\nG999 = { alias = \"O9010\" }\n",
+        "control = \"haas-mill\"\n[codes]\nM451 = { title = \"air blast on\", group = \"user\" }\nG245 = { alias = \"O9010\" }\n",
         &[],
     );
 }

@@ -73,6 +73,40 @@ fn a_cycle_is_its_moves() {
 }
 
 #[test]
+fn a_table_that_one_program_writes_is_a_difference() {
+    let cut = "G1 X10. F100.\nY5.";
+    for write in ["G10 L2 P1 X5. Y0. Z0.\n", "#5221=5.\n", "G10 L10 P1 R120.\nG43 H1 Z-1.\n"] {
+        let program = program(&format!("{write}{cut}"));
+        assert_eq!(diff(&program, &program, "").code, 0, "{write}");
+    }
+    expect![[r#"
+        the work offset differs, once
+          - a.nc:8  G54 as the control has it   | G1 X10. F100.
+          + b.nc:9  G54 at X5 mm Y0 mm Z0 mm of the machine   | G1 X10. F100.
+        a.nc and b.nc move along the same path, within 0.001 mm, with differences
+        some cutting moves start or end at unknown coordinates, which were not compared
+    "#]]
+    .assert_eq(&different(cut, &format!("G10 L2 P1 X5. Y0. Z0.\n{cut}")));
+    expect![[r#"
+        the work offset differs, once
+          - a.nc:8  G54 as the control has it   | G1 X10. F100.
+          + b.nc:9  G54 at X5 mm of the machine   | G1 X10. F100.
+        a.nc and b.nc move along the same path, within 0.001 mm, with differences
+        some cutting moves start or end at unknown coordinates, which were not compared
+    "#]]
+    .assert_eq(&different(cut, &format!("#5221=5.\n{cut}")));
+    expect![[r#"
+        the paths part at X0 Y0 Z-1
+          - a.nc:8  to X10 Y0 Z-1   | G1 X10. F100.
+          + b.nc:9  to X0 Y0 Z-1   | G43 H1 Z-1.
+        a.nc and b.nc move differently; what follows is not compared
+        some cutting moves start or end at unknown coordinates, which were not compared
+    "#]]
+    .assert_eq(&different(cut, &format!("G10 L10 P1 R120.\nG43 H1 Z-1.\n{cut}")));
+    same(cut, &format!("G54\n{cut}"));
+}
+
+#[test]
 fn units_and_increments_make_no_difference() {
     same("G1 X25.4 F254.\nY-50.8", "G20 G1 X1. F10.\nG91 Y-2.\nG90 G21");
 }

@@ -25,6 +25,7 @@ mod formats;
 mod formatting;
 mod hostile;
 mod lists;
+mod machine;
 mod output;
 mod plot;
 mod readers;

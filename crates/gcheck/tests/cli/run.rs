@@ -548,7 +548,7 @@ fn a_speed_under_constant_surface_speed_is_one_and_its_limit_holds_at_once() {
         part.nc, inch, X is a diameter
            line  move             X          Z       feed   seconds
               2  tool                                         5.000  T1
-              4  spindle                                             60.96 m/min
+              4  spindle                                             200 ft/min
               4  spindle                                             clockwise
               6  rapid       0.5000     0.1000                    ?
               7  feed        0.5000    -0.9000       0.01    12.000  per turn

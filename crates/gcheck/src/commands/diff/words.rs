@@ -202,6 +202,21 @@ impl Sides<'_> {
                 || work.to_string(),
                 |control| gcheck_lint::work_offset_name(*work, &Model::new(control)),
             ),
+            Value::Zero(work, zero) => {
+                let known: Vec<String> = ['X', 'Y', 'Z']
+                    .into_iter()
+                    .zip(zero)
+                    .filter_map(|(axis, at)| Some(format!("{axis}{}", self.length((*at)?, true))))
+                    .collect();
+                let name = self.value(&Value::WorkOffset(Some(*work)), side);
+                if known.is_empty() {
+                    format!("{name} as the control has it")
+                } else {
+                    format!("{name} at {} of the machine", known.join(" "))
+                }
+            }
+            Value::LengthBy(length, None) => format!("H{length} as the control has it"),
+            Value::LengthBy(length, Some(by)) => format!("H{length} of {}", self.length(*by, true)),
             Value::Length(Some(0)) => "no tool length".to_owned(),
             Value::Length(length) => number(*length, 'H'),
             Value::Cutter(Some(0)) => "no cutter compensation".to_owned(),
