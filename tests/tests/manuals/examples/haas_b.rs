@@ -118,7 +118,11 @@ const EXAMPLES: &[Example] = &[
         files: &[],
         config: &[],
         expected: Expected {
-            findings: &[],
+            findings: &[Finding(
+                "info[cycle-r-in-material] 13",
+                Verdict::True,
+                "the zero is the top of the part, and every hole begins below it at rapid",
+            )],
             shows: &[Shows::Run(&[
                 "feed 2.0000 -0.5000 -2.0000",
                 "rapid 2.0000 -0.5000 0.1000",
@@ -153,14 +157,14 @@ const EXAMPLES: &[Example] = &[
         config: &[],
         expected: Expected {
             findings: &[],
-            shows: &[],
-            not_yet: &[Shows::Run(&[
+            shows: &[Shows::Run(&[
                 "feed 0.0000 -4.0000 -0.5000",
                 "feed -1.0000 -5.0000 -0.5000",
                 "feed -4.0000 -5.0000 -0.5000",
                 "arc -5.0000 -4.0000 -0.5000",
                 "feed -5.0000 0.0000 -0.5000",
             ])],
+            not_yet: &[],
         },
     },
     Example {

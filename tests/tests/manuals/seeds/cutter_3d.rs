@@ -189,7 +189,7 @@ rule("warning[cutter-vector-incomplete]", mill("O1\nG20 G90 G54 G0 X0. Y0. Z0.\n
 ]),
 extra: By(&[
 rule("error[refused-in-five-axis-mode]", mill("O1\nG20 G90 G54 G0 X0. Y0. Z0.\nS900 M3\nG1 G141 D1 X1. Y0. Z0. I0. J0. K1. F20.\nG2 X2. Y1. R1.\nG40\nM30\n"), mill("O1\nG20 G90 G54 G0 X0. Y0. Z0.\nS900 M3\nG1 G141 D1 X1. Y0. Z0. I0. J0. K1. F20.\nG1 X2. Y1. Z0. I0. J0. K1.\nG40\nM30\n")),
-noticed("info", mill("O1\nG20 G90 G54 G0 X0. Y0. Z0.\nS900 M3\nG1 G141 D1 X1. Y0. Z0. I0. J0. K1. F20. L2\nG40\nM30\n"), mill("O1\nG20 G90 G54 G0 X0. Y0. Z0.\nS900 M3\nG1 G141 D1 X1. Y0. Z0. I0. J0. K1. F20.\nG40\nM30\n")),
+noticed("info", mill("O1\nG20 G90 G54 G0 X0. Y0. Z0.\nS900 M3\nG1 G141 D1 X1. Y0. Z0. I0. J0. K1. F20. Q2.\nG40\nM30\n"), mill("O1\nG20 G90 G54 G0 X0. Y0. Z0.\nS900 M3\nG1 G141 D1 X1. Y0. Z0. I0. J0. K1. F20.\nG40\nM30\n")),
 ]),
 range: No("see the words"),
 

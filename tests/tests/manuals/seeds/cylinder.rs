@@ -245,7 +245,7 @@ Rule {
         },
 ]),
 extra: By(&[
-rule("error[cylinder-without-rotary-axis]", wrapped("O1\nG21 G90 G54 G0 X0. Y0. Z0. A0.\nG107 Y0. C0. Q100.\nG107\nM30\n"), wrapped("O1\nG21 G90 G54 G0 X0. Y0. Z0. A0.\nG107 Y0. A0. Q100.\nG107\nM30\n")),
+rule("warning[cylinder-without-rotary-axis]", wrapped("O1\nG21 G90 G54 G0 X0. Y0. Z0. A0.\nG107 Y0. C0. Q100.\nG107\nM30\n"), wrapped("O1\nG21 G90 G54 G0 X0. Y0. Z0. A0.\nG107 Y0. A0. Q100.\nG107\nM30\n")),
 ]),
 range: No("no range"),
 

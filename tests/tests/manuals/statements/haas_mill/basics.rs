@@ -5,7 +5,7 @@
 //! background editing (pages 117–124), and advice that no program shows (which codes belong into which part).
 
 use super::mill::{
-    assumes, explains, gap, held, legal, mill, moves, moves_told, not_modelled, reports, rule, run, says,
+    assumes, explains, held, legal, mill, moves, moves_told, not_modelled, reports, rule, run, says,
 };
 use crate::proof::Proof;
 use crate::statements::statement::{Chapter, prove};
@@ -454,10 +454,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 ),
             ],
         ),
-        gap(
+        held(
             "p. 135",
             "The corner to the next straight move is chamfered by ,C or rounded by ,R in a block of G1.",
-            "runs and plots cut the corner: `,C.25` ends 0.25 before and goes on 0.25 after it, `,R.25` joins by a tangent arc; now the words are passed over without a finding",
+            "words `,C` and `,R` of `G1`",
             &[
                 moves(
                     "O1\nG20 G54 G0 G90 X0. Y0. Z0.\nG1 X1. ,C.25 F10.\nY1.\nM30\n",

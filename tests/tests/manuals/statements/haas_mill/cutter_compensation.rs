@@ -81,7 +81,7 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                     "O1\nG20 G54 G0 G90 X0. Y0. Z0.\nG1 G41 D1 X1. F10.\nY1. Z-1.\nG40 X-1. Z0.\nM30\n",
                     &["rapid", "feed X.75 Y0. Z0.", "feed X.75 Y1. Z-1.", "feed X-1. Y1. Z0."],
                 ),
-                explains("G141", "All of X, Y and Z are shifted"),
+                explains("G141", "Moves of two axes are shifted too"),
             ],
         ),
         held(

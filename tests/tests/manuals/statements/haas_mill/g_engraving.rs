@@ -5,7 +5,7 @@
 //! Knows: statements in our words, programs, expectations. Must not know: how they are checked.
 
 use super::blocks::cut;
-use super::mill::{explains, gap, held, not_modelled};
+use super::mill::{explains, held, not_modelled};
 use crate::proof::Proof::{Legal, Rule, Run, Stats};
 use crate::statements::statement::{Chapter, prove};
 
@@ -14,20 +14,20 @@ pub(crate) const CHAPTER: Chapter = Chapter {
     key: "ENG",
     file: "haas_mill/g_engraving.rs",
     statements: &[
-        gap(
+        held(
             "p. 271",
             "With Setting 29 or 73 on G47 cannot be used.",
-            "silent with `settings.29 = true` or `73 = true`: warning",
+            "`refused-with` of `G47`",
             &[
                 Rule {
-                    finding: "warning[engraving-with-setting]",
+                    finding: "warning[code-refused-by-setting]",
                     violates: cut!("G47 P0 (AB) X2. Y2. J0.5 R0.05 Z-0.005 F15. E10.\nG0 Z1.\n")
                         .with(&["settings.29=true"]),
                     conforms: cut!("G47 P0 (AB) X2. Y2. J0.5 R0.05 Z-0.005 F15. E10.\nG0 Z1.\n")
                         .with(&["settings.29=false"]),
                 },
                 Rule {
-                    finding: "warning[engraving-with-setting]",
+                    finding: "warning[code-refused-by-setting]",
                     violates: cut!("G47 P0 (AB) X2. Y2. J0.5 R0.05 Z-0.005 F15. E10.\nG0 Z1.\n")
                         .with(&["settings.73=true"]),
                     conforms: cut!("G47 P0 (AB) X2. Y2. J0.5 R0.05 Z-0.005 F15. E10.\nG0 Z1.\n")
@@ -44,12 +44,12 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 explains("G47", "`P0` the text in the comment of the block"),
             ],
         ),
-        gap(
+        held(
             "p. 271",
             "P0 without a comment has nothing to engrave.",
-            "silent: warning",
+            "`reads-comment` of `G47`",
             &[Rule {
-                finding: "warning[engraving-without-text]",
+                finding: "warning[comment-missing]",
                 violates: cut!("G47 P0 X2. Y2. J0.5 R0.05 Z-0.005 F15. E10.\nG0 Z1.\n"),
                 conforms: cut!("G47 P0 (AB) X2. Y2. J0.5 R0.05 Z-0.005 F15. E10.\nG0 Z1.\n"),
             }],

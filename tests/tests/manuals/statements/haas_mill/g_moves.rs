@@ -5,7 +5,7 @@
 //! Knows: statements in our words, programs, expectations. Must not know: how they are checked.
 
 use super::blocks::cut;
-use super::mill::{explains, gap, held, not_modelled};
+use super::mill::{explains, held, not_modelled};
 use crate::proof::Proof::{Legal, Makes, Rule, Run, Silent};
 use crate::statements::statement::{Chapter, prove};
 
@@ -109,23 +109,23 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 conforms: cut!("G1 X1. F400.\n").with(&["machine.max_feed=500"]),
             }],
         ),
-        gap(
+        held(
             "p. 250, p. 251",
             ",C between two straight moves cuts a chamfer: its value is the distance from the corner to where it begins and to where it ends.",
-            "corners `,C` are made: two straight moves with the chamfer between them",
+            "words `,C` and `,R` of `G1`",
             &[Run {
                 program: cut!("G1 Y-5. ,C1. F20.\nX-5.\n"),
                 prints: &["feed 0.0000 -4.0000", "feed -1.0000 -5.0000", "feed -5.0000 -5.0000"],
             }],
         ),
-        gap(
+        held(
             "p. 250, p. 251",
             ",R between two straight moves cuts an arc of that radius, tangent to both.",
-            "corners `,R` are made: a straight move, the arc, a straight move",
+            "words `,C` and `,R` of `G1`",
             &[
                 Run {
                     program: cut!("G1 X-5. ,R1. F20.\nY5.\n"),
-                    prints: &["feed -4.0000 0.0000", "arc- -5.0000 1.0000", "feed -5.0000 5.0000"],
+                    prints: &["feed -4.0000 0.0000", "arc -5.0000 1.0000", "feed -5.0000 5.0000"],
                 },
                 Makes {
                     program: cut!("G1 X-5. ,R1. F20.\nY5.\n"),
@@ -134,10 +134,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 },
             ],
         ),
-        gap(
+        held(
             "p. 251",
             "Blocks with corners may follow each other.",
-            "each block between two corners is shortened at both ends",
+            "words `,C` and `,R` of `G1`",
             &[Run {
                 program: cut!("G1 Y-5. ,C1. F20.\nX-5. ,R1.\nY0.\n"),
                 prints: &[
@@ -166,12 +166,12 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 },
             ],
         ),
-        gap(
+        held(
             "p. 250",
             "An arc or the end of the cut cannot close a corner either.",
-            "a corner block whose next move is an arc, a cycle or nothing at all: warning as for a rapid",
+            "rule `corner-does-not-fit`",
             &[Rule {
-                finding: "warning[corner-before-rapid]",
+                finding: "warning[corner-does-not-fit]",
                 violates: cut!("G1 X1. ,C.2 F10.\nG2 X2. Y-1. R1.\n"),
                 conforms: cut!("G1 X1. ,C.2 F10.\nY1.\n"),
             }],
@@ -182,20 +182,20 @@ pub(crate) const CHAPTER: Chapter = Chapter {
             "rule `corner-before-rapid`",
             &[Legal { program: cut!("G1 X1. ,C.2 F10.\nG4 P1.\nY1.\n") }],
         ),
-        gap(
+        held(
             "p. 251",
             "Both moves of a corner must move in the axes of the active plane.",
-            "a corner whose neighbouring move does not move in the plane (a plunge under G17, the same straight line on) cannot be cut: warning",
+            "rule `corner-does-not-fit`",
             &[Rule {
-                finding: "warning[corner-outside-plane]",
+                finding: "warning[corner-does-not-fit]",
                 violates: cut!("G1 X1. ,R.2 F10.\nZ-1.\n"),
                 conforms: cut!("G1 X1. ,R.2 F10.\nY1.\n"),
             }],
         ),
-        gap(
+        held(
             "p. 251",
             "Corners are cut in XZ under G18 and in YZ under G19.",
-            "corners are made in the active plane",
+            "words `,C` and `,R` of `G1`",
             &[
                 Run {
                     program: cut!("G18 G1 X1. ,C.2 F10.\nZ-.9\nG17\n"),
@@ -395,10 +395,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 events: &["arc X1 Y0.5 Z-0.9"],
             }],
         ),
-        gap(
+        held(
             "p. 257, p. 258",
             "L repeats an arc or helix: under G91 each turn goes on from the last.",
-            "`L` of a move is heard: the block's move is made L times (`G91 G3 I-.5 Z.125 L5` is five turns), and `word-not-read` does not speak",
+            "word `L` of `G2` and `G3`",
             &[
                 Run {
                     program: cut!("G0 X.5\nG91 G3 I-.5 J0 Z.125 L3 F20.\nG90\n"),
@@ -410,10 +410,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 },
             ],
         ),
-        gap(
+        held(
             "p. 257",
             "L on a straight move repeats it, under G91 step by step.",
-            "`L` of a move is heard",
+            "word `L` of `G1`",
             &[Run {
                 program: cut!("G91 G1 X.5 L3 F20.\nG90\n"),
                 prints: &["feed 0.5000", "feed 1.0000", "feed 1.5000"],

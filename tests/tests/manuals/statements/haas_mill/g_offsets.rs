@@ -255,10 +255,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 conforms: cut!("G52 X1. Y1.\nX0. Y0.\nG52 X0. Y0.\n"),
             }],
         ),
-        gap(
+        held(
             "p. 280, p. 379",
             "With Setting 33 at FANUC M30 clears G52.",
-            "`shift-left-on` reads Setting 33: silent with `33 = \"fanuc\"`, certain with `33 = \"haas\"`, with the assumption named where it is not configured",
+            "rule `shift-left-on`, `shift-cleared-at-end`",
             &[
                 Silent {
                     rule: "shift-left-on",

@@ -110,10 +110,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 events: &["feed X3"],
             }],
         ),
-        gap(
+        held(
             "p. 276",
             "P is at most 999.999.",
-            "`P1000.` is refused (error) and `P2000`, which is 2.000, is not: the range judges the factor, not the number as written",
+            "range of `P`",
             &[Rule {
                 finding: "error[number-out-of-range]",
                 violates: cut!("G51 X0. Y0. P1000.\nG1 X1. F10.\nG50\n"),

@@ -549,18 +549,18 @@ pub(crate) const CHAPTER: Chapter = Chapter {
             "words of `M95`",
             &[Legal { program: short!("M95 (12:30)\nX1.\nM30\n") }],
         ),
-        gap(
+        held(
             "p. 357",
             "The comment (hh:mm) must follow M95.",
-            "M95 without it, or with what is no time: warning",
+            "`reads-comment` of `M95`",
             &[
                 Rule {
-                    finding: "warning[sleep-without-time]",
+                    finding: "warning[comment-missing]",
                     violates: short!("M95\nX1.\nM30\n"),
                     conforms: short!("M95 (12:30)\nX1.\nM30\n"),
                 },
                 Rule {
-                    finding: "warning[sleep-without-time]",
+                    finding: "warning[comment-missing]",
                     violates: short!("M95 (SLEEP)\nX1.\nM30\n"),
                     conforms: short!("M95 (00:01)\nX1.\nM30\n"),
                 },
@@ -821,12 +821,12 @@ pub(crate) const CHAPTER: Chapter = Chapter {
             "codes of the control",
             &[Legal { program: short!("M130 (PART.PNG)\nX1.\nM131\nM30\n") }],
         ),
-        gap(
+        held(
             "p. 363",
             "M130 names a file: MP4, MOV, PNG or JPEG.",
-            "M130 without a comment, or with another kind of file: info",
+            "`reads-comment` of `M130`",
             &[Rule {
-                finding: "info[media-file-missing]",
+                finding: "info[comment-missing]",
                 violates: short!("M130\nX1.\nM131\nM30\n"),
                 conforms: short!("M130 (PART.PNG)\nX1.\nM131\nM30\n"),
             }],

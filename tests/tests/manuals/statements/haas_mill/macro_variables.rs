@@ -206,12 +206,12 @@ pub(crate) const CHAPTER: Chapter = Chapter {
             "variable 3004",
             &[variables([3004, 3004], "feed hold", "read-write"), legal("O1\n#3004=7\nG4 P1.\n#3004=0\nM30\n")],
         ),
-        gap(
+        held(
             "p. 211",
             "Feed hold and single block stay off until the variable is 0 again.",
-            "info where a program ends with #3003 or #3004 other than 0: the next one cannot be stopped by feed hold",
+            "`zero-at-end` of `#3003` and `#3004`",
             &[rule(
-                "info[feed-hold-left-off]",
+                "info[switched-off-at-end]",
                 "O1\n#3004=1\nG4 P1.\nM30\n",
                 "O1\n#3004=1\nG4 P1.\n#3004=0\nM30\n",
             )],
