@@ -83,6 +83,10 @@ impl PathRule for EmptyVariable {
         let is_local = (first..=last).contains(&variable);
         let is_emptied = is_assigned_before(cx, variable);
         let in_macro = cx.state().frames().iter().any(|frame| frame.kind == FrameKind::Macro);
+        // Local variables of a program that others call are arguments that it may get.
+        if is_local && !in_macro && cx.survey.is_called_from_elsewhere() {
+            return;
+        }
         let argument = cx.model.semantics().argument_letters.iter();
         let argument = argument.filter(|_| in_macro && is_local && !is_emptied);
         let argument = argument.into_iter().find(|(_, number)| u32::from(**number) == variable);
@@ -92,7 +96,7 @@ impl PathRule for EmptyVariable {
         let Some((usage, range)) = cx.place().and_then(|place| usage(cx, &place, variable)) else { return };
         let (message, label) = match (usage, argument) {
             (Use::Tested | Use::HandedOn | Use::Counted, _) | (Use::Computed, Some(_)) => return,
-            (Use::Word(letter), Some(_)) if OF_AXES.contains(letter) => return,
+            (Use::Word(letter), _) if in_macro && is_local && OF_AXES.contains(letter) => return,
             (Use::Word(letter), Some((argument, _))) => (
                 format!("the call does not give `{argument}`: `{letter}` has no value (`#{variable}`)"),
                 format!("the control ignores `{letter}`"),
@@ -149,6 +153,15 @@ mod tests {
                   |      ^^^ info[empty-variable] the call does not give `J`: `P` has no value (`#5`)
             "#]],
         );
+    }
+
+    #[test]
+    fn a_program_that_others_call_gets_its_local_variables() {
+        let program = "O9300\nIF [#4003 EQ 90] GOTO 1\n#24=#5041+#24\nN1 G90 G0 X#24\nM99\n";
+        check_rule(&RULE, "haas-mill", program, &expect![[""]]);
+        let called =
+            "O1\nG65 P9100 Y1.\nM30\nO9100\nIF [#4003 EQ 90] GOTO 1\n#24=#5041\nN1 G90 G0 X#24\nM99\n";
+        check_rule(&RULE, "haas-mill", called, &expect![[""]]);
     }
 
     #[test]
