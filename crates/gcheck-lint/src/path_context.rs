@@ -316,7 +316,7 @@ impl<'a> PathCx<'a> {
         self.find_word(self.origin().at, |word| self.gives(word.letter) && is(word)).is_some()
     }
 
-    /// Is no word of the address beside an empty variable? The control reads such a block as if the word were not there.
+    /// Does the block give the address a value? The control ignores a word whose variable is empty.
     fn gives(&self, letter: Letter) -> bool {
         self.letters.is_none_or(|letters| letters.contains(letter))
     }

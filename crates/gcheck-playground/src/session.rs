@@ -54,7 +54,7 @@ impl Session {
     /// What is found in a program. `control` is a name of [`Session::controls`], or empty where the program decides.
     ///
     /// # Errors
-    /// [`Refused`] where the text is too long, or there is no such control.
+    /// [`Refused`] where the text is too long, or the control is not known.
     pub fn check(&mut self, text: &str, control: &str) -> Result<Findings, Refused> {
         let document = self.document(text, control)?;
         let analysis = self.database.analysis(document, &|| false).map_err(|_| gone())?;

@@ -6,6 +6,7 @@
 pub(crate) mod arcs;
 pub(crate) mod bar_feed;
 pub(crate) mod beside;
+pub(crate) mod block_delete;
 pub(crate) mod boundary;
 pub(crate) mod callers;
 pub(crate) mod compensation;

@@ -5,6 +5,7 @@
 use std::ops::Range;
 
 use gcheck_controls::{Effect, Letter};
+use gcheck_engine::FrameKind;
 use gcheck_program::{BinaryOp, ExprIx, Op, Place, StatementKind, Value};
 
 use crate::PathCx;
@@ -22,6 +23,18 @@ pub(crate) enum Use {
     HandedOn,
     /// Compared with null.
     Tested,
+}
+
+/// Is a program under way that a call with arguments began?
+pub(crate) fn is_in_macro(cx: &PathCx<'_>) -> bool {
+    cx.state().frames().iter().any(|frame| frame.kind == FrameKind::Macro)
+}
+
+/// The address of a call whose value is in this local variable.
+pub(crate) fn argument_of<'a>(cx: &PathCx<'a>, variable: u32) -> Option<&'a str> {
+    let letters = &cx.model.semantics().argument_letters;
+    let of = letters.iter().find(|(_, number)| u32::from(**number) == variable);
+    of.map(|(letter, _)| letter.as_str())
 }
 
 /// Does a block that is before this one in the file write the variable? What is empty then was emptied, or copied from an

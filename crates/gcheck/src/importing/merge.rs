@@ -324,7 +324,7 @@ struct Merging<'m> {
 struct Spot<'s> {
     path: &'s [String],
     depth: usize,
-    /// Comments end the line, so there is no place for them here.
+    /// A comment ends the line, so none fits here.
     in_inline: bool,
 }
 

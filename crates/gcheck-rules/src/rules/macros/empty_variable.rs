@@ -3,10 +3,9 @@
 use std::collections::HashSet;
 
 use gcheck_controls::LetterSet;
-use gcheck_engine::FrameKind;
 
 use crate::declare::declare_rule;
-use crate::facts::empty_variables::{Use, is_assigned_before, usage};
+use crate::facts::empty_variables::{Use, argument_of, is_assigned_before, is_in_macro, usage};
 use crate::{PathCx, PathRule, Report, Run, Watch};
 use crate::{Remembers, remembers};
 
@@ -82,14 +81,12 @@ impl PathRule for EmptyVariable {
         let [first, last] = cx.model.semantics().locals;
         let is_local = (first..=last).contains(&variable);
         let is_emptied = is_assigned_before(cx, variable);
-        let in_macro = cx.state().frames().iter().any(|frame| frame.kind == FrameKind::Macro);
+        let in_macro = is_in_macro(cx);
         // Local variables of a program that others call are arguments that it may get.
         if is_local && !in_macro && cx.survey.is_called_from_elsewhere() {
             return;
         }
-        let argument = cx.model.semantics().argument_letters.iter();
-        let argument = argument.filter(|_| in_macro && is_local && !is_emptied);
-        let argument = argument.into_iter().find(|(_, number)| u32::from(**number) == variable);
+        let argument = argument_of(cx, variable).filter(|_| in_macro && is_local && !is_emptied);
         if !is_emptied && argument.is_none() {
             return;
         }
@@ -97,7 +94,7 @@ impl PathRule for EmptyVariable {
         let (message, label) = match (usage, argument) {
             (Use::Tested | Use::HandedOn | Use::Counted, _) | (Use::Computed, Some(_)) => return,
             (Use::Word(letter), _) if in_macro && is_local && OF_AXES.contains(letter) => return,
-            (Use::Word(letter), Some((argument, _))) => (
+            (Use::Word(letter), Some(argument)) => (
                 format!("the call does not give `{argument}`: `{letter}` has no value (`#{variable}`)"),
                 format!("the control ignores `{letter}`"),
             ),
@@ -110,7 +107,7 @@ impl PathRule for EmptyVariable {
             }
         };
         let help = match argument {
-            Some((argument, _)) => {
+            Some(argument) => {
                 format!("give `{argument}` in the call, or test `#{variable}` for `#0` first")
             }
             None => format!("set `#{variable}` to a number, or test it for `#0` first"),

@@ -2,10 +2,8 @@
 
 use std::collections::HashSet;
 
-use gcheck_engine::FrameKind;
-
 use crate::declare::declare_rule;
-use crate::facts::empty_variables::{Use, is_assigned_before, usage};
+use crate::facts::empty_variables::{Use, argument_of, is_assigned_before, is_in_macro, usage};
 use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
 use crate::{Remembers, remembers};
 
@@ -76,21 +74,13 @@ impl PathRule for VariableReadBeforeSet {
         if !(first..=last).contains(&variable) {
             return;
         }
-        let in_macro = cx.state().frames().iter().any(|frame| frame.kind == FrameKind::Macro);
+        let in_macro = is_in_macro(cx);
         if !in_macro && cx.survey.is_called_from_elsewhere() || is_assigned_before(cx, variable) {
             return;
         }
         let Some(place) = cx.place() else { return };
         let Some((usage, range)) = usage(cx, &place, variable) else { return };
-        let argument = in_macro
-            .then(|| {
-                cx.model
-                    .semantics()
-                    .argument_letters
-                    .iter()
-                    .find(|(_, number)| u32::from(**number) == variable)
-            })
-            .flatten();
+        let argument = argument_of(cx, variable).filter(|_| in_macro);
         let severity = match usage {
             Use::Tested | Use::HandedOn => return,
             // A macro that moves the axes of its arguments ignores the others on purpose.
@@ -100,7 +90,7 @@ impl PathRule for VariableReadBeforeSet {
         };
         self.told.insert(variable);
         let message = match argument {
-            Some((letter, _)) => {
+            Some(letter) => {
                 format!(
                     "the call does not give `{letter}`, but the macro uses it in arithmetic (`#{variable}`)"
                 )
@@ -112,7 +102,7 @@ impl PathRule for VariableReadBeforeSet {
             _ => "holds nothing here, and counts as zero",
         };
         let help = match argument {
-            Some((letter, _)) => {
+            Some(letter) => {
                 format!("give `{letter}` in the call, or test `#{variable}` for `#0` before it is used")
             }
             None => format!("set `#{variable}` before this block"),

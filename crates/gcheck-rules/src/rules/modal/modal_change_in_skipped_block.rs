@@ -4,9 +4,9 @@ use std::ops::Range;
 
 use gcheck_controls::{CodeIx, Effect, LetterSet};
 use gcheck_engine::{At, Axis, Event, Fact, Position, Role};
-use gcheck_program::BlockFlags;
 
 use crate::declare::declare_rule;
+use crate::facts::block_delete::is_optional;
 use crate::facts::modes::ignores_distance_mode;
 use crate::{PathCx, PathRule, Report, Run, Severity, Uses, Watch};
 use crate::{Remembers, remembers};
@@ -160,12 +160,6 @@ impl PathRule for ModalChangeInSkippedBlock {
     fn cut(&mut self, cx: &PathCx<'_>, _: &Event, report: &mut Report<'_>) {
         self.moves(cx, report);
     }
-}
-
-/// Does the block have a block delete?
-fn is_optional(cx: &PathCx<'_>) -> bool {
-    cx.origin().flags.contains(BlockFlags::BLOCK_DELETE)
-        && cx.place().is_some_and(|place| place.block().delete > 0)
 }
 
 /// Does the code move the work zero?

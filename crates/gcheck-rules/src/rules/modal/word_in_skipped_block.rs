@@ -4,9 +4,9 @@ use std::ops::Range;
 
 use gcheck_controls::{Letter, LetterSet};
 use gcheck_engine::{Event, Role};
-use gcheck_program::BlockFlags;
 
 use crate::declare::declare_rule;
+use crate::facts::block_delete::is_optional;
 use crate::facts::compensation::is_on;
 use crate::facts::cutting::is_cut;
 use crate::{PathCx, PathRule, Report, Run, Severity, Uses, Watch};
@@ -89,8 +89,7 @@ impl PathRule for WordInSkippedBlock {
         if words.is_empty() {
             return;
         }
-        let is_optional = cx.origin().flags.contains(BlockFlags::BLOCK_DELETE)
-            && cx.place().is_some_and(|place| place.block().delete > 0);
+        let is_optional = is_optional(cx);
         for letter in words.iter() {
             self.given.retain(|given| given.letter != letter);
             if !is_optional {

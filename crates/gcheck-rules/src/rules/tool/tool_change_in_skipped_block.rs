@@ -4,9 +4,9 @@ use std::ops::Range;
 
 use gcheck_controls::{Effect, Letter};
 use gcheck_engine::{Abstract, Domain};
-use gcheck_program::BlockFlags;
 
 use crate::declare::declare_rule;
+use crate::facts::block_delete::is_optional;
 use crate::facts::offset_schemes::whole;
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 use crate::{Remembers, remembers};
@@ -110,11 +110,6 @@ fn change(cx: &PathCx<'_>) -> Option<Change> {
     let before = Abstract::known(cx.state().tool()).and_then(whole)?;
     let after = cx.known_number('T').and_then(whole)?;
     (before > 0 && before != after).then(|| Change { before, after, range: cx.effect_range(changes_tool) })
-}
-
-fn is_optional(cx: &PathCx<'_>) -> bool {
-    cx.origin().flags.contains(BlockFlags::BLOCK_DELETE)
-        && cx.place().is_some_and(|place| place.block().delete > 0)
 }
 
 #[cfg(test)]

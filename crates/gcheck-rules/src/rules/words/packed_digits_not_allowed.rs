@@ -8,7 +8,7 @@ use crate::{PathCx, PathRule, Remembers, Report, Run, Watch, limit, remembers};
 
 declare_rule! {
     /// A number holds several others in its digits, and one of them is a value that the control does not accept: an angle of
-    /// the tip in `P` of a threading cycle for which there is no insert.
+    /// the tip in `P` of a threading cycle that no insert has.
     ///
     /// The number may be written or computed.
     ///
