@@ -363,6 +363,12 @@ pub struct Semantics {
     /// A computed count (an offset, a tool, repeats) is rounded to a whole number; else a fraction is refused.
     #[serde(default)]
     pub computed_counts_round: bool,
+    /// Inverse time is asked for where two rotary axes turn in a cut of linear ones; the manual and page that say so.
+    #[serde(default)]
+    pub inverse_time_for_five_axes: Option<String>,
+    /// A computed length or angle is rounded to the least that the control resolves.
+    #[serde(default)]
+    pub computed_lengths_round: bool,
     /// Assignments of a block act after all its values are read.
     pub assignments_after_block: bool,
     /// The letters of a macro call's arguments, by local variable: `{ A = 1, B = 2, … }`.

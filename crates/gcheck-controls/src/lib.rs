@@ -46,4 +46,4 @@ pub use schema::{
 };
 pub use unsupported::{UnsupportedDialect, unsupported_dialect};
 pub use validate::problems;
-pub use wording::one_of;
+pub use wording::{one_of, spans};

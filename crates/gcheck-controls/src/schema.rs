@@ -58,7 +58,7 @@ pub enum Machine {
 }
 
 /// How the control reads a line of text.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 #[expect(
     clippy::struct_excessive_bools,
@@ -105,6 +105,9 @@ pub struct SyntaxRules {
     /// Words may be after a condition without `THEN`: `IF [#1 EQ 2] G65 P3`.
     #[serde(default)]
     pub words_after_if: bool,
+    /// `IF […] THEN GOTO 10` is refused; the manual and page that say so.
+    #[serde(default)]
+    pub jump_after_then_refused: Option<String>,
     /// A pair of `%` lines ends the program where no code does.
     #[serde(default)]
     pub tape_marks_end: bool,
@@ -625,6 +628,10 @@ pub struct WordEntry {
     /// beside which it must be whatever their value (`["J"]`).
     #[serde(default)]
     pub required_with: Vec<String>,
+    /// Letters beside one of which the code reads the word: `["P"]`. A code with a form of one block and one of two reads some
+    /// words in one form alone.
+    #[serde(default)]
+    pub only_with: Vec<String>,
     /// Words of which any makes this one unnecessary: a peck cycle takes `Q`, or `I`, `J` and `K`.
     #[serde(default)]
     pub instead: Vec<String>,

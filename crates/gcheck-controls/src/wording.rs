@@ -39,7 +39,7 @@ impl WordEntry {
         }
     }
 
-    /// What it may be: its kind and its bounds, `length, above 0`.
+    /// What it may be: its kind and its bounds, `length, above 0`; what is not a value between them, `but not 201 to 999`.
     pub fn values_in_words(&self) -> String {
         let range = match (self.min, self.max, self.above) {
             _ if !self.values.is_empty() => format!(", {}", one_of(&self.values)),
@@ -49,7 +49,9 @@ impl WordEntry {
             (None, None, Some(above)) => format!(", above {above}"),
             (None, None, None) => String::new(),
         };
-        format!("{}{range}", self.kind.in_words())
+        let gaps = spans(&self.gaps);
+        let gaps = if gaps.is_empty() { gaps } else { format!(", but not {gaps}") };
+        format!("{}{range}{gaps}", self.kind.in_words())
     }
 }
 
@@ -61,6 +63,14 @@ pub fn one_of(values: &[f64]) -> String {
         Some((last, others)) => format!("{} or {last}", others.join(", ")),
         None => String::new(),
     }
+}
+
+/// Ranges of numbers for people: `0, 201 to 999`.
+pub fn spans(ranges: &[[f64; 2]]) -> String {
+    let shown = |[first, last]: &[f64; 2]| {
+        if last - first < 1e-9 { format!("{first}") } else { format!("{first} to {last}") }
+    };
+    ranges.iter().map(shown).collect::<Vec<String>>().join(", ")
 }
 
 impl Confidence {

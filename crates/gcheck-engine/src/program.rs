@@ -5,6 +5,7 @@
 
 use std::borrow::Cow;
 use std::cell::RefCell;
+use std::path::Path;
 use std::rc::Rc;
 
 use gcheck_program::{Dialect, Loaded, OLabel};
@@ -28,6 +29,12 @@ pub struct SourceFile {
     pub name: Rc<str>,
     /// Its text.
     pub text: String,
+}
+
+/// The number that a file is named by: `O1234.nc`, `1234`.
+fn number_in_name(name: &str) -> Option<u32> {
+    let stem = Path::new(name).file_stem()?.to_str()?;
+    stem.trim_start_matches(['O', 'o']).parse().ok()
 }
 
 /// No other files.
@@ -166,10 +173,16 @@ impl<'a> Program<'a> {
         let by_name = self.dialect.control().syntax().o_words;
         let source =
             if by_name { self.library.by_name(&number.to_string()) } else { self.library.by_number(number) };
-        let found = source.map(|source| {
+        let found = source.and_then(|source| {
             let file = self.load(source);
-            // A file may be named by the number without holding it.
-            in_file(file).unwrap_or(At { file, block: 0 })
+            in_file(file).or_else(|| {
+                // A file may be named by the number without a number in it; one of another number is another program.
+                let is_another = |file: Rc<ProgramFile<'_>>| {
+                    number_in_name(&file.name) != Some(number)
+                        && file.loaded.outline().programs().any(|program| program.number.is_some())
+                };
+                (!self.file(file).is_some_and(is_another)).then_some(At { file, block: 0 })
+            })
         });
         self.numbers.borrow_mut().insert(number, found);
         found

@@ -534,13 +534,16 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
                 Value::Expr(expr) => {
                     let value = self.evaluate(place, table, table.expr(expr), state)?;
                     if code_letter {
-                        self.computed_code(word.letter, &value)?;
+                        // An empty variable takes the word out.
+                        if D::is_vacant(&value) != Truth::True {
+                            self.computed_code(word.letter, &value)?;
+                        }
                         continue;
                     }
                     match D::is_vacant(&value) {
                         Truth::True => {}
                         Truth::False | Truth::Unknown => {
-                            let value = self.rounded_count(word.letter, value, words);
+                            let value = self.as_resolved(word.letter, value, words, state);
                             let pointed = self.model.semantics().computed_words_are_pointed;
                             self.words.put(word.letter, value, pointed);
                         }
@@ -559,28 +562,62 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
         matches!(self.model.effect(code), Effect::MacroCall | Effect::MacroModal)
     }
 
-    /// A computed value as the control reads it: a count is rounded on controls that do so.
-    fn rounded_count(&self, letter: Letter, value: D::Value, words: &[Word]) -> D::Value {
+    /// A computed value as the control reads it: rounded to a whole number, or to the last digit of its lengths and angles, on
+    /// controls that do so.
+    fn as_resolved(&self, letter: Letter, value: D::Value, words: &[Word], state: &State<D>) -> D::Value {
         let semantics = self.model.semantics();
-        if !semantics.computed_counts_round || D::is_vacant(&value) != Truth::False {
+        if !(semantics.computed_counts_round || semantics.computed_lengths_round)
+            || D::is_vacant(&value) != Truth::False
+        {
             return value;
         }
+        let numbers = self.model.control().numbers();
+        match self.kind_read(letter, words) {
+            Some(WordKind::Integer) if semantics.computed_counts_round => self.to_multiple(value, 1.0),
+            Some(WordKind::Angle) if semantics.computed_lengths_round => {
+                self.to_multiple(value, numbers.least_angle)
+            }
+            Some(WordKind::Length) if semantics.computed_lengths_round => {
+                match self.units_of_block(words, state) {
+                    Some(Units::Inch) => self.to_multiple(value, numbers.least_inch),
+                    Some(Units::Mm) => self.to_multiple(value, numbers.least_mm),
+                    // A run goes on with the value; an analysis has every way that the control may read it.
+                    None if self.lenient => {
+                        let inch = self.to_multiple(value.clone(), numbers.least_inch);
+                        let mm = self.to_multiple(value.clone(), numbers.least_mm);
+                        value.join(&inch).join(&mm)
+                    }
+                    None => value,
+                }
+            }
+            _ => value,
+        }
+    }
+
+    /// What a word means beside the codes of its block; `None` where it is an argument of a macro, which is any number.
+    fn kind_read(&self, letter: Letter, words: &[Word]) -> Option<WordKind> {
         let control = self.model.control();
-        let mut read_as = None;
+        let mut kind = None;
         for code in words.iter().filter_map(|word| control.code_at(word.code)) {
-            // An argument of a macro is any number.
             if code.entry().any_words {
-                return value;
+                return None;
             }
             let mut entries = code.entry().words.iter();
             let entry = entries.find(|entry| Letter::parse(&entry.letter) == Some(letter));
-            read_as = read_as.or(entry.map(|entry| entry.kind));
+            kind = kind.or(entry.map(|entry| entry.kind));
         }
-        let kind = read_as.or_else(|| control.letter(letter).map(|entry| entry.kind));
-        if kind != Some(WordKind::Integer) {
-            return value;
-        }
-        D::call(Function::Round, std::slice::from_ref(&value), semantics).unwrap_or(value)
+        kind.or_else(|| control.letter(letter).map(|entry| entry.kind))
+    }
+
+    /// The multiple of a step that is nearest to a value.
+    fn to_multiple(&self, value: D::Value, step: f64) -> D::Value {
+        let semantics = self.model.semantics();
+        // Divided by a power of ten rather than multiplied: .1235, not .12350000000000001.
+        let steps = D::number((1.0 / step).round());
+        let rounded = D::binary(BinaryOp::Multiply, &value, &steps, semantics)
+            .and_then(|value| D::call(Function::Round, std::slice::from_ref(&value), semantics))
+            .and_then(|value| D::binary(BinaryOp::Divide, &value, &steps, semantics));
+        rounded.unwrap_or(value)
     }
 
     /// Does an analysis of all paths leave this check to rules of lower tiers? A run past alarms makes it.

@@ -672,7 +672,7 @@ impl Items<'_, '_> {
     }
 
     fn keywords(&mut self) {
-        let syntax = *self.typing.snapshot.control().syntax();
+        let syntax = self.typing.snapshot.control().syntax();
         // A statement begins its block.
         let begins = self.typing.codes().is_empty() && self.typing.letters().is_empty();
         if !begins || !syntax.macro_statements {

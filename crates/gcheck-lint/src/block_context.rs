@@ -4,8 +4,8 @@
 
 use std::ops::Range;
 
-use gcheck_controls::{Code, Confidence, Control, Letter, LetterEntry, WordEntry, WordKind};
-use gcheck_program::{Block, BlockIx, BlockTable, Expr, Value, Word};
+use gcheck_controls::{Code, Confidence, Control, Letter, LetterEntry, Unset, WordEntry, WordKind};
+use gcheck_program::{Block, BlockIx, BlockTable, Expr, Op, Value, Word};
 
 use crate::Environment;
 
@@ -128,6 +128,15 @@ impl<'a> BlockCx<'a> {
         of_words.chain(self.statements().flat_map(|s| s.kind.expressions())).map(|ix| table.expr(ix))
     }
 
+    /// May the word be left out of the block? A variable that holds nothing takes its address with it, on controls that
+    /// have such variables.
+    pub fn may_be_left_out(&self, word: &Word) -> bool {
+        let Value::Expr(expr) = word.value else { return false };
+        let ops = self.table.ops(self.table.expr(expr));
+        self.control().semantics().unset == Unset::Vacant
+            && matches!(ops, [Op::Variable(_)] | [Op::Variable(_), Op::Negate])
+    }
+
     /// Bytes of the chunk as bytes of the file.
     pub fn in_file(&self, range: Range<u32>) -> Range<u32> {
         range.start + self.base..range.end + self.base
@@ -195,7 +204,7 @@ fn of_code<'a>(code: Code<'a>, entry: &'a WordEntry, general: Option<&'a LetterE
     let confidence = entry.confidence.unwrap_or(code.entry().confidence);
     // What has a number for its name has none below zero.
     let is_name = matches!(entry.kind, WordKind::Label | WordKind::Program);
-    WordFacts {
+    let own = WordFacts {
         is: &entry.is,
         kind: entry.kind,
         min: entry.min.or(is_name.then_some(0.0)),
@@ -210,7 +219,28 @@ fn of_code<'a>(code: Code<'a>, entry: &'a WordEntry, general: Option<&'a LetterE
         confidence,
         range_confidence: entry.range_confidence.unwrap_or(confidence),
         source: &code.entry().source,
+    };
+    match general.filter(|general| takes_range_of(code, entry, general)) {
+        Some(general) => WordFacts {
+            min: general.min,
+            max: general.max,
+            range_confidence: general.confidence,
+            source: &general.source,
+            ..own
+        },
+        None => own,
     }
+}
+
+/// Does the word have the range of its address? It does where the code gives none, and means the same kind of value.
+fn takes_range_of(code: Code<'_>, entry: &WordEntry, general: &LetterEntry) -> bool {
+    let is_bound = entry.min.is_some() || entry.max.is_some() || entry.above.is_some();
+    let is_listed = !entry.values.is_empty() || !entry.gaps.is_empty();
+    !code.entry().any_words
+        && !is_bound
+        && !is_listed
+        && entry.kind == general.kind
+        && (general.min.is_some() || general.max.is_some())
 }
 
 fn of_letter(entry: &LetterEntry) -> WordFacts<'_> {

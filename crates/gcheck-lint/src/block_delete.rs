@@ -19,6 +19,8 @@ pub(crate) fn key(finding: &Finding) -> Key {
 /// where only an analysis that skips such blocks makes it.
 pub(crate) fn name_condition(mut finding: Finding, block: BlockFlags, skips: bool) -> Finding {
     if skips {
+        // Which position the operator chooses is not known; what a block with `/` itself does wrong is wrong in any case.
+        finding.severity = finding.severity.min(Severity::Warning);
         holds_when(&mut finding, "it holds with block delete on, when the control skips blocks with `/`");
     } else if block.contains(BlockFlags::BLOCK_DELETE) {
         holds_when(&mut finding, "it holds with block delete off: the block has a `/`");

@@ -319,8 +319,8 @@ fn of_corner(fault: CornerFault, units: Units) -> Words {
 fn of_cycle(fault: CycleFault, block: &Written<'_>) -> Words {
     match fault {
         CycleFault::Missing(letter) if block.letters.contains(letter) => {
-            Words::new(format!("`{letter}` of the canned cycle is below zero"))
-                .why("the control takes such a value for one that is not given")
+            Words::new(format!("`{letter}` of the canned cycle has no value that the control can use"))
+                .why("a variable that is empty takes its word out, and a value below zero counts as none")
         }
         CycleFault::Missing(letter) => Words::new(format!("the canned cycle needs `{letter}`"))
             .why("it is neither in this block nor in an earlier one of the cycle"),

@@ -261,9 +261,9 @@ const NOT_A_BEGINNING: [&[u8]; 14] = [
     b"continue",
 ];
 
-/// Numbers of `O1234` and `:1234` at the heads of lines.
+/// Numbers of `O1234` and `:1234` at the heads of lines, up to the end of the tape.
 fn numbers_in(content: &[u8]) -> impl Iterator<Item = u32> {
-    content.split(|b| matches!(b, b'\n' | b'\r')).filter_map(|line| {
+    on_tape(content).split(|b| matches!(b, b'\n' | b'\r')).filter_map(|line| {
         let line = line.trim_ascii_start();
         let digits = line
             .strip_prefix(b"O")
@@ -280,9 +280,34 @@ fn numbers_in(content: &[u8]) -> impl Iterator<Item = u32> {
     })
 }
 
+/// What a control reads: a `%` at the head of a line ends it, unless nothing comes before it.
+fn on_tape(content: &[u8]) -> &[u8] {
+    let is_blank = |bytes: &[u8]| bytes.iter().all(|b| matches!(b, b' ' | b'\t' | b'\r' | b'\n' | 0));
+    let mut at = 0;
+    let mut is_open = false;
+    for line in content.split_inclusive(|b| matches!(b, b'\n' | b'\r')) {
+        let before = content.get(..at).unwrap_or_default();
+        if line.trim_ascii_start().starts_with(b"%") {
+            if is_open || !is_blank(before) {
+                return before;
+            }
+            is_open = true;
+        }
+        at += line.len();
+    }
+    content
+}
+
 #[cfg(test)]
 mod tests {
     use super::numbers_in;
+
+    #[test]
+    fn what_is_after_the_tape_is_not_there() {
+        let numbers = |text: &[u8]| numbers_in(text).collect::<Vec<u32>>();
+        assert_eq!(numbers(b"%\nO1\nM30\n%\n%\nO2\nM30\n%\n"), [1]);
+        assert_eq!(numbers(b"O1\nM30\n%\nO2\n"), [1]);
+    }
 
     #[test]
     fn numbers_stand_at_the_heads_of_lines() {

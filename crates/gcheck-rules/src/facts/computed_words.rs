@@ -2,7 +2,7 @@
 //!
 //! Knows: the same ranges, signs and whole numbers that written words are judged by. Must not know: any rule.
 
-use gcheck_controls::{Code, Confidence, WordKind, one_of};
+use gcheck_controls::{Code, Confidence, Control, Letter, WordKind, one_of, spans};
 use gcheck_engine::AbstractValue;
 use gcheck_program::{BlockFlags, Word};
 
@@ -131,11 +131,13 @@ pub(crate) fn finding(cx: &PathCx<'_>, rule: &'static RuleMeta, refused: &Refuse
         .note(format!("`{letter}`{of} takes {takes}  [{}]", facts.source))
         .help("correct the expression, or the variables that it reads")
         .at_most(limit(confidence));
-    // A control may round a fraction; the number of a program it cannot.
-    let rounds = *why == Why::Fraction && facts.kind != WordKind::Program;
+    // A control may round a fraction, but not the number of a program, nor where the data say that it refuses one.
+    let rounds = *why == Why::Fraction && facts.kind != WordKind::Program && !facts.whole;
     let finding = if rounds { finding.at_most(Severity::Warning) } else { finding };
     let finding = if rounds && cx.model.semantics().computed_counts_round {
-        finding.note(format!("this control rounds it to `{letter}{}`", value.round()))
+        // The manual allows it.
+        let note = format!("this control rounds it to `{letter}{}`", value.round());
+        finding.note(note).at_most(Severity::Info)
     } else {
         finding
     };
@@ -156,11 +158,17 @@ fn written(cx: &PathCx<'_>, code: Code<'_>) -> String {
 /// How sure a bound is: the code's own, or that of the address about its sign.
 fn range_confidence(cx: &PathCx<'_>, refused: &Refused<'_>) -> Confidence {
     let facts = &refused.facts;
-    let is_bound = facts.min.is_some() || facts.max.is_some() || facts.above.is_some();
-    if refused.value < 0.0 && !facts.negative && !is_bound {
-        return cx.control().letter(refused.word.letter).map_or(facts.confidence, |entry| entry.confidence);
+    if refused.value < 0.0 && !facts.negative {
+        return sign_confidence(cx.control(), refused.word.letter, facts);
     }
     facts.range_confidence
+}
+
+/// How sure it is that the word takes no value below zero: the address may say so, or the range that the code gives it.
+pub(crate) fn sign_confidence(control: &Control, letter: Letter, facts: &WordFacts<'_>) -> Confidence {
+    let of_address = control.letter(letter).map_or(facts.confidence, |entry| entry.confidence);
+    let is_bound = facts.min.or(facts.above).is_some_and(|least| least >= 0.0);
+    if is_bound { of_address.max(facts.range_confidence) } else { of_address }
 }
 
 /// "0 to 99", "1 or more", "more than 0".
@@ -180,11 +188,7 @@ pub(crate) fn is_in_gap(value: f64, facts: &WordFacts<'_>) -> bool {
 
 /// "201 to 999".
 pub(crate) fn gaps_of(facts: &WordFacts<'_>) -> String {
-    let shown = |[first, last]: &[f64; 2]| {
-        if last - first < 1e-9 { format!("{first}") } else { format!("{first} to {last}") }
-    };
-    let gaps: Vec<String> = facts.gaps.iter().map(shown).collect();
-    gaps.join(", ")
+    spans(facts.gaps)
 }
 
 /// Bounds in words; `None` where there are none.

@@ -4,7 +4,7 @@
 
 use std::collections::HashSet;
 
-use gcheck_controls::{Code, Control, LastingFrom, Letter, LetterSet, Need};
+use gcheck_controls::{Code, Confidence, Control, LastingEnd, LastingFrom, Letter, LetterSet, Need};
 use gcheck_program::{CallKind, Survey};
 
 /// Words whose absence rules of their own report: feed, speed, tool, size of cutter compensation.
@@ -50,4 +50,13 @@ pub(crate) fn first_call_elsewhere(survey: &Survey) -> Option<u32> {
         CallKind::Unknown => true,
     };
     survey.calls.iter().find(|call| is_elsewhere(&call.target)).map(|call| call.range.start)
+}
+
+/// Does the control refuse the code where no block gives the word? Where the end of the program does not forget it, the word of
+/// the last program counts.
+pub(crate) fn is_refused_without(control: &Control, code: Code<'_>, letter: Letter) -> bool {
+    let row = control.lasting_in(letter, &code.entry().group);
+    row.is_some_and(|row| {
+        row.confidence == Confidence::Manual && row.until.contains(&LastingEnd::ProgramEnd)
+    })
 }

@@ -100,6 +100,7 @@ pub(crate) mod five_axis {
     pub(crate) mod maybe_refused_in_five_axis_mode;
     pub(crate) mod reference_return_under_tilt;
     pub(crate) mod refused_in_five_axis_mode;
+    pub(crate) mod rotary_feed_per_minute;
     pub(crate) mod rotary_motion_under_dynamic_offset;
     pub(crate) mod tilt_modes_conflict;
     pub(crate) mod tool_direction_unknown;
@@ -161,6 +162,7 @@ pub(crate) mod macros {
     pub(crate) mod several_assignments;
     pub(crate) mod subroutine_inside_subroutine;
     pub(crate) mod switched_off_at_end;
+    pub(crate) mod then_before_jump;
     pub(crate) mod too_many_arguments;
     pub(crate) mod variable_never_read;
     pub(crate) mod variable_number_not_whole;
@@ -427,6 +429,7 @@ pub(crate) mod words {
     pub(crate) mod word_forbidden;
     pub(crate) mod word_given_twice;
     pub(crate) mod word_not_read;
+    pub(crate) mod word_of_another_form;
     pub(crate) mod word_of_newer_version;
     pub(crate) mod word_passed_over;
     pub(crate) mod word_unfit_for_another;
@@ -522,6 +525,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &five_axis::maybe_refused_in_five_axis_mode::RULE,
     &five_axis::reference_return_under_tilt::RULE,
     &five_axis::refused_in_five_axis_mode::RULE,
+    &five_axis::rotary_feed_per_minute::RULE,
     &five_axis::rotary_motion_under_dynamic_offset::RULE,
     &five_axis::tilt_modes_conflict::RULE,
     &five_axis::tool_direction_unknown::RULE,
@@ -574,6 +578,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &macros::several_assignments::RULE,
     &macros::subroutine_inside_subroutine::RULE,
     &macros::switched_off_at_end::RULE,
+    &macros::then_before_jump::RULE,
     &macros::too_many_arguments::RULE,
     &macros::variable_never_read::RULE,
     &macros::variable_number_not_whole::RULE,
@@ -804,6 +809,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &words::word_forbidden::RULE,
     &words::word_given_twice::RULE,
     &words::word_not_read::RULE,
+    &words::word_of_another_form::RULE,
     &words::word_of_newer_version::RULE,
     &words::word_passed_over::RULE,
     &words::word_unfit_for_another::RULE,

@@ -4,7 +4,7 @@
 
 use std::ops::Range;
 
-use gcheck_controls::{Code, Control, Letter, LetterSet, Machine};
+use gcheck_controls::{Code, CodeNumber, Control, Letter, LetterSet, Machine};
 use gcheck_program::{Dialect, Loaded};
 
 /// A word of the block with a number.
@@ -86,7 +86,14 @@ fn frame(control: &Control, setup: &[String]) -> Vec<String> {
     }
     let is_lathe = control.machine() == Machine::Lathe;
     if !has("T") {
-        frame.push(if is_lathe { "T0101" } else { "T1 M6" }.to_owned());
+        // Not every control changes tools.
+        let changes = CodeNumber::parse("M6").is_some_and(|number| control.code(number).is_some());
+        let tool = match (is_lathe, changes) {
+            (true, _) => "T0101",
+            (false, true) => "T1 M6",
+            (false, false) => "T1",
+        };
+        frame.push(tool.to_owned());
     }
     if !has("S") {
         frame.push("S1000 M3".to_owned());

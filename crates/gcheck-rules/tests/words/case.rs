@@ -30,6 +30,11 @@ impl Kind {
         Self::Extra,
     ];
 
+    /// Does the case need variables?
+    pub(crate) fn is_computed(self) -> bool {
+        matches!(self, Self::Computed | Self::ComputedOutOfRange)
+    }
+
     pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Computed => "computed",

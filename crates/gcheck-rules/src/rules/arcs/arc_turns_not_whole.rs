@@ -37,8 +37,10 @@ struct ArcTurnsNotWhole;
 impl PathRule for ArcTurnsNotWhole {
     fn fault(&mut self, cx: &PathCx<'_>, fault: &Fault, report: &mut Report<'_>) {
         if *fault == Fault::Arc(ArcFault::Turns) {
+            let is_whole = cx.known_number('P').is_some_and(|turns| turns.fract() == 0.0);
+            let what = if is_whole { "above zero" } else { "whole" };
             report.add(
-                cx.finding(&META, cx.letter_range('P'), "number of turns of an arc (`P`) that is not whole")
+                cx.finding(&META, cx.letter_range('P'), format!("number of turns of an arc (`P`) that is not {what}"))
                     .label("counts turns; a turn that is begun counts as one")
                     .help("give a whole number above zero"),
             );
@@ -61,9 +63,9 @@ mod tests {
             "G17 G21 G90 G0 X0 Y0\nG2 X10 I5 P[1-1] F100\nG3 X0 I-5 P#1\nM2\n",
             &expect![[r#"
                 2 | G2 X10 I5 P[1-1] F100
-                  |           ^^^^^^ error[arc-turns-not-whole] number of turns of an arc (`P`) that is not whole
+                  |           ^^^^^^ error[arc-turns-not-whole] number of turns of an arc (`P`) that is not above zero
                 3 | G3 X0 I-5 P#1
-                  |           ^^^ error[arc-turns-not-whole] number of turns of an arc (`P`) that is not whole
+                  |           ^^^ error[arc-turns-not-whole] number of turns of an arc (`P`) that is not above zero
             "#]],
         );
     }

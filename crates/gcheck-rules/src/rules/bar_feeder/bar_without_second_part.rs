@@ -8,7 +8,7 @@ use crate::facts::bar_feed::{Length, bar_feed_name, length_range, lengths, resti
 use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
 
 declare_rule! {
-    /// After the first push of a new bar (`I` of `G105`) the rest of it is not longer than the clamping length (`K`) and
+    /// After the first push of a new bar (`I` of `G105`) the rest of it is shorter than the clamping length (`K`) and
     /// the part (`J`) together, against `bar_length` of the machine file. Each bar then gives one part, or none where the
     /// first push is shorter than a part.
     ///
@@ -58,7 +58,8 @@ impl PathRule for BarWithoutSecondPart {
         let is_usable = part > Mm::ZERO && initial > Mm::ZERO && clamping >= Mm::ZERO;
         let is_clamped =
             is_usable && part + clamping <= bar + EQUAL_WITHIN && rest >= clamping - EQUAL_WITHIN;
-        if !is_clamped || rest > part + clamping + EQUAL_WITHIN {
+        // What a control does with exactly the length no page says: another rule names that.
+        if !is_clamped || rest > part + clamping - EQUAL_WITHIN {
             return;
         }
         let gives = if initial + EQUAL_WITHIN < part { "no part" } else { "one part only" };
@@ -69,7 +70,7 @@ impl PathRule for BarWithoutSecondPart {
                 format!("a new bar gives {gives} (`{}`)", bar_feed_name(cx)),
             )
             .label(format!(
-                "{} are left of {}, and the next part needs more than {}",
+                "{} are left of {}, and the next part needs {}",
                 cx.shown(rest),
                 cx.shown(bar),
                 cx.shown(part + clamping)
@@ -95,9 +96,9 @@ mod tests {
     #[test]
     fn one_part_or_none() {
         check(
-            "G21\nM5\nG105 J300. K60. I640.\nM99\n",
+            "G21\nM5\nG105 J300. K60. I641.\nM99\n",
             &expect![[r#"
-                3 | G105 J300. K60. I640.
+                3 | G105 J300. K60. I641.
                   |                 ^^^^^ warning[bar-without-second-part] a new bar gives one part only (`G105`)
             "#]],
         );
@@ -113,6 +114,7 @@ mod tests {
     #[test]
     fn a_rest_for_another_part_and_lengths_of_other_rules() {
         check("G21\nM5\nG105 J300. K60. I639.9\nM99\n", &expect![[""]]);
+        check("G21\nM5\nG105 J300. K60. I640.\nM99\n", &expect![[""]]);
         check("G21\nM5\nG105 J980. K60. I50.\nM99\n", &expect![[""]]);
         check("G21\nM5\nG105 J98. K60. I970.\nM99\n", &expect![[""]]);
         check("G21\nM5\nG105 J#500 K60. I970.\nM99\n", &expect![[""]]);
@@ -127,6 +129,6 @@ mod tests {
         let said: String = found.iter().map(words).collect();
         let just = "G20\nM5\nG105 J1. K3. I9.\nM99\n";
         assert_eq!(findings(&only(&RULE), "haas-lathe", just, &world).len(), 1, "just long enough to clamp");
-        assert!(said.contains("4 in are left of 12 in, and the next part needs more than 5 in"), "{said}");
+        assert!(said.contains("4 in are left of 12 in, and the next part needs 5 in"), "{said}");
     }
 }

@@ -1,16 +1,17 @@
-//! A canned cycle under inverse-time feed.
+//! A canned cycle, a pocket or a pattern of holes under inverse-time feed.
 
 use std::collections::BTreeSet;
 
+use gcheck_controls::Effect;
 use gcheck_engine::{At, CycleFault, Fact, Fault, FeedMode, Role};
 
 use crate::declare::declare_rule;
-use crate::facts::cycles::{cycle_range, is_cycle};
+use crate::facts::cycles::{cycle_range, is_cycle, is_round_pocket};
 use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
 use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// A canned cycle is called while feeds are inverse times (`G93`).
+    /// A canned cycle, a pocket or a pattern of holes is called while feeds are inverse times (`G93`).
     ///
     /// ## Why it matters
     /// Under inverse time `F` sets the time of one move, and a cycle makes many. The control stops with an alarm, or
@@ -23,6 +24,13 @@ declare_rule! {
     /// G81 X10 Z-5 R2 F10
     /// M2
     /// ```
+    /// ```nc,reported,haas-mill
+    /// G20 G90 G17 G0 X0. Y0. Z.1
+    /// G93
+    /// G12 Z-.5 I.5 D1 F10.
+    /// G94
+    /// M30
+    /// ```
     /// ## Not reported
     /// ```nc,quiet,linuxcnc
     /// G21 G90 G0 X0 Y0 Z10
@@ -32,7 +40,7 @@ declare_rule! {
     /// M2
     /// ```
     rule "cycle-in-inverse-time" in "cycles" {
-        summary: "canned cycle under inverse-time feed",
+        summary: "canned cycle or pocket under inverse-time feed",
         severity: Error,
         tier: Path,
         since: "0.1.0",
@@ -64,7 +72,7 @@ impl PathRule for CycleInInverseTime {
 
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
         // Controls that refuse it alarm when the cycle runs.
-        if cx.model.semantics().compensation.freezes_modes || !cx.has_effect(is_cycle) {
+        if cx.model.semantics().compensation.freezes_modes || !cx.has_effect(makes_moves) {
             return;
         }
         let changes = cx.has_effect(|effect| Role::of(effect) == Some(Role::FeedMode));
@@ -74,6 +82,12 @@ impl PathRule for CycleInInverseTime {
     }
 }
 
+/// Does one block with the code make several cutting moves?
+fn makes_moves(effect: Effect) -> bool {
+    let is_pattern = matches!(effect, Effect::BoltCircle | Effect::BoltArc | Effect::BoltLine);
+    is_cycle(effect) || is_round_pocket(effect) || is_pattern || effect == Effect::GeneralPocket
+}
+
 impl CycleInInverseTime {
     fn tell(&mut self, cx: &PathCx<'_>, severity: Severity, report: &mut Report<'_>) {
         let fact = Fact::Mode(Role::FeedMode);
@@ -81,10 +95,17 @@ impl CycleInInverseTime {
             return;
         }
         let name = cx.code_name(Role::FeedMode).unwrap_or_default();
+        let (what, short) = if cx.has_effect(|e| is_round_pocket(e) || e == Effect::GeneralPocket) {
+            ("pocket", "pocket")
+        } else if cx.has_effect(is_cycle) {
+            ("canned cycle", "cycle")
+        } else {
+            ("pattern of holes", "pattern")
+        };
         let finding = cx
-            .finding(&META, cycle_range(cx), format!("canned cycle under inverse-time feed (`{name}`)"))
-            .label("`F` sets the time of one move, and a cycle makes many")
-            .help("go back to feed per minute (`G94`) before the cycle")
+            .finding(&META, cycle_range(cx), format!("{what} under inverse-time feed (`{name}`)"))
+            .label(format!("`F` sets the time of one move, and a {short} makes many"))
+            .help(format!("go back to feed per minute (`G94`) before the {short}"))
             .at_most(severity);
         report.add(cx.resting_on(finding, fact, &format!("`{name}`")));
     }

@@ -4,7 +4,7 @@ use gcheck_engine::{CycleFault, Fault};
 
 use crate::declare::declare_rule;
 use crate::facts::cycles::{cycle_code, is_round_pocket};
-use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
+use crate::{PathCx, PathRule, Report, Run, Severity, Watch, limit};
 
 declare_rule! {
     /// The numbers of a cycle do not fit together: a pocket whose first circle is not smaller than the last one (`I` must be
@@ -36,7 +36,7 @@ declare_rule! {
     /// ```
     rule "cycle-numbers-contradict" in "cycles" {
         summary: "cycle whose numbers contradict each other",
-        severity: Warning,
+        severity: Error,
         tier: Path,
         since: "0.1.0",
         run: Run::Path {
@@ -55,7 +55,7 @@ impl PathRule for CycleNumbersContradict {
         }
         let circles = cx.known_number('I').zip(cx.known_number('K'));
         if circles.is_some_and(|(first, last)| last <= first) {
-            contradicts(cx, "numbers of a cycle contradict each other", report);
+            contradicts(cx, "numbers of a cycle contradict each other", Severity::Warning, report);
         }
     }
 
@@ -65,11 +65,11 @@ impl PathRule for CycleNumbersContradict {
             Fault::Cycle(CycleFault::Plane) => "cycle in a plane that it does not work in",
             _ => return,
         };
-        contradicts(cx, what, report);
+        contradicts(cx, what, limit(cx.model.semantics().confidence), report);
     }
 }
 
-fn contradicts(cx: &PathCx<'_>, what: &str, report: &mut Report<'_>) {
+fn contradicts(cx: &PathCx<'_>, what: &str, most: Severity, report: &mut Report<'_>) {
     let Some(code) = cycle_code(cx) else { return };
     let (name, entry) = (code.number(), code.entry());
     let range = cx.word_range(|word| word.code.is_some() && cx.model.effect(word.code) == code.effect());
@@ -78,7 +78,7 @@ fn contradicts(cx: &PathCx<'_>, what: &str, report: &mut Report<'_>) {
             .label(entry.title.clone())
             .note(format!("the manual gives the meaning of each word of `{name}`  [{}]", entry.source))
             .help("check the words of the cycle against each other")
-            .at_most(Severity::Warning),
+            .at_most(most),
     );
 }
 
@@ -97,7 +97,7 @@ mod tests {
             "G18 G21 G90 G0 X20 Z5\nS200 M3\nG76 P1.5 Z-20 I-1 J0.5 K0.3 Q29\nG76 P1.5 Z-20 I-1 J#1 K0.3 Q29\nM2\n",
             &expect![[r#"
                 3 | G76 P1.5 Z-20 I-1 J0.5 K0.3 Q29
-                  | ^^^ warning[cycle-numbers-contradict] numbers of a cycle contradict each other (`G76`)
+                  | ^^^ error[cycle-numbers-contradict] numbers of a cycle contradict each other (`G76`)
             "#]],
         );
     }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use gcheck_controls::{CodeIx, Effect};
+use gcheck_controls::{CodeIx, Effect, Letter};
 use gcheck_engine::{At, CycleFault, Event, Fact, Fault, Role};
 use gcheck_geometry::Mm;
 
@@ -67,7 +67,10 @@ impl PathRule for CycleRBelowBottom {
     }
 
     fn fault(&mut self, cx: &PathCx<'_>, fault: &Fault, report: &mut Report<'_>) {
+        // A bottom that the block does not give is what is missing.
+        let has_depth = !is_own_operation(cx) || cx.origin().letters.contains(Letter::of('Z'));
         if *fault != Fault::Cycle(CycleFault::RBelowBottom)
+            || !has_depth
             || !self.told.insert(cx.trace().set_by(Fact::Mode(Role::Cycle)))
         {
             return;

@@ -5,6 +5,7 @@ use gcheck_engine::{CycleFault, Event, Fault};
 
 use crate::declare::declare_rule;
 use crate::facts::cycles::{Series, cycle_code, is_cycle, is_operation};
+use crate::facts::lasting::is_refused_without;
 use crate::facts::usage::may_be_called;
 use crate::{PathCx, PathRule, Report, Run, Severity, Uses, Watch, limit};
 use crate::{Remembers, remembers};
@@ -123,6 +124,9 @@ impl CycleWordMissing {
         if !needed || stands || was_given || !cx.is_on_every_path() || cx.is_called_only() {
             return;
         }
+        // The word of an earlier program may count.
+        let lasts = word.is_some_and(|word| word.need == Need::Modal)
+            && !is_refused_without(cx.control(), code, letter);
         let (name, entry) = (code.number(), code.entry());
         let is = word.map_or("", |word| word.is.as_str());
         let confidence = word.and_then(|word| word.confidence).unwrap_or(entry.confidence);
@@ -139,7 +143,8 @@ impl CycleWordMissing {
                     entry.title, entry.source
                 ))
                 .help(format!("give `{letter}` in the block that begins the cycle"))
-                .at_most(severity.min(limit(confidence))),
+                .at_most(severity.min(limit(confidence)))
+                .at_most(if lasts { Severity::Warning } else { Severity::Error }),
         );
     }
 }
@@ -172,7 +177,7 @@ mod tests {
             "G20 G90 T1 M6\nG0 G54 X0. Y0. S900 M3\nG43 H1 Z1.\nG12 I.5 K1. Q.25 D1 F9.\nG83 Z-0.5 R.1 F5.\nG80\nM30\n",
             &expect![[r#"
                 5 | G83 Z-0.5 R.1 F5.
-                  | ^^^ error[cycle-word-missing] canned cycle without `Q` (`G83`)
+                  | ^^^ warning[cycle-word-missing] canned cycle without `Q` (`G83`)
             "#]],
         );
     }

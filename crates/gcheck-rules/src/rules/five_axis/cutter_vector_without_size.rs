@@ -71,7 +71,7 @@ impl PathRule for CutterVectorWithoutSize {
                     cx.effect_range(is_along_vectors),
                     format!("3D cutter compensation without an offset (`{name}` without `D`)"),
                 );
-                if cx.survey.letters.contains(Letter::of('D')) {
+                if is_given_elsewhere(cx) {
                     finding.label("no `D` here, and the one before is zero").at_most(Severity::Warning)
                 } else {
                     finding.label("no `D` here, and no earlier one in effect")
@@ -90,6 +90,13 @@ impl PathRule for CutterVectorWithoutSize {
             finding
         });
     }
+}
+
+/// Does another block give a `D`?
+fn is_given_elsewhere(cx: &PathCx<'_>) -> bool {
+    let here = cx.origin().letters.contains(Letter::of('D'));
+    let all = cx.survey.letters.contains(Letter::of('D'));
+    all && !here
 }
 
 #[cfg(test)]

@@ -78,9 +78,11 @@ impl PathRule for UnreachableBlock {
         Remembers::All(self)
     }
 
-    fn fault(&mut self, _: &PathCx<'_>, fault: &Fault, _: &mut Report<'_>) {
+    fn fault(&mut self, cx: &PathCx<'_>, fault: &Fault, _: &mut Report<'_>) {
         self.is_unsure |= matches!(fault, Fault::Undecidable | Fault::Alarm(_));
-        self.lost_way |= loses_way(fault);
+        // A block with a mistake does not reach the program that it names.
+        let names_program = || cx.survey.calls.iter().any(|call| cx.range().contains(&call.range.start));
+        self.lost_way |= loses_way(fault) || names_program();
     }
 
     fn finish(&mut self, cx: &FinishCx<'_>, report: &mut Report<'_>) {

@@ -51,7 +51,7 @@ impl PathRule for VariableNumberNotWhole {
         }
         let finding = cx
             .finding(&META, cx.range(), "computed number names no variable (`#[…]`)")
-            .label("is a fraction, or below zero, here")
+            .label("is a fraction, below zero, or a number that the control does not have")
             .help("check the expression of the number, or round it with `FIX` or `ROUND`");
         report.add(finding);
     }

@@ -9,7 +9,8 @@ use crate::facts::turning::{is_roughing, profile_blocks};
 use crate::{PathCx, PathRule, Report, Run, Severity, Uses, Watch};
 
 declare_rule! {
-    /// A block asks for a chamfer or a rounding to the next move (`,C`, `,R`), and the next move is a rapid one.
+    /// A block asks for a chamfer or a rounding to the next move (`,C`, `,R`; on lathes also `C`, `R`, `I`, `K`), and the next
+    /// move is a rapid one.
     ///
     /// ## Why it matters
     /// The corner needs a cut on both sides: before a rapid move it does not exist, and the control stops with an
@@ -47,7 +48,7 @@ struct CornerBeforeRapid;
 
 impl PathRule for CornerBeforeRapid {
     fn concerns(&self, program: &Uses<'_>) -> bool {
-        program.survey.letters.intersects(corners())
+        program.survey.letters.intersects(ON_LATHES.or(corners()))
     }
 
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
@@ -77,8 +78,11 @@ impl PathRule for CornerBeforeRapid {
         if *fault != Fault::Corner(CornerFault::RapidAfter) {
             return;
         }
+        let has_comma = cx.origin().letters.intersects(corners());
+        let is_corner_here =
+            |word: &Word| if has_comma { is_corner(word) } else { ON_LATHES.contains(word.letter) };
         report.add(
-            cx.finding(&META, cx.word_range(is_corner), "chamfer or rounding before a rapid move")
+            cx.finding(&META, cx.word_range(is_corner_here), "chamfer or rounding before a rapid move")
                 .label("needs a cut after it")
                 .help("end the contour with a cut after the corner, or remove the word")
                 .at_most(Severity::Warning),
@@ -90,6 +94,9 @@ impl PathRule for CornerBeforeRapid {
 fn is_corner(word: &Word) -> bool {
     corners().contains(word.letter) && word.number() != Some(0.0)
 }
+
+/// Words of a straight cut that lathes read as a corner, without a comma.
+const ON_LATHES: LetterSet = LetterSet::of("RCIK");
 
 fn corners() -> LetterSet {
     [Letter::CORNER_R, Letter::CORNER_C].into_iter().collect()
@@ -124,6 +131,19 @@ mod tests {
             &expect![[r#"
                 7 | X3. ,R.1
                   |     ^^^^ warning[corner-before-rapid] chamfer or rounding at the end of a turning profile
+            "#]],
+        );
+    }
+
+    #[test]
+    fn lathes_write_corners_without_a_comma() {
+        check_rule(
+            &RULE,
+            "fanuc-lathe",
+            "G21 T0101\nG97 S500 M3\nG99 G0 X40. Z2.\nG1 Z-10. F.1\nX50. R1.\nG0 X100. Z100.\nM30\n",
+            &expect![[r#"
+                5 | X50. R1.
+                  |      ^^^ warning[corner-before-rapid] chamfer or rounding before a rapid move
             "#]],
         );
     }

@@ -4,13 +4,13 @@ use gcheck_controls::Letter;
 use gcheck_program::{BlockFlags, Word};
 
 use crate::declare::declare_rule;
-use crate::{BlockCx, Finding, Report, Run};
+use crate::{BlockCx, Finding, Report, Run, Severity};
 
 declare_rule! {
     /// A sequence number is higher than the control reads.
     ///
     /// ## Why it matters
-    /// The control refuses the block.
+    /// The control refuses the block, or no manual says what it makes of the number.
     ///
     /// ## Reported
     /// ```nc,reported,grbl
@@ -20,7 +20,7 @@ declare_rule! {
     /// ```nc,quiet,grbl
     /// N10000 G0 X1
     /// ```
-    /// A control without a known limit is not judged, nor one of which no source says that it refuses the block.
+    /// A control without a known limit is not judged.
     /// ```nc,quiet,linuxcnc
     /// N10000010 G0 X1
     /// ```
@@ -35,10 +35,6 @@ declare_rule! {
 
 fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
     let Some(most) = cx.control().limits().max_sequence_number else { return };
-    // What others do with a higher number is not written anywhere.
-    if cx.control().alarm(META.id).is_none() {
-        return;
-    }
     for word in cx.words().iter().filter(|word| word.letter == Letter::of('N')) {
         if word.number().is_some_and(|number| number > f64::from(most)) && cx.words_are_plain() {
             report.add(finding(cx, word, most));
@@ -48,8 +44,12 @@ fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
 
 fn finding(cx: &BlockCx<'_>, word: &Word, most: u32) -> Finding {
     let source = cx.control().limits().source.as_deref().map(|s| format!("  [{s}]")).unwrap_or_default();
-    Finding::new(&META, cx.range(word), format!("sequence number too high: `{}`", cx.text(word)))
-        .label("the control refuses it")
+    // What a control without an alarm of its own does with a higher number is not written anywhere.
+    let is_refused = cx.control().alarm(META.id).is_some();
+    let finding = Finding::new(&META, cx.range(word), format!("sequence number too high: `{}`", cx.text(word)))
+        .label(if is_refused { "the control refuses it" } else { "above the highest that the manual gives" });
+    let finding = if is_refused { finding } else { finding.at_most(Severity::Warning) };
+    finding
         .note(format!("{} reads sequence numbers up to {most}{source}", cx.control().title()))
         .help("number the blocks again in smaller steps, or leave the numbers out")
 }
@@ -70,6 +70,19 @@ mod tests {
             &expect![[r#"
                 2 | N10000001 X2
                   | ^^^^^^^^^ error[sequence-number-too-high] sequence number too high: `N10000001`
+            "#]],
+        );
+    }
+
+    #[test]
+    fn where_no_alarm_is_known_it_is_a_warning() {
+        check_rule(
+            &RULE,
+            "tsnc-yh-a1m",
+            "O1\nN9999 G0 X1.\nN10000 X2.\nM30\n",
+            &expect![[r#"
+                3 | N10000 X2.
+                  | ^^^^^^ warning[sequence-number-too-high] sequence number too high: `N10000`
             "#]],
         );
     }

@@ -46,6 +46,7 @@ fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
         if is_axis(cx, word.letter)
             && !is_read(word.letter)
             && !is_forbidden(cx, word.letter)
+            && !is_refused_in_cycle(cx, code, word.letter)
             && cx.words_are_plain()
         {
             report.add(finding(cx, code, word));
@@ -76,6 +77,12 @@ fn dwell<'a>(cx: &BlockCx<'a>) -> Option<Code<'a>> {
 
 fn is_axis(cx: &BlockCx<'_>, letter: Letter) -> bool {
     cx.control().letter(letter).is_some_and(|entry| entry.axis)
+}
+
+/// Does the control refuse rotary axes in a cycle? Another rule reports them.
+fn is_refused_in_cycle(cx: &BlockCx<'_>, code: Code<'_>, letter: Letter) -> bool {
+    let is_rotary = matches!(letter.ascii(), b'A'..=b'C');
+    cx.control().semantics().strict && code.motion() == Motion::Cycle && is_rotary
 }
 
 fn is_forbidden(cx: &BlockCx<'_>, letter: Letter) -> bool {

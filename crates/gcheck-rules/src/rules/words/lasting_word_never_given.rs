@@ -1,10 +1,10 @@
 //! A code that relies on a word that no earlier block gives.
 
-use gcheck_controls::{Code, LastingEnd, Letter};
+use gcheck_controls::{Code, Letter};
 use gcheck_program::NeverGiven;
 
 use crate::declare::declare_rule;
-use crate::facts::lasting::{first_call_elsewhere, goes_by_way};
+use crate::facts::lasting::{first_call_elsewhere, goes_by_way, is_refused_without};
 use crate::facts::usage::may_be_called;
 use crate::{FileCx, Finding, Report, Run, Severity, limit};
 
@@ -78,10 +78,7 @@ fn finding(cx: &FileCx<'_>, missing: &NeverGiven, code: Code<'_>) -> Finding {
     let word = entry.words.iter().find(|word| Letter::parse(&word.letter) == Some(letter));
     let is = word.map_or("", |word| word.is.as_str());
     let written = cx.slice(missing.range.clone());
-    // Where the end of every program forgets the word, nothing from before this one can give it.
-    let row = cx.control().lasting_in(letter, &entry.group);
-    let is_refused =
-        cx.control().semantics().strict && row.is_some_and(|row| row.until.contains(&LastingEnd::ProgramEnd));
+    let is_refused = is_refused_without(cx.control(), code, letter);
     let finding = Finding::new(
         &META,
         missing.range.clone(),

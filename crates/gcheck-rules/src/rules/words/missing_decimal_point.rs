@@ -1,13 +1,13 @@
 //! A value without a decimal point where the control counts least increments.
 
 use gcheck_controls::{Code, Letter, LetterEntry, Motion, Unpointed, WordKind};
-use gcheck_program::Word;
+use gcheck_program::{BlockFlags, Word};
 
 use crate::declare::declare_rule;
 use crate::{BlockCx, Edit, Environment, FileCx, Finding, Fix, Report, Run, Severity, limit};
 
 declare_rule! {
-    /// A length, angle or feed has no decimal point, and the control counts such numbers in least increments.
+    /// A length, an angle, a feed or an argument of a macro has no decimal point, and the control counts such numbers in least increments.
     ///
     /// ## Why it matters
     /// `X10` is then a hundredth of a millimetre, or a thousandth of an inch, and not ten. The tool moves to the wrong
@@ -21,6 +21,10 @@ declare_rule! {
     /// ## Reported
     /// ```nc,reported,haas-mill
     /// G1 X10 Y2.5 F100.
+    /// ```
+    /// An argument of a macro counts in the same way, whatever the macro takes it for:
+    /// ```nc,reported,haas-mill
+    /// G65 P9100 A1 F10
     /// ```
     /// ## Not reported
     /// Zero is zero, with or without a point.
@@ -75,10 +79,41 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
 
 /// The block's words whose value the missing point changes.
 fn scaled<'a>(cx: &BlockCx<'a>, in_steps: bool) -> Vec<&'a Word> {
+    if calls_macro(cx) {
+        return cx.words().iter().filter(|word| is_scaled_argument(cx, word, in_steps)).collect();
+    }
     if !cx.words_are_plain() {
         return Vec::new();
     }
     cx.words().iter().filter(|word| is_scaled(cx, word, in_steps)).collect()
+}
+
+/// Does the block hand its words to a macro by a code of the control, as the only code that reads words?
+fn calls_macro(cx: &BlockCx<'_>) -> bool {
+    let mut codes = cx.code_words().map(|word| cx.control().code_at(word.code));
+    !cx.block().flags.contains(BlockFlags::ERROR)
+        && codes.next().flatten().is_some_and(|code| code.entry().any_words && !code.is_user())
+        && codes.next().is_none()
+}
+
+/// Does the macro get another value than the argument shows?
+fn is_scaled_argument(cx: &BlockCx<'_>, word: &Word, in_steps: bool) -> bool {
+    let Some(value) = word.number().filter(|value| *value != 0.0) else { return false };
+    let letter = word.letter.to_string();
+    let semantics = cx.control().semantics();
+    let entry = cx.control().letter(word.letter);
+    let is_scaled = match &semantics.whole_arguments {
+        Some(whole) => !whole.contains(&letter),
+        None => entry.is_some_and(|entry| entry.scaled && entry.kind != WordKind::Feed),
+    };
+    let is_as_written =
+        entry.is_some_and(|entry| matches!(setting(&cx.environment, entry), Setting::AsWritten));
+    value.is_finite()
+        && !word.shape.point
+        && is_scaled
+        && !is_as_written
+        && semantics.argument_letters.contains_key(&letter)
+        && !is_large(word, value, if in_steps { 100.0 } else { 10_000.0 })
 }
 
 /// Is the program one of least increments throughout: no number with a point, and some that make sense in no other way?
@@ -218,6 +253,10 @@ fn of_file(mut finding: Finding, count: usize) -> Finding {
 fn value(cx: &BlockCx<'_>, word: &Word) -> String {
     let numbers = cx.control().numbers();
     let number = word.number().unwrap_or_default();
+    if calls_macro(cx) {
+        let (inch, mm) = (number * numbers.least_inch, number * numbers.least_mm);
+        return format!("{inch:.4} (inch) or {mm:.3} (mm) in the macro");
+    }
     match cx.facts(word).map(|facts| facts.kind) {
         Some(WordKind::Angle) => format!("{:.3} degrees", number * numbers.least_angle),
         Some(WordKind::Feed) => {
@@ -248,8 +287,24 @@ mod tests {
             &expect![[r#"
                 1 | G0 X0 Y10 Z-2
                   |       ^^^ warning[missing-decimal-point] decimal point missing: `Y10` `Z-2`
+                3 | G65 P9010 A1
+                  |           ^^ warning[missing-decimal-point] decimal point missing: `A1`
                 6 | G10 L2 P1 X-100
                   |           ^^^^^ warning[missing-decimal-point] decimal point missing: `X-100`
+            "#]],
+        );
+    }
+
+    #[test]
+    fn an_argument_of_a_macro_counts_steps_too() {
+        // `F`, `D` and others count as they are written; so do the number of the program and the repeats.
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G65 P9010 L2 A1 B2. C0 F10\nG65 P9010 A#1\nG66 P9010 Z-2\n",
+            &expect![[r#"
+                1 | G65 P9010 L2 A1 B2. C0 F10
+                  |              ^^ warning[missing-decimal-point] decimal point missing: `A1`
             "#]],
         );
     }

@@ -21,6 +21,9 @@ declare_rule! {
     /// ```nc,reported,haas-mill
     /// G154 P120
     /// ```
+    /// ```nc,reported,tsnc-yh-a1m
+    /// G1 X100. F20000
+    /// ```
     /// ## Not reported
     /// ```nc,quiet,haas-mill
     /// G154 P99
@@ -58,8 +61,9 @@ fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
         }
         let Some(facts) = cx.facts(word) else { continue };
         let value = counted(cx, word, &facts, value);
-        let low = facts.min.is_some_and(|min| value < min) || facts.above.is_some_and(|above| value <= above);
-        let high = facts.max.is_some_and(|max| value > max);
+        let nearest = nearest_reading(cx, word, &facts, value);
+        let low = facts.min.is_some_and(|min| nearest < min) || facts.above.is_some_and(|above| value <= above);
+        let high = facts.max.is_some_and(|max| nearest > max);
         // Another rule reports a minus sign that is not accepted.
         let is_sign = word.shape.minus && !facts.negative;
         if (low || high) && !is_sign && facts.kind != WordKind::Flag && cx.is_plain(&facts) {
@@ -84,6 +88,16 @@ fn counted(cx: &BlockCx<'_>, word: &Word, facts: &WordFacts<'_>, value: f64) -> 
         && !word.shape.point
         && cx.control().numbers().unpointed != Unpointed::AsWritten;
     if in_thousandths { value / 1000.0 } else { value }
+}
+
+/// The smallest length that a control may read: a number without a point may count its least increments.
+fn nearest_reading(cx: &BlockCx<'_>, word: &Word, facts: &WordFacts<'_>, value: f64) -> f64 {
+    let numbers = cx.control().numbers();
+    let may_be_steps = facts.kind == WordKind::Length
+        && !word.shape.point
+        && numbers.unpointed != Unpointed::AsWritten
+        && cx.control().letter(word.letter).is_some_and(|letter| letter.scaled);
+    if may_be_steps { value * numbers.least_mm.min(numbers.least_inch) } else { value }
 }
 
 /// Is it known what the word is? In a block without its code, the mode in effect may read it.

@@ -3,6 +3,7 @@
 use gcheck_program::{BlockFlags, Word};
 
 use crate::declare::declare_rule;
+use crate::facts::computed_words::sign_confidence;
 use crate::{BlockCx, Finding, Fix, Reads, Report, Run, WordFacts, limit};
 
 declare_rule! {
@@ -56,8 +57,7 @@ fn finding(cx: &BlockCx<'_>, word: &Word, facts: &WordFacts<'_>) -> Finding {
         .note(format!("`{}` does not accept a minus sign  [{}]", word.letter, facts.source))
         .help("remove the sign, or correct the address")
         .fix_if(unsigned(cx, word))
-        // The address alone decides about the sign, whatever code reads it.
-        .at_most(limit(cx.control().letter(word.letter).map_or(facts.confidence, |entry| entry.confidence)))
+        .at_most(limit(sign_confidence(cx.control(), word.letter, facts)))
 }
 
 /// The word without its sign: a written number, not an expression.

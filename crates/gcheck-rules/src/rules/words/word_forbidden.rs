@@ -25,14 +25,14 @@ declare_rule! {
         severity: Error,
         tier: Block,
         since: "0.1.0",
-        run: Run::BlockAndValues { trigger: BlockFlags::CODE, reads: Reads::Codes, check },
+        run: Run::BlockAndValues { trigger: BlockFlags::CODE, reads: Reads::Numbers, check },
     }
 }
 
 fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
     for (_, code) in cx.codes() {
         for letter in code.entry().forbidden.iter().filter_map(|letter| Letter::parse(letter)) {
-            if let Some(word) = cx.words().iter().find(|w| w.letter == letter)
+            if let Some(word) = cx.words().iter().find(|w| w.letter == letter && !cx.may_be_left_out(w))
                 && cx.words_are_plain()
             {
                 report.add(finding(cx, code, word));
@@ -80,10 +80,10 @@ mod tests {
         check_rule(
             &RULE,
             "fanuc-lathe",
-            "G32 Z-10. F1.5 ,R#1\nG4 X1. T0101\n",
+            "G32 Z-10. F1.5 ,R[#1+1.]\nG4 X1. T0101\n",
             &expect![[r#"
-                1 | G32 Z-10. F1.5 ,R#1
-                  |                ^^^^ error[word-forbidden] `,R#1` in a block with `G32`
+                1 | G32 Z-10. F1.5 ,R[#1+1.]
+                  |                ^^^^^^^^^ error[word-forbidden] `,R[#1+1.]` in a block with `G32`
                 2 | G4 X1. T0101
                   |        ^^^^^ error[word-forbidden] `T0101` in a block with `G4`
             "#]],

@@ -1,6 +1,6 @@
 //! Words that a code does not accept together.
 
-use gcheck_controls::{Code, Confidence};
+use gcheck_controls::{Code, Confidence, LetterSet};
 use gcheck_program::{BlockFlags, Word};
 
 use crate::declare::declare_rule;
@@ -26,16 +26,16 @@ declare_rule! {
         severity: Error,
         tier: Block,
         since: "0.1.0",
-        run: Run::BlockAndValues { trigger: BlockFlags::CODE, reads: Reads::Codes, check },
+        run: Run::BlockAndValues { trigger: BlockFlags::CODE, reads: Reads::Numbers, check },
     }
 }
 
 fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
     for (_, code) in cx.codes() {
         for items in &code.entry().not_together {
-            let mut standing = items.iter().filter_map(|item| cx.first_of(letters_of(item)));
-            if let Some(one) = standing.next()
-                && let Some(other) = standing.next()
+            let mut given = items.iter().filter_map(|item| first_given(cx, letters_of(item)));
+            if let Some(one) = given.next()
+                && let Some(other) = given.next()
                 && cx.words_are_plain()
             {
                 let (first, second) =
@@ -44,6 +44,11 @@ fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
             }
         }
     }
+}
+
+/// The first word of these addresses that is sure to have a value.
+fn first_given<'a>(cx: &BlockCx<'a>, letters: LetterSet) -> Option<&'a Word> {
+    cx.words().iter().find(|word| letters.contains(word.letter) && !cx.may_be_left_out(word))
 }
 
 fn finding(cx: &BlockCx<'_>, code: Code<'_>, first: &Word, second: &Word) -> Finding {
@@ -117,6 +122,22 @@ mod tests {
                   |         ^^^^ warning[words-exclude-each-other] `P` and `X` together with `G4`
                 2 | G4 U0.5 X0.5
                   |         ^^^^ warning[words-exclude-each-other] `U` and `X` together with `G4`
+            "#]],
+        );
+    }
+
+    #[test]
+    fn an_empty_variable_takes_its_word_out() {
+        let program = |value: &str| format!("O1\n#1={value}\nG107 Y0. A0. Q2. R#1\nG107\nM30\n");
+        check_rule(&RULE, "haas-mill", &program("#0"), &expect![[""]]);
+        check_rule(&RULE, "haas-mill", &program("#500"), &expect![[""]]);
+        check_rule(
+            &RULE,
+            "haas-mill",
+            &program("1."),
+            &expect![[r#"
+                3 | G107 Y0. A0. Q2. R#1
+                  |                  ^^^ error[words-exclude-each-other] `Q` and `R` together with `G107`
             "#]],
         );
     }
