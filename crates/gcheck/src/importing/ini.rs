@@ -58,12 +58,15 @@ impl Entry {
     }
 }
 
-/// Does a text look like such a file: a section, and a key with a value?
+/// Does a text look like such a file: a section, and a key with a value, or another file that it includes?
 pub(super) fn is_one(text: &str) -> bool {
     let mut section = false;
     for (_, line) in lines(text) {
         let line = line.trim();
         section |= line.starts_with('[') && line.ends_with(']');
+        if line.starts_with("#INCLUDE ") {
+            return true;
+        }
         if section && line.contains('=') {
             return true;
         }
@@ -183,12 +186,12 @@ struct Within<'w> {
 impl Within<'_> {
     /// Takes over the lines of a file; what keeps it from being read is listed.
     fn include(&mut self, sheet: &mut Sheet<'_>, file: &mut IniFile, name: &str) {
-        let what = format!("`#INCLUDE {name}`");
+        let what = format!("`{}`", format!("#INCLUDE {name}").trim_end());
         let text = match self.text(name) {
             Ok(text) => text,
             Err(why) => {
                 file.includes = true;
-                return sheet.leave(self.range, what.trim_end().to_owned(), why);
+                return sheet.leave(self.range, what, why);
             }
         };
         let from: Rc<str> = Rc::from(format!("of {}", shown(name)));
@@ -298,6 +301,7 @@ impl IniFile {
             let (range, name, is_file) =
                 (entry.range.clone(), entry.value.clone(), entry.key.ends_with("FILE"));
             let file_name = entry.first().to_owned();
+            let told = if is_file { shown(&file_name).to_owned() } else { entry.key.clone() };
             let text = if !is_file {
                 Ok(name)
             } else if file_name.starts_with("LIB:") || file_name.starts_with('~') {
@@ -308,7 +312,7 @@ impl IniFile {
                 text_of(&folder.join(&file_name))
             };
             match text {
-                Ok(text) => self.limits_of(sheet, &text, shown(&file_name), &range, &mut set),
+                Ok(text) => self.limits_of(sheet, &text, &told, &range, &mut set),
                 Err(why) => sheet.leave(&range, format!("[HAL] {file_name}"), why),
             }
         }

@@ -32,9 +32,6 @@ fn an_ini_file_is_read_with_the_files_that_it_includes() {
         ],
         "mill.ini",
         &expect![[r#"
-            ! error: mill.ini: does not show in which format it describes a machine
-            !   help: name it: `--format ini`, `tool-table`, `settings`, `yaml`, `fusion`, `freecad`, `freecad-machine`, `mtconnect` or `offsets`
-            exit 2
         "#]],
     );
 }
