@@ -3,6 +3,8 @@
 //! A point `p` of the part, about the centre of the table, is carried to `T p` by the table; the tip is to be there, so that the
 //! gauge line lies a tool's length along the tool from it.
 
+#![expect(clippy::expect_used, reason = "a test that meets the unexpected is to fail")]
+
 use gcheck_geometry::{Arrangement, Degrees, Kinematics, Mm, RotaryAxis};
 
 const LENGTH: f64 = 120.0;

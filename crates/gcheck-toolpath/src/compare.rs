@@ -231,8 +231,8 @@ impl<A: Iterator<Item = Act>, B: Iterator<Item = Act>> Comparison<A, B> {
         settings(&mut self.found, a, b, self.tolerance);
         let is_cut = |piece: &Piece| piece.driven == Driven::Feed && !piece.curve.is_open();
         if begins && let Some(leaving) = self.leaving.take().filter(|_| is_cut(a) && is_cut(b)) {
-            let modes = [a.act.setting.corners, b.act.setting.corners];
-            if let Some(off) = leaving.off(&a.curve, modes) {
+            let modes = a.act.setting.corners.zip(b.act.setting.corners);
+            if let Some(off) = modes.and_then(|(a_mode, b_mode)| leaving.off(&a.curve, [a_mode, b_mode])) {
                 let off = match off {
                     Off::Within(off) => Some(off),
                     Off::Untold => None,
@@ -331,8 +331,9 @@ fn settings(found: &mut Differences, a: &Piece, b: &Piece, tolerance: f64) {
     let coolant_differs =
         of_a.coolant.into_iter().zip(of_b.coolant).any(|(a, b)| a.unwrap_or(false) != b.unwrap_or(false));
     compare(Aspect::Coolant, coolant_differs, [of_a.coolant, of_b.coolant].map(Value::Coolant));
-    let corners = [of_a.corners, of_b.corners];
-    compare(Aspect::Corners, corners_differ(corners), corners.map(Value::Corners));
+    if let (Some(a), Some(b)) = (of_a.corners, of_b.corners) {
+        compare(Aspect::Corners, corners_differ([a, b]), [a, b].map(Value::Corners));
+    }
 }
 
 fn feed_differs(a: Feed, b: Feed) -> bool {

@@ -6,6 +6,16 @@
 use gcheck_engine::{Event, PathMode, Smoothing, Units};
 use gcheck_geometry::Mm;
 
+/// Does a cycle make the move? Some controls take its corners in a way of their own, whatever the program says.
+pub(crate) fn is_of_cycle(event: &Event) -> bool {
+    match event {
+        Event::Travel(travel) => travel.expanded,
+        Event::Arc(arc) => arc.expanded,
+        Event::RigidTap { .. } => true,
+        _ => false,
+    }
+}
+
 /// Whether a control looks ahead on command.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Contour {

@@ -10,7 +10,7 @@ use gcheck_geometry::{Bounds, Degrees, Mm, Rpm, Seconds};
 use gcheck_planner::Shares;
 
 use crate::bar::BarFigures;
-use crate::corner_mode::CornerMode;
+use crate::corner_mode::{CornerMode, is_of_cycle};
 use crate::estimate::{Estimate, Kind as TimeOf, Tag};
 use crate::motion::{Cover, Motion, Way, cover};
 use crate::plan::Plan;
@@ -669,7 +669,9 @@ impl Statistics {
         }
         let cuts = !rapid && motion.way != Way::Probe;
         if cuts && covered != Cover::Nothing {
-            section.take_corners(corners);
+            if !is_of_cycle(step.event) {
+                section.take_corners(corners);
+            }
             match feed {
                 Some((feed, _)) if feed <= 0.0 => {}
                 Some((feed, FeedMode::PerMinute)) => section.feeds.per_minute.add(feed),

@@ -7,7 +7,7 @@ use std::sync::Arc as Shared;
 use gcheck_engine::{Axis, Coolant, Event, FeedMode, PathMode, Position, Spindle, Stop};
 use gcheck_geometry::Arc;
 
-use crate::corner_mode::CornerMode;
+use crate::corner_mode::{CornerMode, is_of_cycle};
 use crate::motion::{Cover, Motion, Way, cover};
 use crate::placing::{Placing, WorkCoordinates};
 use crate::step::Step;
@@ -126,8 +126,8 @@ pub struct Setting {
     pub cutter: Option<u32>,
     /// Mist, flood and through the spindle; `None` while the program has not said.
     pub coolant: [Option<bool>; 3],
-    /// How corners are taken.
-    pub corners: CornerMode,
+    /// How corners are taken; `None` in a cycle, which the control moves as it does.
+    pub corners: Option<CornerMode>,
 }
 
 /// A feed. Moves by inverse time count with the rate that their length makes of it.
@@ -145,6 +145,7 @@ pub struct Trail {
     clock: Clock,
     placing: Placing,
     setting: Setting,
+    corners: CornerMode,
     /// The axes stop at the end of the block that comes.
     stops_once: bool,
     file: Shared<str>,
@@ -168,8 +169,9 @@ impl Trail {
                 length_by: f64::NAN,
                 cutter: Some(0),
                 coolant: [None; 3],
-                corners: CornerMode::START,
+                corners: None,
             },
+            corners: CornerMode::START,
             stops_once: false,
             file: Shared::from(""),
         }
@@ -201,8 +203,8 @@ impl Trail {
     }
 
     fn set(&mut self, step: &Step<'_>, event: &Event) {
+        self.corners.set(event);
         let setting = &mut self.setting;
-        setting.corners.set(event);
         match event {
             Event::Spindle(spindle) => setting.spindle = Some(*spindle),
             Event::SpindleSpeed(speed) => {
@@ -264,11 +266,10 @@ impl Trail {
                 tool: self.setting.tool.or(step.tool),
                 length: self.setting.length.or(step.h),
                 cutter: if is_shifted { step.d } else { Some(0) },
-                corners: if self.stops_once {
-                    CornerMode { path: PathMode::ExactStop, ..self.setting.corners }
-                } else {
-                    self.setting.corners
-                },
+                corners: (!is_of_cycle(step.event)).then_some(CornerMode {
+                    path: if self.stops_once { PathMode::ExactStop } else { self.corners.path },
+                    ..self.corners
+                }),
                 ..self.setting
             },
             doing: Doing::Move(Move {

@@ -63,7 +63,7 @@ pub(crate) fn rate(machine: &Machine, axis: Axis) -> Option<f64> {
 /// The way of each axis, in the order of [`Axis::ALL`]; `None` where one is known at one end only.
 fn ways(from: &Position, to: &Position) -> Option<[f64; 9]> {
     let mut ways = [0.0; 9];
-    for (way, (from, to)) in ways.iter_mut().zip(from.values().into_iter().zip(to.values())) {
+    for (way, (from, to)) in ways.iter_mut().zip(from.values().iter().zip(to.values())) {
         if from.is_nan() != to.is_nan() {
             return None;
         }
@@ -75,9 +75,11 @@ fn ways(from: &Position, to: &Position) -> Option<[f64; 9]> {
 
 /// The length of a straight way as feeds mean it: X, Y and Z; else U, V and W; else A, B and C in degrees.
 fn measure(ways: &[f64; 9]) -> Option<f64> {
-    let [x, y, z, a, b, c, u, v, w] = *ways;
-    let groups = [[x, y, z], [u, v, w], [a, b, c]];
-    groups.into_iter().map(|[x, y, z]| x.hypot(y).hypot(z)).find(|length| *length > 0.0)
+    let of = |axes: [Axis; 3]| {
+        axes.iter().filter_map(|axis| ways.get(axis.index())).fold(0.0_f64, |sum, way| sum.hypot(*way))
+    };
+    let groups = [[Axis::X, Axis::Y, Axis::Z], [Axis::U, Axis::V, Axis::W], [Axis::A, Axis::B, Axis::C]];
+    groups.into_iter().map(of).find(|length| *length > 0.0)
 }
 
 /// The same between two points; `None` where nothing moves, or one of them is not known.
