@@ -65,7 +65,7 @@ fn a_mistake_is_found_whether_its_words_are_written_or_computed() {
     };
     let shown: String = silent.into_iter().map(line).collect();
     expect![[r#"
-        4716 words
+        4728 words
         allowance-into-contour: F G X Z
         blank-inside-number: G Y
         block-number-not-first: G
@@ -76,7 +76,6 @@ fn a_mistake_is_found_whether_its_words_are_written_or_computed() {
         decimal-point-on-integer: H
         dwell-unit-unsure: P
         dwell-very-short: P
-        exact-stop-in-short-segments: F G M X Y
         fall-into-subprogram: M P
         incremental-left-on: G M S X Y
         kept-touch-never-used: M

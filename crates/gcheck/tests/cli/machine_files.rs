@@ -32,6 +32,21 @@ fn an_ini_file_is_read_with_the_files_that_it_includes() {
         ],
         "mill.ini",
         &expect![[r#"
+            wrote gcheck.toml: 8 values
+            next: `gcheck check --show-settings`
+            ! mill.ini:2: not used: [TRAJ] MAX_LINEAR_VELOCITY of traj.inc: it allows 3000 mm/min, more than the slowest axis reaches (2400 mm/min), so `max_feed` is not written
+            exit 0
+            # Configuration of gcheck for the programs in this folder and below.
+
+            [machine]
+            units = "mm"  # from mill.ini
+            axes = ["X", "Z"]  # from mill.ini, [TRAJ] COORDINATES
+            travel.X = [-300.0, 0.0]  # from mill.ini, [AXIS_X] MIN_LIMIT of x.inc and MAX_LIMIT
+            travel.Z = [-120.0, 5.0]  # from mill.ini, [AXIS_Z] MIN_LIMIT of z.inc and MAX_LIMIT
+            rapid.X = 3000.0  # from mill.ini, [AXIS_X] MAX_VELOCITY of x.inc * 60, held by [TRAJ] MAX_LINEAR_VELOCITY
+            rapid.Z = 2400.0  # from mill.ini, [AXIS_Z] MAX_VELOCITY of z.inc * 60
+            acceleration.X = 500.0  # from mill.ini, [AXIS_X] MAX_ACCELERATION of x.inc
+            acceleration.Z = 400.0  # from mill.ini, [AXIS_Z] MAX_ACCELERATION of z.inc
         "#]],
     );
 }
@@ -45,7 +60,7 @@ fn files_that_cannot_be_included_are_listed() {
         &expect![[r#"
             wrote gcheck.toml: 9 values
             next: `gcheck check --show-settings`
-            ! mill.ini:1: not used: `#INCLUDE `: it names no file
+            ! mill.ini:1: not used: `#INCLUDE`: it names no file
             ! mill.ini:2: not used: `#INCLUDE nosuchfile`: there is no file nosuchfile
             ! mill.ini:3: not used: `#INCLUDE ~/mine.inc`: files of a home folder are not read; name it by its path
             ! mill.ini:4: not used: `#INCLUDE round.inc`: the file includes itself
@@ -103,7 +118,7 @@ fn limits_that_a_hal_file_sets_count_over_those_of_the_ini_file() {
         &expect![[r#"
             wrote gcheck.toml: 9 values
             next: `gcheck check --show-settings`
-            ! mill.ini:4: not used: [TRAJ] MAX_LINEAR_VELOCITY: the value as setp sets it (ini.traj_max_velocity) counts
+            ! mill.ini:4: not used: [TRAJ] MAX_LINEAR_VELOCITY: the value as POSTGUI_HALCMD sets it (ini.traj_max_velocity) counts
             ! mill.ini:8: not used: [AXIS_X] MIN_LIMIT: the value as post.hal sets it (ini.x.min_limit) counts
             ! mill.ini:10: not used: [AXIS_X] MAX_VELOCITY: the value as post.hal sets it (ini.x.max_velocity) counts
             ! mill.ini:16: not used: [AXIS_Z] MAX_ACCELERATION: the value as post.hal sets it (ini.z.max_acceleration) counts
@@ -121,7 +136,7 @@ fn limits_that_a_hal_file_sets_count_over_those_of_the_ini_file() {
             rapid.Z = 1200.0  # from mill.ini, [AXIS_Z] MAX_VELOCITY * 60, held by [TRAJ] MAX_LINEAR_VELOCITY
             acceleration.X = 500.0  # from mill.ini, [AXIS_X] MAX_ACCELERATION
             acceleration.Z = 500.0  # from mill.ini, [AXIS_Z] MAX_ACCELERATION as post.hal sets it (ini.z.max_acceleration)
-            max_feed = 1200.0  # from mill.ini, [TRAJ] MAX_LINEAR_VELOCITY as setp sets it (ini.traj_max_velocity) * 60
+            max_feed = 1200.0  # from mill.ini, [TRAJ] MAX_LINEAR_VELOCITY as POSTGUI_HALCMD sets it (ini.traj_max_velocity) * 60
         "#]],
     );
 }

@@ -206,7 +206,10 @@ mod tests {
             "linuxcnc",
             "G21 G90 S5000 M3\nG0 X0 Y0 Z5\nG33.1 Z-20 K3\nM2\n",
             &World::of_examples(&META),
-            &expect![[""]],
+            &expect![[r#"
+                3 | G33.1 Z-20 K3
+                  | ^^^^^^^^^^^^^ warning[synchronised-feed-above-limit] the tap asks for 15000 mm/min, and the machine feeds 10000 mm/min at most
+            "#]],
         );
     }
 

@@ -165,7 +165,10 @@ mod tests {
             &RULE,
             "linuxcnc",
             "G21 G90 G64 P0.5\nG0 X0 Y0\nG1 X10 F500\nY0.3\nX20\nY0.6\nX30\nM2\n",
-            &expect![[""]],
+            &expect![[r#"
+                5 | X20
+                  | ^^^ info[tolerance-above-feature] the tolerance of 0.5 mm is larger than the step before this of 0.3 mm (`G64`)
+            "#]],
         );
     }
 
