@@ -29,8 +29,23 @@ fn main() -> Result<()> {
     }
     list.push_str("];\n");
     fs::write(out.join("sources.rs"), list)?;
+    fs::write(out.join("machines.rs"), machines(&data.join("machines"))?)?;
     fs::write(out.join("unsupported.json"), to_json(&data.join("unsupported.toml"))?)?;
     Ok(())
+}
+
+/// The list of machines by name, with the texts of their files: they are read as a configuration is.
+fn machines(folder: &Path) -> Result<String> {
+    let mut list = String::from("pub(crate) static MACHINES: &[MachineModel] = &[\n");
+    for file in sorted(folder)?.iter().filter(|file| file.extension().is_some_and(|e| e == "toml")) {
+        println!("cargo::rerun-if-changed={}", file.display());
+        let name =
+            file.file_stem().and_then(|name| name.to_str()).ok_or("a name of a machine is not UTF-8")?;
+        let path = file.to_str().ok_or("the path of the data is not UTF-8")?;
+        writeln!(list, "    MachineModel {{ name: {name:?}, text: include_str!({path:?}) }},")?;
+    }
+    list.push_str("];\n");
+    Ok(list)
 }
 
 fn sorted(folder: &Path) -> Result<Vec<PathBuf>> {

@@ -17,6 +17,7 @@ mod detect;
 mod execution;
 mod letter_set;
 mod loader;
+mod machines;
 mod motion;
 mod schema;
 mod unsupported;
@@ -36,6 +37,7 @@ pub use execution::{
 };
 pub use letter_set::{Letter, LetterSet};
 pub use loader::{LoadError, fallback, load, names};
+pub use machines::{MachineModel, machine_models};
 pub use motion::{CornerRules, Halt, MotionRules, RapidRules, SpindleWaitRules, TapRules};
 pub use schema::{
     Access, AlarmEntry, Beside, BlockRules, CodeEntry, CodeList, CommentForm, CommentRead, Confidence,

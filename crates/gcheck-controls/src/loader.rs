@@ -341,8 +341,11 @@ mod tests {
     #[test]
     fn every_data_file_is_as_the_schema_wants_it() {
         let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("data");
-        let folders =
-            fs::read_dir(data).unwrap().map(|folder| folder.unwrap().path()).filter(|path| path.is_dir());
+        // Models of machines are read as configurations are.
+        let folders = fs::read_dir(data)
+            .unwrap()
+            .map(|folder| folder.unwrap().path())
+            .filter(|path| path.is_dir() && path.file_name().is_some_and(|name| name != "machines"));
         for file in folders.flat_map(|folder| fs::read_dir(folder).unwrap().map(|file| file.unwrap().path()))
         {
             let text = fs::read_to_string(&file).unwrap();

@@ -35,7 +35,7 @@ pub use flow::{
 };
 pub use gcheck_controls::{CornerRules, Halt, MotionRules, RapidRules, SpindleWaitRules, TapRules};
 pub use lattice::Lattice;
-pub use machine::{BarFeeder, Dynamics, Guesses, Machine, Tool, WorkOffset};
+pub use machine::{BarFeeder, Cutting, Dynamics, Guesses, Machine, Tool, WorkOffset};
 pub use model::{Model, Role};
 pub use observer::{Nobody, Observer};
 pub use origin::{At, Origin};

@@ -53,6 +53,8 @@ pub struct Machine {
     pub fresh: bool,
     /// The bar feeder of a lathe.
     pub bar: BarFeeder,
+    /// By number of the tool: how it cuts.
+    pub cutting: BTreeMap<u32, Cutting>,
     /// How quickly axes and spindle change their speed, and what else takes time.
     pub dynamics: Dynamics,
     /// What a run takes for what nobody told.
@@ -150,6 +152,33 @@ pub struct Tool {
     pub angles: [f64; 2],
     /// Lathe orientation, 0 to 9.
     pub orientation: u8,
+}
+
+/// How a tool cuts, as far as somebody told.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Cutting {
+    /// Its teeth.
+    pub teeth: Option<u32>,
+    /// The class of material that the limits hold for, for people.
+    pub material: Option<String>,
+    /// Lowest and highest chip load, millimetres a tooth.
+    pub chip_load: Option<(f64, f64)>,
+    /// Lowest and highest surface speed, metres a minute.
+    pub surface_speed: Option<(f64, f64)>,
+}
+
+impl Cutting {
+    /// What each tooth cuts at a feed in millimetres a turn.
+    pub fn load(&self, feed_per_turn: f64) -> Option<Mm> {
+        self.teeth.filter(|teeth| *teeth > 0).map(|teeth| Mm(feed_per_turn / f64::from(teeth)))
+    }
+}
+
+impl Tool {
+    /// Speed of the edge at a speed of the spindle, metres a minute; NaN where the diameter is unknown.
+    pub fn surface_speed(&self, turns: Rpm) -> f64 {
+        std::f64::consts::PI * self.diameter.0 * turns.0 / 1000.0
+    }
 }
 
 impl Machine {

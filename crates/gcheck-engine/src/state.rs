@@ -64,7 +64,7 @@ pub(crate) use turning::{KeptTurningWords, TurningWords};
 pub(crate) use variables::{Locals, Variable};
 pub use variables::{NameId, Variables};
 
-use crate::event::{FeedMode, Spindle, Units};
+use crate::event::{FeedMode, PathMode, Spindle, Units};
 use crate::lattice::{Lattice, Perhaps, lattice};
 use crate::machine::WorkOffset;
 use crate::model::{Model, Role};
@@ -405,6 +405,24 @@ impl<D: Domain> State<D> {
             Effect::FeedPerRevolution => Some(FeedMode::PerRevolution),
             _ => None,
         }
+    }
+
+    /// How corners are taken. Tolerances are in millimetres, as their numbers count in the program's present units; NaN
+    /// where they are not known.
+    pub fn path_mode(&self, model: &Model<'_>) -> Option<PathMode> {
+        let mode = self.mode(Role::PathControl).only()?;
+        Some(match model.effect(mode) {
+            Effect::ExactPath => PathMode::ExactPath,
+            Effect::ExactStop => PathMode::ExactStop,
+            _ => self.blending_mode(self.units(model).map_or(f64::NAN, Units::in_mm)),
+        })
+    }
+
+    /// Blending as it is announced: its numbers count in the program's present units, of so many millimetres.
+    pub(crate) fn blending_mode(&self, unit: f64) -> PathMode {
+        let length = |number: f64| Mm(if number == 0.0 { 0.0 } else { number * unit });
+        let Blending { tolerance, naive } = self.blending;
+        PathMode::Blending { tolerance: length(tolerance), naive: naive.map(length) }
     }
 
     /// Are words increments (`G91`)?

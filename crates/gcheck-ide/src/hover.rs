@@ -643,7 +643,12 @@ fn in_short(code: Code<'_>) -> String {
 
 #[cfg(test)]
 mod tests {
+    use std::sync::Arc;
+
     use expect_test::{Expect, expect};
+    use gcheck_db::Settings;
+    use gcheck_engine::{Cutting, Position, Tool};
+    use gcheck_geometry::Mm;
 
     use super::hover;
     use crate::fixture::Fixture;
@@ -656,6 +661,30 @@ mod tests {
             |found| format!("[{}]\n{}\n", fixture.snapshot().slice(found.range), found.markdown),
         );
         expected.assert_eq(&shown);
+    }
+
+    #[test]
+    fn a_tool_with_teeth_shows_chip_load_and_surface_speed_and_blending_its_tolerance() {
+        let mut settings = Settings::new(gcheck_controls::load("linuxcnc").unwrap(), gcheck_rules::RULES);
+        let mut machine = (*settings.machine).clone();
+        machine.engine.cutting.insert(1, Cutting { teeth: Some(4), ..Cutting::default() });
+        let tool = Tool {
+            pocket: 1,
+            offset: Position::ZERO,
+            diameter: Mm(10.0),
+            corner_radius: Mm(0.0),
+            angles: [0.0; 2],
+            orientation: 0,
+        };
+        machine.engine.tools.insert(1, tool);
+        settings.machine = Arc::new(machine);
+        let text = "G21 G90 G17 G94 G64 P0.02\nT1 M6\nS3000 M3\nG1 X0 F600\n$0G4 P1\nX10\nM2\n";
+        let mut fixture = Fixture::with(text, &settings);
+        let found =
+            hover(&mut fixture.database, fixture.document, fixture.offset, &|| false).unwrap().unwrap();
+        for shown in ["`F600 mm/min, 0.05 mm a tooth`", "`S3000 rpm, 94 m/min`", "`G64 within 0.02 mm`"] {
+            assert!(found.markdown.contains(shown), "{shown} is not in {}", found.markdown);
+        }
     }
 
     #[test]

@@ -5,10 +5,12 @@
 use gcheck_controls::{CodeIx, Effect};
 use gcheck_db::Snapshot;
 use gcheck_engine::{
-    Abstract, AbstractValue, Axis, Domain as _, FeedMode, Model, Position, Role, Spindle, State, Truth, Units,
+    Abstract, AbstractValue, Axis, Domain as _, FeedMode, Model, PathMode, Position, Role, Spindle, State,
+    Truth, Units,
 };
+use gcheck_geometry::Rpm;
 
-use crate::figures::{coordinate, plain, value};
+use crate::figures::{coordinate, decimals, plain, unit, value};
 
 /// Reads the states of one document.
 pub(crate) struct Reading<'a> {
@@ -64,12 +66,21 @@ impl<'a> Reading<'a> {
             if names.is_empty() || only_off {
                 continue;
             }
-            codes.push((role, names.join(" or ")));
+            let tolerance = self.tolerance(state).filter(|_| role == Role::PathControl).unwrap_or_default();
+            codes.push((role, names.join(" or ") + &tolerance));
         }
         // A cycle takes the place of the motion where both are one group.
         let has_cycle = codes.iter().any(|(role, _)| *role == Role::Cycle);
         codes.retain(|(role, _)| !(has_cycle && *role == Role::Motion));
         codes
+    }
+
+    /// ` within 0.01 mm`: the tolerance that corners are blended with; `None` where there is none, or it is not known.
+    fn tolerance(&self, state: &State<Abstract>) -> Option<String> {
+        let Some(PathMode::Blending { tolerance, .. }) = state.path_mode(self.model) else { return None };
+        let units = self.units(state);
+        let shown = plain(tolerance.0 / units.in_mm(), decimals(units) + 1);
+        (tolerance.0 > 0.0).then(|| format!(" within {shown} {}", unit(units)))
     }
 
     /// Does a code only say that nothing of its kind is in effect?
@@ -105,6 +116,41 @@ impl<'a> Reading<'a> {
             (_, None) => "",
         };
         Some(format!("F{}{unit}", number(word)?))
+    }
+
+    /// `, 0.025 mm a tooth`: what each tooth of a tool with known teeth cuts.
+    fn chip_load(&self, state: &State<Abstract>) -> Option<String> {
+        let feed = Abstract::known(state.feed())?;
+        let per_turn = match state.feed_mode(self.model)? {
+            FeedMode::PerMinute => feed / self.turns(state)?,
+            FeedMode::PerRevolution => feed,
+            FeedMode::InverseTime => return None,
+        };
+        let machine = &self.snapshot.settings().machine.engine;
+        let load = machine.cutting.get(&tool_of(state)?)?.load(per_turn)?;
+        let units = self.units(state);
+        Some(format!(", {} {} a tooth", plain(load.0 / units.in_mm(), decimals(units) + 1), unit(units)))
+    }
+
+    /// The speed of the spindle, where it is one number and greater than zero.
+    fn turns(&self, state: &State<Abstract>) -> Option<f64> {
+        let is_surface = state.effect(Role::SpindleMode, self.model) == Some(Effect::SurfaceSpeed);
+        Abstract::known(state.speed()).filter(|turns| *turns > 0.0 && !is_surface)
+    }
+
+    /// `, 94 m/min`: how fast the edge of a milling tool with a known diameter runs.
+    fn edge_speed(&self, state: &State<Abstract>) -> Option<String> {
+        if self.model.control().machine() != gcheck_controls::Machine::Mill {
+            return None;
+        }
+        let turns = self.turns(state)?;
+        let machine = &self.snapshot.settings().machine.engine;
+        let speed = machine.tools.get(&tool_of(state)?)?.surface_speed(Rpm(turns));
+        let (speed, unit) = match self.units(state) {
+            Units::Inch => (speed / 0.3048, "ft/min"),
+            Units::Mm => (speed, "m/min"),
+        };
+        (speed.is_finite() && speed > 0.0).then(|| format!(", {} {unit}", plain(speed, 0)))
     }
 
     /// `S1200 rpm`; `None` when none was given.
@@ -231,8 +277,9 @@ impl<'a> Reading<'a> {
     pub(crate) fn items(&self, state: &State<Abstract>) -> Vec<(Item, String)> {
         let mut items: Vec<(Item, String)> =
             self.codes(state).into_iter().map(|(role, code)| (Item::Mode(role), code)).collect();
-        items.extend(self.feed(state).map(|feed| (Item::Feed, feed)));
-        items.extend(self.speed(state).map(|speed| (Item::Speed, speed)));
+        let (load, edge) = (self.chip_load(state), self.edge_speed(state));
+        items.extend(self.feed(state).map(|feed| (Item::Feed, feed + &load.unwrap_or_default())));
+        items.extend(self.speed(state).map(|speed| (Item::Speed, speed + &edge.unwrap_or_default())));
         items.push((Item::Spindle, Self::spindle(state).to_owned()));
         items.extend(Self::numbers(state));
         match state.coolant() {
@@ -254,6 +301,16 @@ pub(crate) enum Item {
     /// `T`, `H` or `D`.
     Number(char),
     Coolant,
+}
+
+/// The number of the tool in the spindle, where it is known.
+fn tool_of(state: &State<Abstract>) -> Option<u32> {
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "tool numbers are small and not negative"
+    )]
+    Abstract::known(state.tool()).filter(|tool| *tool > 0.0).map(|tool| tool as u32)
 }
 
 /// A number that is known, or the range that it lies in.

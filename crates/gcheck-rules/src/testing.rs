@@ -9,7 +9,7 @@ use std::ops::Range;
 use expect_test::Expect;
 use gcheck_controls::LetterSet;
 use gcheck_diagnostics::{DocExample, Finding, RuleMeta, apply};
-use gcheck_engine::{Axis, Dynamics, Machine, Position, SourceFile, Tool, WorkOffset};
+use gcheck_engine::{Axis, Cutting, Dynamics, Machine, Position, SourceFile, Tool, WorkOffset};
 use gcheck_geometry::{Mm, MmPerMin, Rpm, Seconds};
 use gcheck_lint::{
     Environment, Execution, Job, MachineFacts, NoPrograms, Programs, RuleEntry, Selection, check,
@@ -41,7 +41,8 @@ impl Default for World<'_> {
 impl World<'_> {
     /// What the examples of a rule's documentation hold in. Rules of the group `machine` speak only of what is configured:
     /// axes X, Y, Z and A, 8000 turns and 10 m a minute, 500 mm of travel each way, `G54` at the machine's zero, tools 1 to 3,
-    /// rotary axes of diameter 0, Haas controls set to inches, 0.01 s for a block and two blocks ahead. Those of the group `bar_feeder` have new bars of 1000 mm, and in another file a program
+    /// rotary axes of diameter 0, Haas controls set to inches, 0.01 s for a block and two blocks ahead,
+    /// 100 mm/s² on X, Y and Z; tool 1 has four teeth that cut 0.02 to 0.06 mm at 60 to 160 m a minute. Those of the group `bar_feeder` have new bars of 1000 mm, and in another file a program
     /// 9099 that ends the job.
     pub(crate) fn of_examples(rule: &RuleMeta) -> Self {
         Self::of_group(rule.group)
@@ -59,6 +60,12 @@ impl World<'_> {
                 angles: [0.0; 2],
                 orientation: 0,
             };
+            let cutting = || Cutting {
+                teeth: Some(4),
+                material: None,
+                chip_load: Some((0.02, 0.06)),
+                surface_speed: Some((60.0, 160.0)),
+            };
             world.machine.axes = Some(LetterSet::of("XYZA"));
             let settings = || {
                 BTreeMap::from(
@@ -75,10 +82,12 @@ impl World<'_> {
                 travel: [Axis::X, Axis::Y, Axis::Z].into_iter().map(|axis| (axis, (-500.0, 500.0))).collect(),
                 offsets: [(1, WorkOffset::ZERO)].into_iter().collect(),
                 tools: (1..=3).map(|number| (number, tool(number))).collect(),
+                cutting: [(1, cutting())].into_iter().collect(),
                 tool_table_is_complete: true,
                 dynamics: Dynamics {
                     block_time: Some(Seconds(0.01)),
                     look_ahead: Some(2),
+                    acceleration: [Axis::X, Axis::Y, Axis::Z].into_iter().map(|axis| (axis, 100.0)).collect(),
                     ..Dynamics::default()
                 },
                 ..Machine::default()

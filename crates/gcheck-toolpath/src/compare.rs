@@ -6,6 +6,7 @@
 //! Both runs are read with a cursor that may be inside a move. Of two moves the shorter one decides how far both go on, so
 //! that a line in two pieces, or a circle in four quarters, is the line or the circle.
 
+mod corner;
 mod curve;
 mod difference;
 mod same;
@@ -17,10 +18,11 @@ use std::sync::Arc as Shared;
 use gcheck_engine::Position;
 
 use crate::trail::{Act, Doing, Driven, Feed, Setting, Stand};
+use corner::{Leaving, Off};
 use curve::Curve;
 
-pub use difference::{Aspect, Difference, Differences, Parting, Place, Value};
-use same::{known_differ, rate_differs, table_differs};
+pub use difference::{Aspect, Corner, Difference, Differences, Parting, Place, Value};
+use same::{corners_differ, known_differ, rate_differs, table_differs};
 
 /// Acts that are given together and are matched with each other at most.
 const MAX_STANDS: usize = 64;
@@ -36,6 +38,7 @@ pub fn compare(
         a: Cursor::new(a.into_iter()),
         b: Cursor::new(b.into_iter()),
         tolerance,
+        leaving: None,
         found: Differences::default(),
     };
     comparison.run();
@@ -46,6 +49,8 @@ struct Comparison<A: Iterator<Item = Act>, B: Iterator<Item = Act>> {
     a: Cursor<A>,
     b: Cursor<B>,
     tolerance: f64,
+    /// The cutting move of the first run that ended last, where the next one begins a corner.
+    leaving: Option<Leaving>,
     found: Differences,
 }
 
@@ -195,6 +200,7 @@ impl<A: Iterator<Item = Act>, B: Iterator<Item = Act>> Comparison<A, B> {
             return None;
         }
         self.found.moves += 1;
+        let begins = a.done <= 0.0;
         let parting = |a: &Piece, b: &Piece, at: Position, apart: f64| Parting {
             a: Some(a.place()),
             b: Some(b.place()),
@@ -223,7 +229,21 @@ impl<A: Iterator<Item = Act>, B: Iterator<Item = Act>> Comparison<A, B> {
             return parted;
         }
         settings(&mut self.found, a, b, self.tolerance);
+        let is_cut = |piece: &Piece| piece.driven == Driven::Feed && !piece.curve.is_open();
+        if begins && let Some(leaving) = self.leaving.take().filter(|_| is_cut(a) && is_cut(b)) {
+            let modes = a.act.setting.corners.zip(b.act.setting.corners);
+            if let Some(off) = modes.and_then(|(a_mode, b_mode)| leaving.off(&a.curve, [a_mode, b_mode])) {
+                let off = match off {
+                    Off::Within(off) => Some(off),
+                    Off::Untold => None,
+                };
+                self.found.add_corner(a.place(), a.curve.at(0.0), off);
+            }
+        }
         let (a_is_done, b_is_done) = (a.done >= 1.0, b.done >= 1.0);
+        if a_is_done {
+            self.leaving = is_cut(a).then(|| Leaving::new(&a.curve));
+        }
         if a_is_done {
             self.a.finish();
         }
@@ -311,6 +331,9 @@ fn settings(found: &mut Differences, a: &Piece, b: &Piece, tolerance: f64) {
     let coolant_differs =
         of_a.coolant.into_iter().zip(of_b.coolant).any(|(a, b)| a.unwrap_or(false) != b.unwrap_or(false));
     compare(Aspect::Coolant, coolant_differs, [of_a.coolant, of_b.coolant].map(Value::Coolant));
+    if let (Some(a), Some(b)) = (of_a.corners, of_b.corners) {
+        compare(Aspect::Corners, corners_differ([a, b]), [a, b].map(Value::Corners));
+    }
 }
 
 fn feed_differs(a: Feed, b: Feed) -> bool {

@@ -9,6 +9,7 @@
 mod bar;
 mod canonical;
 mod compare;
+mod corner_mode;
 mod csv;
 mod estimate;
 mod jsonl;
@@ -30,7 +31,8 @@ mod values;
 
 pub use bar::BarFigures;
 pub use canonical::{Canonical, Ending, Start};
-pub use compare::{Aspect, Difference, Differences, Parting, Place, Value, compare};
+pub use compare::{Aspect, Corner, Difference, Differences, Parting, Place, Value, compare};
+pub use corner_mode::{Contour, CornerMode};
 pub use csv::Csv;
 pub use jsonl::JsonLines;
 pub use placing::WorkCoordinates;

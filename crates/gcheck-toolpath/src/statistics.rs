@@ -3,11 +3,14 @@
 //! Knows: what is counted, and what cannot be. Must not know: how it is shown ([`crate::Names`] and the summary do that),
 //! what the figures are good for.
 
-use gcheck_engine::{Axis, Clearing, Event, FeedMode, Position, Spindle, Units};
-use gcheck_geometry::{Bounds, Degrees, Mm, Seconds};
+use std::collections::BTreeMap;
+
+use gcheck_engine::{Axis, Clearing, Cutting, Event, FeedMode, Machine, Position, Spindle, Tool, Units};
+use gcheck_geometry::{Bounds, Degrees, Mm, Rpm, Seconds};
 use gcheck_planner::Shares;
 
 use crate::bar::BarFigures;
+use crate::corner_mode::{CornerMode, is_of_cycle};
 use crate::estimate::{Estimate, Kind as TimeOf, Tag};
 use crate::motion::{Cover, Motion, Way, cover};
 use crate::plan::Plan;
@@ -20,6 +23,9 @@ use crate::values::Values;
 pub const MAX_SECTIONS: usize = 1_000;
 /// More work offsets in a section are counted as one.
 const MAX_OFFSETS: usize = 512;
+
+/// More ways of taking corners in a section are not listed.
+const MAX_CORNER_MODES: usize = 8;
 
 /// Where the time goes. What needs a [`Plan`] is zero without one.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -164,6 +170,12 @@ pub struct Section {
     pub speeds: Values,
     /// Surface speeds while cutting, metres a minute.
     pub surface_speeds: Values,
+    /// What each tooth cuts, millimetres, where the teeth of the tool are known.
+    pub chip_loads: Values,
+    /// Speeds of the edge of a milling tool whose diameter is known, metres a minute.
+    pub edge_speeds: Values,
+    /// How corners were taken while cutting, each once, in order.
+    pub corners: Vec<CornerMode>,
     /// Work coordinate systems in which something moved, with the way of all moves.
     pub offsets: Vec<OffsetUse>,
     /// The part of the cutting time that is an estimate: pockets that the control clears by a path of its own.
@@ -193,6 +205,9 @@ impl Section {
             feeds: Feeds::default(),
             speeds: Values::default(),
             surface_speeds: Values::default(),
+            chip_loads: Values::default(),
+            edge_speeds: Values::default(),
+            corners: Vec::new(),
             offsets: Vec::new(),
             estimated: Seconds::ZERO,
             unaccounted: Unaccounted::default(),
@@ -217,6 +232,11 @@ impl Section {
         self.feeds.inverse_time.merge(&other.feeds.inverse_time);
         self.speeds.merge(&other.speeds);
         self.surface_speeds.merge(&other.surface_speeds);
+        self.chip_loads.merge(&other.chip_loads);
+        self.edge_speeds.merge(&other.edge_speeds);
+        for mode in &other.corners {
+            self.take_corners(*mode);
+        }
         for used in &other.offsets {
             self.offset(used.number).include_bounds(&used.extents);
         }
@@ -235,6 +255,15 @@ impl Section {
     /// Where all moves went, in the work coordinates that were active.
     pub fn work(&self) -> Bounds {
         self.offsets.iter().fold(Bounds::EMPTY, |all, used| all.union(&used.extents))
+    }
+
+    fn take_corners(&mut self, mode: CornerMode) {
+        if self.corners.last() != Some(&mode)
+            && self.corners.len() < MAX_CORNER_MODES
+            && !self.corners.contains(&mode)
+        {
+            self.corners.push(mode);
+        }
     }
 
     fn offset(&mut self, number: Option<u16>) -> &mut Bounds {
@@ -282,6 +311,9 @@ pub struct Statistics {
     spindle_turns: bool,
     bar: BarFigures,
     helices: bool,
+    /// Tools that the machine has, and how they cut.
+    tools: BTreeMap<u32, (Option<Tool>, Cutting)>,
+    corners: CornerMode,
     /// The run as the machine makes it, where that is known.
     estimate: Option<Estimate>,
     /// Files in the order in which something happened in them.
@@ -305,6 +337,8 @@ impl Statistics {
             spindle_turns: false,
             bar: BarFigures::default(),
             helices: false,
+            tools: BTreeMap::new(),
+            corners: CornerMode::START,
             estimate: None,
             files: Vec::new(),
         }
@@ -315,6 +349,16 @@ impl Statistics {
     #[must_use]
     pub fn planned(mut self, plan: Option<&Plan>) -> Self {
         self.estimate = plan.map(|plan| Estimate::new(plan.clone()));
+        self
+    }
+
+    /// With the tools of a machine of which it is known how they cut, so that chip loads and speeds of edges are counted.
+    #[must_use]
+    pub fn with_tools(mut self, machine: &Machine) -> Self {
+        let of = |(number, cutting): (&u32, &Cutting)| {
+            (*number, (machine.tools.get(number).copied(), cutting.clone()))
+        };
+        self.tools = machine.cutting.iter().map(of).collect();
         self
     }
 
@@ -343,6 +387,7 @@ impl Statistics {
 
     /// Counts an event.
     pub fn add(&mut self, step: &Step<'_>) {
+        self.corners.set(step.event);
         match step.event {
             Event::ToolChange(tool) => self.tool_change(step, *tool),
             Event::SetToolNumber(tool) => self.begin(*tool, false, step),
@@ -586,6 +631,8 @@ impl Statistics {
         let time = self.clock.motion(step, motion);
         let feed = self.clock.feed_of(step, motion);
         let surface = self.clock.surface_speed();
+        let edge = self.edge(step, feed, surface);
+        let corners = self.corners;
         let hole = self.holes.after(motion);
         let machine_arc = motion.arc.map(|arc| (arc, self.clock.tracker.machine_arc(motion, &arc)));
         let (view, work) = (self.view, self.work);
@@ -622,6 +669,9 @@ impl Statistics {
         }
         let cuts = !rapid && motion.way != Way::Probe;
         if cuts && covered != Cover::Nothing {
+            if !is_of_cycle(step.event) {
+                section.take_corners(corners);
+            }
             match feed {
                 Some((feed, _)) if feed <= 0.0 => {}
                 Some((feed, FeedMode::PerMinute)) => section.feeds.per_minute.add(feed),
@@ -632,6 +682,13 @@ impl Statistics {
             match surface {
                 None => section.speeds.add(step.rpm),
                 Some(speed) => section.surface_speeds.add(speed),
+            }
+            let (load, speed) = edge;
+            if let Some(load) = load {
+                section.chip_loads.add(load);
+            }
+            if let Some(speed) = speed {
+                section.edge_speeds.add(speed);
             }
         }
 
@@ -654,6 +711,29 @@ impl Statistics {
             None => {}
         }
         self.time(step, motion, time);
+    }
+
+    /// Chip load and speed of the edge of the tool in the spindle, as far as they are known.
+    fn edge(
+        &self,
+        step: &Step<'_>,
+        feed: Option<(f64, FeedMode)>,
+        surface: Option<f64>,
+    ) -> (Option<f64>, Option<f64>) {
+        let known = step.tool.and_then(|tool| self.tools.get(&tool));
+        let Some((tool, cutting)) = known.filter(|_| surface.is_none() && step.rpm > 0.0) else {
+            return (None, None);
+        };
+        let per_turn = match feed {
+            Some((feed, FeedMode::PerMinute)) => Some(feed / step.rpm),
+            Some((feed, FeedMode::PerRevolution)) => Some(feed),
+            _ => None,
+        };
+        let load = per_turn.and_then(|per_turn| cutting.load(per_turn)).map(|load| load.0);
+        // Of a turning tool the diameter is not what turns.
+        let speed = tool.filter(|_| !self.view.has_diameters()).map(|tool| tool.surface_speed(Rpm(step.rpm)));
+        let usable = |figure: &f64| figure.is_finite() && *figure > 0.0;
+        (load.filter(usable), speed.filter(usable))
     }
 
     /// The time of a movement, which takes `asked` at the speed that the program asks for.

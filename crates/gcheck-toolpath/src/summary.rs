@@ -10,6 +10,7 @@ use gcheck_planner::Cause;
 use serde::Serialize;
 
 use crate::bar::BarFigures;
+use crate::corner_mode::CornerMode;
 use crate::number::rounded;
 use crate::slowest::Place;
 use crate::statistics::{Section, Statistics, Unaccounted};
@@ -221,6 +222,31 @@ impl Table<'_> {
             }
         }
         columns(out, &rows, &right);
+        let lines: Vec<String> = sections.iter().filter_map(|section| self.edge(section)).collect();
+        list(out, "chip load and surface speed", &lines);
+        let is_told = |section: &Section| section.corners.iter().any(|mode| *mode != CornerMode::START);
+        if sections.iter().any(is_told) {
+            let words = |section: &Section| {
+                let modes: Vec<String> = section.corners.iter().map(|mode| mode.words(self.units)).collect();
+                (!modes.is_empty()).then(|| format!("{}: {}", label(section), modes.join("; ")))
+            };
+            let lines: Vec<String> = sections.iter().filter_map(words).collect();
+            list(out, "corners", &lines);
+        }
+    }
+
+    /// What the teeth of a tool cut, and how fast; `None` where nothing of it is known.
+    fn edge(&self, section: &Section) -> Option<String> {
+        let load = match self.units {
+            Units::Inch => range(&section.chip_loads, 1.0 / 25.4, " inch a tooth"),
+            Units::Mm => range(&section.chip_loads, 1.0, " mm a tooth"),
+        };
+        let speed = match self.units {
+            Units::Inch => range(&section.edge_speeds, 1.0 / 0.3048, " ft/min"),
+            Units::Mm => range(&section.edge_speeds, 1.0, " m/min"),
+        };
+        let figures: Vec<String> = [load, speed].into_iter().flatten().collect();
+        (!figures.is_empty()).then(|| format!("{}: {}", label(section), figures.join(", ")))
     }
 
     fn row(&self, tool: String, comment: Option<String>, section: &Section) -> [String; 17] {
@@ -674,6 +700,9 @@ mod json {
         tool_changes: u64,
         feeds: Feeds,
         speeds: Speeds,
+        edge: Edge,
+        /// How corners were taken while cutting, in words.
+        corners: Vec<String>,
         offsets: Vec<Offset>,
         extents: Extents,
         unaccounted: Unaccounted,
@@ -724,6 +753,14 @@ mod json {
     #[derive(Serialize)]
     struct Speeds {
         rpm: Option<Range>,
+        metres_per_minute: Option<Range>,
+    }
+
+    /// What the teeth of the tool do, where the configuration tells how it cuts.
+    #[derive(Serialize)]
+    struct Edge {
+        /// A tooth, in the unit of the output.
+        chip_load: Option<Range>,
         metres_per_minute: Option<Range>,
     }
 
@@ -802,6 +839,11 @@ mod json {
                     rpm: range(&section.speeds, 1.0),
                     metres_per_minute: range(&section.surface_speeds, 1.0),
                 },
+                edge: Edge {
+                    chip_load: range(&section.chip_loads, scale),
+                    metres_per_minute: range(&section.edge_speeds, 1.0),
+                },
+                corners: section.corners.iter().map(|mode| mode.words(units)).collect(),
                 offsets: section
                     .offsets
                     .iter()

@@ -4,9 +4,10 @@
 
 use std::sync::Arc as Shared;
 
-use gcheck_engine::{Axis, Coolant, Event, FeedMode, Position, Spindle, Stop};
+use gcheck_engine::{Axis, Coolant, Event, FeedMode, PathMode, Position, Spindle, Stop};
 use gcheck_geometry::Arc;
 
+use crate::corner_mode::{CornerMode, is_of_cycle};
 use crate::motion::{Cover, Motion, Way, cover};
 use crate::placing::{Placing, WorkCoordinates};
 use crate::step::Step;
@@ -125,6 +126,8 @@ pub struct Setting {
     pub cutter: Option<u32>,
     /// Mist, flood and through the spindle; `None` while the program has not said.
     pub coolant: [Option<bool>; 3],
+    /// How corners are taken; `None` in a cycle, which the control moves as it does.
+    pub corners: Option<CornerMode>,
 }
 
 /// A feed. Moves by inverse time count with the rate that their length makes of it.
@@ -142,6 +145,9 @@ pub struct Trail {
     clock: Clock,
     placing: Placing,
     setting: Setting,
+    corners: CornerMode,
+    /// The axes stop at the end of the block that comes.
+    stops_once: bool,
     file: Shared<str>,
 }
 
@@ -163,7 +169,10 @@ impl Trail {
                 length_by: f64::NAN,
                 cutter: Some(0),
                 coolant: [None; 3],
+                corners: None,
             },
+            corners: CornerMode::START,
+            stops_once: false,
             file: Shared::from(""),
         }
     }
@@ -177,9 +186,11 @@ impl Trail {
             Event::Travel(_) | Event::Arc(_) | Event::Curve(_) | Event::RigidTap { .. } => {
                 let tracker = self.clock.tracker;
                 tracker.motions(step, |motion| each(self.motion(step, motion)));
+                self.stops_once = false;
             }
             event => {
                 self.set(step, event);
+                self.stops_once |= *event == Event::ExactStop;
                 if let Some(stand) = stand(event) {
                     let setting = Setting { feed: None, ..self.setting };
                     let file = Shared::clone(&self.file);
@@ -192,6 +203,7 @@ impl Trail {
     }
 
     fn set(&mut self, step: &Step<'_>, event: &Event) {
+        self.corners.set(event);
         let setting = &mut self.setting;
         match event {
             Event::Spindle(spindle) => setting.spindle = Some(*spindle),
@@ -254,6 +266,10 @@ impl Trail {
                 tool: self.setting.tool.or(step.tool),
                 length: self.setting.length.or(step.h),
                 cutter: if is_shifted { step.d } else { Some(0) },
+                corners: (!is_of_cycle(step.event)).then_some(CornerMode {
+                    path: if self.stops_once { PathMode::ExactStop } else { self.corners.path },
+                    ..self.corners
+                }),
                 ..self.setting
             },
             doing: Doing::Move(Move {

@@ -260,10 +260,15 @@ fn figures_as_json() {
             "…",
             {
               "arcs": 0,
+              "corners": [],
               "distance": {
                 "cutting": 68.0,
                 "rapid": 401.642633,
                 "rotary_deg": 0.0
+              },
+              "edge": {
+                "chip_load": null,
+                "metres_per_minute": null
               },
               "extents": {
                 "cutting": {

@@ -423,10 +423,18 @@ pub struct BlockSkip(pub u16);
 pub enum MachineCommand {
     /// Write the machine into `gcheck.toml` from what the shop has
     ///
-    /// Reads INI files and tool tables of LinuxCNC, `$$` dumps of Grbl and its kin, tool libraries of Fusion (JSON) and
-    /// FreeCAD, MTConnect probe documents, and offsets that a control wrote as blocks of `G10`. Each value gets a comment that
+    /// Reads INI files of LinuxCNC with the files that they include and the limits that their HAL files set, its tool tables,
+    /// `$$` dumps of Grbl and its kin, configurations of FluidNC, machines and tool libraries of FreeCAD, tool libraries of
+    /// Fusion (JSON), MTConnect probe documents, and offsets that a control wrote as blocks of `G10`. Each value gets a comment that
     /// says where it is from; what is in the file already stays.
     Import(ImportOptions),
+    /// List the models of machines that `[machine] preset` takes
+    List(ListOptions),
+    /// Print a model of a machine as a table for `gcheck.toml`, with the source of each value
+    Show {
+        /// Its name in the list
+        name: String,
+    },
 }
 
 /// Options of `gcheck machine import`.
@@ -465,6 +473,10 @@ pub enum ImportFormat {
     Fusion,
     /// Tool library of FreeCAD (`.fctl`)
     Freecad,
+    /// Machine of FreeCAD (`.fcm`)
+    FreecadMachine,
+    /// Configuration of FluidNC, as YAML
+    Yaml,
     /// MTConnect probe document
     Mtconnect,
     /// Program with blocks of `G10`

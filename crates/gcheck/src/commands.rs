@@ -10,6 +10,7 @@ pub(crate) mod explain;
 pub(crate) mod fmt;
 pub(crate) mod init;
 pub(crate) mod machine;
+pub(crate) mod models;
 pub(crate) mod plot;
 pub(crate) mod rules;
 pub(crate) mod run;

@@ -8,6 +8,8 @@ mod format;
 mod layer;
 mod pattern;
 mod placed;
+mod preset;
+mod preset_name;
 mod read;
 mod settings;
 mod text;
@@ -26,6 +28,8 @@ pub use format::FormatTable;
 pub use layer::Layer;
 pub use pattern::PathPattern;
 pub use placed::Placed;
+pub use preset::Preset;
+pub use preset_name::PresetName;
 pub(crate) use read::check_text;
 pub use settings::{FileSettings, RuleWishes};
 pub(crate) use validate::{

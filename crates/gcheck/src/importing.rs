@@ -4,7 +4,9 @@
 //! printed, how files are written.
 
 mod freecad;
+mod freecad_machine;
 mod fusion;
+mod hal;
 mod ini;
 mod json;
 mod merge;
@@ -16,6 +18,7 @@ mod sheet;
 mod surroundings;
 mod table;
 mod tools;
+mod yaml;
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -95,15 +98,21 @@ fn detected(path: &Path, text: &str) -> Option<ImportFormat> {
     match extension.as_deref() {
         Some("tbl" | "csv") => return Some(ImportFormat::ToolTable),
         Some("fctb" | "fctl") => return Some(ImportFormat::Freecad),
+        Some("fcm") => return Some(ImportFormat::FreecadMachine),
         _ => {}
     }
     if start.starts_with('<') {
         Some(ImportFormat::Mtconnect)
     } else if start.starts_with('{') {
+        if text.contains("\"machine\"") && text.contains("\"axes\"") {
+            return Some(ImportFormat::FreecadMachine);
+        }
         let is_bits = text.contains("\"parameter\"") || text.contains("\"nr\"");
         Some(if is_bits && !text.contains("\"data\"") { ImportFormat::Freecad } else { ImportFormat::Fusion })
     } else if settings::is_one(text) {
         Some(ImportFormat::Settings)
+    } else if yaml::is_one(text) {
+        Some(ImportFormat::Yaml)
     } else if ini::is_one(text) {
         Some(ImportFormat::Ini)
     } else if table::is_one(text) {
@@ -119,7 +128,7 @@ fn read_sheet(sheet: &mut Sheet<'_>, path: &Path, request: Request<'_>) -> Resul
     let folder: PathBuf = paths::absolute(path).parent().map(Path::to_owned).unwrap_or_default();
     let Some(format) = request.format.or_else(|| detected(path, sheet.text)) else {
         let problem = Problem::with_file(path, "does not show in which format it describes a machine")
-            .help("name it: `--format ini`, `tool-table`, `settings`, `fusion`, `freecad`, `mtconnect` or `offsets`");
+            .help("name it: `--format ini`, `tool-table`, `settings`, `yaml`, `fusion`, `freecad`, `freecad-machine`, `mtconnect` or `offsets`");
         return Err(vec![problem]);
     };
     match format {
@@ -135,6 +144,16 @@ fn read_sheet(sheet: &mut Sheet<'_>, path: &Path, request: Request<'_>) -> Resul
         ImportFormat::Fusion => {
             if let Some(document) = json::parse(sheet) {
                 fusion::read(sheet, &document);
+            }
+        }
+        ImportFormat::Yaml => yaml::read(sheet),
+        ImportFormat::FreecadMachine => {
+            if let Some(document) = json::parse(sheet) {
+                if freecad_machine::is_one(&document) {
+                    freecad_machine::read(sheet, &document);
+                } else {
+                    sheet.refuse(&(0..1), "the file has no `machine` with `axes`, so it is not a machine");
+                }
             }
         }
         ImportFormat::Freecad => {

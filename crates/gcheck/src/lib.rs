@@ -95,6 +95,8 @@ fn run(arguments: &Arguments) -> Result<u8, Problem> {
         Command::Machine(MachineCommand::Import(options)) => {
             commands::machine::import(&arguments.global, options)
         }
+        Command::Machine(MachineCommand::List(options)) => commands::models::list(options),
+        Command::Machine(MachineCommand::Show { name }) => commands::models::show(name),
         Command::Schema => output::print(&config::schema()),
         Command::Lsp(_) => lsp::run(&arguments.global),
         Command::Completions { shell } => commands::completions::run(*shell),

@@ -372,7 +372,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let tolerance = self.words.number(Letter::of('P')).map_or(0.0, not_below_zero);
         let naive = self.words.number(Letter::of('Q')).filter(|q| *q >= 0.0 || q.is_nan());
         state.blending = Blending { tolerance, naive };
-        let mode = self.blending_mode(state);
+        let mode = state.blending_mode(self.unit(state));
         self.path_mode(mode, state);
     }
 
@@ -399,20 +399,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     /// The path mode in effect, as it is announced; `None` when it is not known.
     pub(super) fn current_path_mode(&self, state: &State<D>) -> Option<PathMode> {
-        let mode = state.mode(Role::PathControl).only()?;
-        Some(match self.model.effect(mode) {
-            Effect::ExactPath => PathMode::ExactPath,
-            Effect::ExactStop => PathMode::ExactStop,
-            _ => self.blending_mode(state),
-        })
-    }
-
-    /// Blending as it is announced: its numbers count in the program's present units.
-    fn blending_mode(&self, state: &State<D>) -> PathMode {
-        let unit = self.unit(state);
-        let length = |number: f64| Mm(if number == 0.0 { 0.0 } else { number * unit });
-        let Blending { tolerance, naive } = state.blending;
-        PathMode::Blending { tolerance: length(tolerance), naive: naive.map(length) }
+        state.path_mode(self.model)
     }
 
     fn switch_override(&mut self, effect: Effect, state: &mut State<D>) {

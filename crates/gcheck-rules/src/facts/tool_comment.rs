@@ -42,7 +42,7 @@ pub(crate) fn comment_of_tool(cx: &PathCx<'_>, changed: At) -> Option<ToolCommen
 }
 
 /// The comments of a block of the main file.
-fn comments_in(cx: &PathCx<'_>, at: At) -> Option<String> {
+pub(crate) fn comments_in(cx: &PathCx<'_>, at: At) -> Option<String> {
     let place = cx.place_of(at).filter(|_| at.file == 0)?;
     let block = place.block();
     if !block.flags.contains(BlockFlags::COMMENT) {

@@ -101,6 +101,7 @@ pub(crate) mod five_axis {
     pub(crate) mod reference_return_under_tilt;
     pub(crate) mod refused_in_five_axis_mode;
     pub(crate) mod rotary_feed_per_minute;
+    pub(crate) mod rotary_axis_jumps;
     pub(crate) mod rotary_motion_under_dynamic_offset;
     pub(crate) mod tilt_modes_conflict;
     pub(crate) mod tool_direction_unknown;
@@ -123,17 +124,21 @@ pub(crate) mod flow {
 
 pub(crate) mod machine {
     pub(crate) mod axis_not_on_machine;
+    pub(crate) mod chip_load_outside_limits;
     pub(crate) mod code_refused_by_setting;
     pub(crate) mod coolant_locked;
     pub(crate) mod cylinder_axis_not_on_machine;
     pub(crate) mod cylinder_without_diameter;
     pub(crate) mod data_starved;
     pub(crate) mod feed_above_machine_limit;
+    pub(crate) mod feed_not_reached;
     pub(crate) mod five_axis_length_on_another_machine;
     pub(crate) mod move_outside_travel;
     pub(crate) mod pocket_arc_below_tool;
     pub(crate) mod pocket_step_above_tool;
     pub(crate) mod speed_above_machine_limit;
+    pub(crate) mod surface_speed_outside_limits;
+    pub(crate) mod synchronised_feed_above_limit;
     pub(crate) mod tool_not_in_table;
     pub(crate) mod units_against_setting;
     pub(crate) mod work_offset_not_listed;
@@ -217,10 +222,13 @@ pub(crate) mod motion {
     pub(crate) mod dwell_very_long;
     pub(crate) mod dwell_very_short;
     pub(crate) mod dwell_without_time;
+    pub(crate) mod exact_stop_in_short_segments;
+    pub(crate) mod exact_stop_left_on;
     pub(crate) mod feed_implausible;
     pub(crate) mod feed_missing;
     pub(crate) mod feed_of_another_mode;
     pub(crate) mod feed_zero;
+    pub(crate) mod finish_under_rough_level;
     pub(crate) mod home_before_retract;
     pub(crate) mod index_before_retract;
     pub(crate) mod inverse_time_feed_missing;
@@ -245,6 +253,7 @@ pub(crate) mod motion {
     pub(crate) mod reference_point_never_set;
     pub(crate) mod reference_return_through_point;
     pub(crate) mod thread_without_lead;
+    pub(crate) mod tolerance_above_feature;
     pub(crate) mod tool_down_at_end;
 }
 
@@ -526,6 +535,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &five_axis::reference_return_under_tilt::RULE,
     &five_axis::refused_in_five_axis_mode::RULE,
     &five_axis::rotary_feed_per_minute::RULE,
+    &five_axis::rotary_axis_jumps::RULE,
     &five_axis::rotary_motion_under_dynamic_offset::RULE,
     &five_axis::tilt_modes_conflict::RULE,
     &five_axis::tool_direction_unknown::RULE,
@@ -542,17 +552,21 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &flow::subprogram_without_return::RULE,
     &flow::unreachable_block::RULE,
     &machine::axis_not_on_machine::RULE,
+    &machine::chip_load_outside_limits::RULE,
     &machine::code_refused_by_setting::RULE,
     &machine::coolant_locked::RULE,
     &machine::cylinder_axis_not_on_machine::RULE,
     &machine::cylinder_without_diameter::RULE,
     &machine::data_starved::RULE,
     &machine::feed_above_machine_limit::RULE,
+    &machine::feed_not_reached::RULE,
     &machine::five_axis_length_on_another_machine::RULE,
     &machine::move_outside_travel::RULE,
     &machine::pocket_arc_below_tool::RULE,
     &machine::pocket_step_above_tool::RULE,
     &machine::speed_above_machine_limit::RULE,
+    &machine::surface_speed_outside_limits::RULE,
+    &machine::synchronised_feed_above_limit::RULE,
     &machine::tool_not_in_table::RULE,
     &machine::units_against_setting::RULE,
     &machine::work_offset_not_listed::RULE,
@@ -624,10 +638,13 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &motion::dwell_very_long::RULE,
     &motion::dwell_very_short::RULE,
     &motion::dwell_without_time::RULE,
+    &motion::exact_stop_in_short_segments::RULE,
+    &motion::exact_stop_left_on::RULE,
     &motion::feed_implausible::RULE,
     &motion::feed_missing::RULE,
     &motion::feed_of_another_mode::RULE,
     &motion::feed_zero::RULE,
+    &motion::finish_under_rough_level::RULE,
     &motion::home_before_retract::RULE,
     &motion::index_before_retract::RULE,
     &motion::inverse_time_feed_missing::RULE,
@@ -652,6 +669,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &motion::reference_point_never_set::RULE,
     &motion::reference_return_through_point::RULE,
     &motion::thread_without_lead::RULE,
+    &motion::tolerance_above_feature::RULE,
     &motion::tool_down_at_end::RULE,
     &offsets::mirror_left_on::RULE,
     &offsets::offset_added_in_increments::RULE,

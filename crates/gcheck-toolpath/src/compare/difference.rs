@@ -6,6 +6,7 @@ use std::sync::Arc as Shared;
 
 use gcheck_engine::{Position, Spindle};
 
+use crate::corner_mode::CornerMode;
 use crate::trail::{Driven, Feed, Setting, Stand};
 
 /// Differences of one aspect that are kept with their places; further ones are counted.
@@ -30,6 +31,8 @@ pub enum Aspect {
     Cutter,
     /// Coolant while cutting.
     Coolant,
+    /// How corners are taken while cutting: exact stop, blending, smoothing.
+    Corners,
     /// Time of standing still.
     Dwell,
     /// Stops, pallets and the end.
@@ -40,7 +43,7 @@ pub enum Aspect {
 
 impl Aspect {
     /// All, in the order of reports.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 12] = [
         Self::Drive,
         Self::Feed,
         Self::Spindle,
@@ -49,6 +52,7 @@ impl Aspect {
         Self::Length,
         Self::Cutter,
         Self::Coolant,
+        Self::Corners,
         Self::Dwell,
         Self::Stop,
         Self::Other,
@@ -65,6 +69,7 @@ impl Aspect {
             Self::Length => "length-offset",
             Self::Cutter => "cutter-offset",
             Self::Coolant => "coolant",
+            Self::Corners => "corners",
             Self::Dwell => "dwell",
             Self::Stop => "stop",
             Self::Other => "other",
@@ -104,6 +109,8 @@ pub enum Value {
     Cutter(Option<u32>),
     /// Mist, flood, through the spindle.
     Coolant([Option<bool>; 3]),
+    /// How corners are taken.
+    Corners(CornerMode),
     /// Something that happens while the axes do not move.
     Stand(Stand),
 }
@@ -150,6 +157,20 @@ pub struct Parting {
     pub apart: f64,
 }
 
+/// The corner at which two paths may differ most, because the runs take corners differently.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Corner {
+    /// The move of the first run that begins there.
+    pub a: Place,
+    /// Where it is.
+    pub at: Position,
+    /// By how much the paths may differ, millimetres: no more than the tolerances allow, nor than the moves leave room for.
+    /// `None` where one of the programs gives no tolerance, so that its control decides.
+    pub off: Option<f64>,
+    /// How many corners there are of that kind.
+    pub count: u64,
+}
+
 /// All differences of two runs.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Differences {
@@ -159,6 +180,8 @@ pub struct Differences {
     pub moves: u64,
     /// A coordinate was unknown and not compared.
     pub unknown: bool,
+    /// The corner at which the paths may differ most.
+    pub corner: Option<Corner>,
     kept: Vec<Difference>,
     counts: [u64; Aspect::ALL.len()],
     /// The values that differ at the moment: that they differ still is not a further difference.
@@ -191,6 +214,19 @@ impl Differences {
         if current.as_ref() != Some(&values) {
             *current = Some(values.clone());
             self.add_once(aspect, places, values);
+        }
+    }
+
+    /// A corner that the runs take differently.
+    pub(super) fn add_corner(&mut self, a: Place, at: Position, off: Option<f64>) {
+        // What no tolerance bounds is the most.
+        let most = |off: Option<f64>| off.unwrap_or(f64::INFINITY);
+        match &mut self.corner {
+            Some(corner) if most(corner.off) >= most(off) => corner.count += 1,
+            corner => {
+                let count = corner.as_ref().map_or(0, |corner| corner.count) + 1;
+                *corner = Some(Corner { a, at, off, count });
+            }
         }
     }
 

@@ -4,7 +4,7 @@
 
 use std::fmt::Write as _;
 
-use gcheck_engine::{Machine, Model};
+use gcheck_engine::{Axis, Machine, Model};
 use gcheck_geometry::{MmPerMin, Rpm};
 
 use super::job::{Bench, Prepared, Target, prepare};
@@ -43,6 +43,10 @@ fn of_file(target: &Target, prepared: &Prepared, machine: &Machine) -> String {
     let config = target.config.path().map_or_else(|| "none".to_owned(), paths::shown_from_here);
     let _ = writeln!(out, "  control: {}, by {source}{because}", choice.name);
     let _ = writeln!(out, "  configuration: {config}");
+    let preset = settings.execution.iter().rev().find_map(|facts| facts.machine.preset.as_ref());
+    if let Some(preset) = preset {
+        let _ = writeln!(out, "  preset: {}", preset.value.0);
+    }
     if let Some(axes) = settings.machine.axes {
         let axes: Vec<String> = axes.iter().map(|a| a.to_string()).collect();
         let _ = writeln!(out, "  axes: {}", axes.join(" "));
@@ -57,6 +61,7 @@ fn of_file(target: &Target, prepared: &Prepared, machine: &Machine) -> String {
     if let Some(MmPerMin(most)) = machine.max_feed {
         let _ = writeln!(out, "  feed: at most {most} mm/min");
     }
+    rates(&mut out, machine);
     for (what, count) in [("work offsets", machine.offsets.len()), ("tools", machine.tools.len())] {
         if count > 0 {
             let _ = writeln!(out, "  {what} known: {count}");
@@ -79,4 +84,25 @@ fn of_file(target: &Target, prepared: &Prepared, machine: &Machine) -> String {
         .collect();
     let _ = writeln!(out, "  rules ({}): {}", rules.len(), rules.join(", "));
     out
+}
+
+/// Rapid rates and accelerations, as far as they are known.
+fn rates(out: &mut String, machine: &Machine) {
+    let by_axis = |figures: &std::collections::BTreeMap<Axis, f64>, unit: &str| {
+        let words = |(axis, figure): (&Axis, &f64)| {
+            let length = if axis.is_rotary() { "deg" } else { "mm" };
+            format!("{} {figure} {length}/{unit}", axis.letter())
+        };
+        figures.iter().map(words).collect::<Vec<_>>().join(", ")
+    };
+    let dynamics = &machine.dynamics;
+    // Writing to a string cannot fail.
+    if !dynamics.rapid.is_empty() {
+        let _ = writeln!(out, "  rapid: {}", by_axis(&dynamics.rapid, "min"));
+    } else if let Some(MmPerMin(rate)) = machine.rapid {
+        let _ = writeln!(out, "  rapid: {rate} mm/min");
+    }
+    if !dynamics.acceleration.is_empty() {
+        let _ = writeln!(out, "  acceleration: {}", by_axis(&dynamics.acceleration, "s²"));
+    }
 }

@@ -29,7 +29,8 @@ pub(crate) fn run(global: &Global, options: &StatsOptions) -> Result<u8, Problem
         }
         let timing = session.prepared.equipment.timing;
         let statistics = Statistics::new(session.used_axes(), timing, session.model.work_at_power_on())
-            .planned(session.prepared.equipment.plan.as_ref());
+            .planned(session.prepared.equipment.plan.as_ref())
+            .with_tools(&session.prepared.equipment.machine);
         let (ran, mut statistics) = session
             .run(statistics)
             .map_err(|error| Problem::new(format!("cannot gather the figures: {error}")))?;

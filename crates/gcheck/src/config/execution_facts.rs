@@ -11,6 +11,8 @@ use super::file::{MachineTable, ToolTable, Units};
 pub struct ExecutionFacts {
     /// Units of its lengths; those in force when it says none.
     pub units: Option<Units>,
+    /// It is a preset: its units are those of its own lengths, and say nothing of the machine at power-on.
+    pub is_preset: bool,
     /// The machine.
     pub machine: MachineTable,
     /// Macro variables and named parameters, as written: `#3100`, `#<name>`.

@@ -11,7 +11,7 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{self, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 
-use super::{FormatTable, Placed};
+use super::{FormatTable, Placed, PresetName};
 
 /// Configuration of gcheck: `gcheck.toml` or `.gcheck.toml` in the folder of the programs or above it.
 #[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
@@ -84,6 +84,8 @@ pub struct OverrideTable {
 #[serde(deny_unknown_fields, default)]
 #[schemars(rename = "Machine")]
 pub struct MachineTable {
+    /// A model whose published figures count below those of this table; `gcheck machine list` shows what there is.
+    pub preset: Option<Placed<PresetName>>,
     /// The machine's name, for people.
     pub name: Option<String>,
     /// Axes the machine has: `["X", "Y", "Z", "A"]`.
@@ -376,6 +378,14 @@ pub struct ToolTable {
     pub orientation: Option<Placed<u8>>,
     /// Its place in the changer; that of its number without it.
     pub pocket: Option<u32>,
+    /// Its teeth: with them the chip load is shown, and held to `chip_load`.
+    pub teeth: Option<Placed<u32>>,
+    /// The class of material that `chip_load` and `surface_speed` hold for (`"P"`, `"aluminium"`), for people.
+    pub material: Option<String>,
+    /// Lowest and highest chip load, in `units` a tooth: `[0.02, 0.06]`.
+    pub chip_load: Option<Placed<[f64; 2]>>,
+    /// Lowest and highest surface speed, in metres a minute, or feet a minute where `units` are inches: `[80.0, 160.0]`.
+    pub surface_speed: Option<Placed<[f64; 2]>>,
 }
 
 impl<'de> Deserialize<'de> for ToolsTable {

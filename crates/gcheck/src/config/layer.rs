@@ -9,7 +9,7 @@ use gcheck_controls::UserCode;
 use super::execution_facts::ExecutionFacts;
 use super::file::{FilesTable, OverrideTable, RulesTable};
 use super::text::Text;
-use super::{ConfigFile, FormatTable, MachineTable, PathPattern, validate};
+use super::{ConfigFile, FormatTable, MachineTable, PathPattern, Preset, validate};
 use crate::Problem;
 
 /// A configuration text that has been checked.
@@ -19,6 +19,8 @@ pub struct Layer {
     pub path: Option<PathBuf>,
     /// As written.
     pub file: ConfigFile,
+    /// What the machine's preset says, below everything else of this text.
+    pub(super) preset: Option<Facts>,
     /// What holds for every program.
     pub(super) base: Facts,
     /// What holds for some.
@@ -54,8 +56,15 @@ impl Layer {
             rules: facts.rules(&file.rules)?,
             format: file.format.clone(),
         };
-        let overrides =
-            file.overrides.iter().map(|table| overriding(text, &file, table)).collect::<Result<_, _>>()?;
+        let preset = Preset::inherited(&file.machine, text)?.map(inheriting);
+        let mut overrides = Vec::new();
+        for table in &file.overrides {
+            let (patterns, own) = overriding(text, &file, table)?;
+            if let Some(preset) = Preset::inherited(&table.machine, text)? {
+                overrides.push((patterns.clone(), inheriting(preset)));
+            }
+            overrides.push((patterns, own));
+        }
         let mut per_file_ignores = Vec::new();
         for (pattern, selectors) in &file.per_file_ignores {
             facts.selectors(selectors)?;
@@ -65,12 +74,12 @@ impl Layer {
         let FilesTable { include, exclude } = &file.files;
         let include = include.as_ref().map(|patterns| text.patterns(patterns)).transpose()?;
         let exclude = text.patterns(exclude)?;
-        Ok(Self { path, file, base, overrides, per_file_ignores, include, exclude })
+        Ok(Self { path, file, preset, base, overrides, per_file_ignores, include, exclude })
     }
 
     /// What it says about some programs or all.
     fn facts(&self) -> impl Iterator<Item = &Facts> {
-        std::iter::once(&self.base).chain(self.overrides.iter().map(|(_, facts)| facts))
+        self.preset.iter().chain([&self.base]).chain(self.overrides.iter().map(|(_, facts)| facts))
     }
 
     /// Tool tables on disk.
@@ -82,6 +91,11 @@ impl Layer {
     pub(super) fn search(&self) -> impl Iterator<Item = &Path> {
         self.facts().flat_map(|facts| facts.search.iter().map(PathBuf::as_path))
     }
+}
+
+/// What a preset says about programs.
+fn inheriting(execution: ExecutionFacts) -> Facts {
+    Facts { machine: execution.machine.clone(), execution, ..Facts::default() }
 }
 
 fn overriding(

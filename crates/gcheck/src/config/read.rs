@@ -141,7 +141,8 @@ fn in_words(message: &str) -> String {
 }
 
 /// Names of types in messages, and what they are called outside Rust.
-const RUST_WORDS: [(&str, &str); 13] = [
+const RUST_WORDS: [(&str, &str); 14] = [
+    ("expected an array of length 2", "expected a list of two numbers"),
     ("floating point `", "number `"),
     ("integer `", "number `"),
     ("boolean `", "`"),

@@ -56,7 +56,9 @@ impl Config {
         let path = paths::absolute(path);
         let mut settings = FileSettings::default();
         for layer in self.layers() {
-            settings.put(&layer.base, layer.path.as_deref());
+            for facts in layer.preset.iter().chain([&layer.base]) {
+                settings.put(facts, layer.path.as_deref());
+            }
         }
         // Overrides have priority over what holds for all files, in every layer.
         for layer in self.layers() {
@@ -87,9 +89,9 @@ impl FileSettings {
         let search: Vec<String> = search.iter().map(|folder| paths::shown_from_here(folder)).collect();
         let mut words = format!("{:?}", (control, control_from, machine, codes, search, rules, ignored));
         for facts in execution {
-            let ExecutionFacts { units, machine, variables, offsets, tools, table: _ } = facts;
+            let ExecutionFacts { units, is_preset, machine, variables, offsets, tools, table: _ } = facts;
             // Writing to a string cannot fail.
-            let _ = write!(words, "{:?}", (units, machine, variables, offsets, tools));
+            let _ = write!(words, "{:?}", (units, is_preset, machine, variables, offsets, tools));
         }
         words
     }

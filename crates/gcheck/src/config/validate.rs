@@ -12,7 +12,7 @@ use gcheck_rules::RULES;
 
 use super::Placed;
 use super::execution_facts::ExecutionFacts;
-use super::file::{ByAxis, CodeTable, MachineTable, RulesTable, Scalar, ToolsTable, Units};
+use super::file::{ByAxis, CodeTable, MachineTable, RulesTable, Scalar, ToolTable, ToolsTable, Units};
 use super::text::Text;
 use crate::Problem;
 use crate::nearest::did_you_mean;
@@ -22,6 +22,8 @@ const AXES: &str = "XYZABCUVW";
 
 /// No control takes longer for a block, in seconds.
 const LONGEST_BLOCK: f64 = 0.2;
+/// No tool has more teeth.
+const MOST_TEETH: u32 = 200;
 /// No control looks further ahead.
 const MOST_AHEAD: u32 = 100_000;
 /// Between these, in seconds, every machine reaches its rapid rate.
@@ -392,10 +394,12 @@ impl<'t> Checked<'t> {
                 return Err(self.text.problem(orientation, "a tip points in one of the directions 0 to 9"));
             }
             self.by_axis(&tool.offset)?;
+            self.cutting(tool)?;
             by_number.push((parsed, tool.clone()));
         }
         Ok(ExecutionFacts {
             units: machine.units,
+            is_preset: false,
             machine: machine.clone(),
             variables: variables.iter().map(|(name, value)| (name.value.clone(), *value)).collect(),
             offsets: offsets
@@ -408,6 +412,24 @@ impl<'t> Checked<'t> {
             tools: by_number,
             table: tools.table.as_ref().map(|table| self.text.path(&table.value)),
         })
+    }
+
+    /// How a tool cuts: teeth and ranges that a tool can have.
+    fn cutting(&self, tool: &ToolTable) -> Result<(), Problem> {
+        if let Some(teeth) = tool.teeth.as_ref().filter(|teeth| !(1..=MOST_TEETH).contains(&teeth.value)) {
+            return Err(self.text.problem(teeth, format!("a tool has 1 to {MOST_TEETH} teeth")));
+        }
+        if let (Some(load), None) = (&tool.chip_load, &tool.teeth) {
+            return Err(self.text.problem(load, "a chip load counts by tooth: write `teeth` too"));
+        }
+        for range in [&tool.chip_load, &tool.surface_speed].into_iter().flatten() {
+            let [low, high] = range.value;
+            if !(low >= 0.0 && high > low && high.is_finite()) {
+                let message = "must go from the lowest value, not below zero, to the highest: `[0.02, 0.06]`";
+                return Err(self.text.problem(range, message));
+            }
+        }
+        Ok(())
     }
 
     fn by_axis(&self, axes: &BTreeMap<Placed<String>, f64>) -> Result<(), Problem> {

@@ -51,7 +51,8 @@ impl Equipment {
     pub(crate) fn new(settings: &FileSettings, model: &Model<'_>, start: Start) -> Result<Self, Problem> {
         let control = model.control();
         let layers = &settings.execution;
-        let configured = layers.iter().rev().find_map(|layer| layer.units).map(units);
+        let told = layers.iter().rev().filter(|layer| !layer.is_preset);
+        let configured = told.clone().find_map(|layer| layer.units).map(units);
         let default = model.units_at_power_on(&settings.machine.settings);
         let in_force = configured.or(default).unwrap_or(Units::Mm);
         // Where variables that nobody set are zero, so is everything else after a fresh start.
@@ -231,6 +232,26 @@ impl Equipment {
         tool.orientation =
             told.orientation.as_ref().map_or(tool.orientation, |orientation| orientation.value);
         tool.pocket = told.pocket.unwrap_or(tool.pocket);
+        self.put_cutting(number, told, mm);
+    }
+
+    fn put_cutting(&mut self, number: u32, told: &ToolTable, mm: f64) {
+        let is_told = told.teeth.is_some() || told.surface_speed.is_some() || told.material.is_some();
+        if !is_told {
+            return;
+        }
+        let cutting = self.machine.cutting.entry(number).or_default();
+        cutting.teeth = told.teeth.as_ref().map(|teeth| teeth.value).or(cutting.teeth);
+        cutting.material = told.material.clone().or_else(|| cutting.material.take());
+        let scaled = |range: &config::Placed<[f64; 2]>, by: f64| {
+            let [low, high] = range.value.map(|value| value * by);
+            (low, high)
+        };
+        cutting.chip_load = told.chip_load.as_ref().map(|range| scaled(range, mm)).or(cutting.chip_load);
+        // Of inches, surface speeds count in feet.
+        let metres = if mm > 1.0 { 0.3048 } else { 1.0 };
+        let speed = told.surface_speed.as_ref().map(|range| scaled(range, metres));
+        cutting.surface_speed = speed.or(cutting.surface_speed);
     }
 
     /// Variables of the command line.

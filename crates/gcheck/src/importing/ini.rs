@@ -3,14 +3,19 @@
 //! Knows: sections and keys of that file, as the integrator's manual of LinuxCNC describes them: velocities count in units a
 //! second, accelerations in units a second squared, a comment fills a line, and the first of two equal keys counts. Must not
 //! know: other formats, how TOML is written.
+//!
+//! A line `#INCLUDE FILE` stands for the lines of that file, up to 16 levels deep. HAL files of `[HAL]` may set limits at the
+//! pins that the control makes of its limits (`ini.x.max_velocity`); what they set counts over what the INI file says.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
+use super::hal;
 use super::sheet::{NO_KEY, Sheet, Tells, Value, is_rotary, lines, rounded, unit_name};
 use crate::config::Units;
+use crate::{paths, reading};
 
 /// A limit as far away as this is one that the machine does not have.
 const NO_LIMIT: f64 = 1e9;
@@ -23,19 +28,28 @@ const LIMITS: [&str; 4] = ["MIN_LIMIT", "MAX_LIMIT", "MAX_VELOCITY", "MAX_ACCELE
 /// Bytes of a longer line are not those of a key.
 const LONGEST_LINE: usize = 2000;
 
+/// Files that include each other go no deeper.
+const DEEPEST: usize = 16;
+/// A larger file is not a part of a configuration.
+const MOST_BYTES: u64 = 1 << 20;
+
 /// A line with a key.
 #[derive(Debug, Clone)]
 struct Entry {
     section: Rc<str>,
     key: String,
     value: String,
+    /// The line of the INI file; of another file, the line that names it.
     range: Range<usize>,
+    /// The other file, and how it says this.
+    from: Option<Rc<str>>,
     used: bool,
 }
 
 impl Entry {
     fn place(&self) -> String {
-        format!("[{}] {}", self.section, self.key)
+        let from = self.from.as_ref().map_or_else(String::new, |from| format!(" {from}"));
+        format!("[{}] {}{from}", self.section, self.key)
     }
 
     /// The value up to a blank: what follows a number is a remark.
@@ -44,12 +58,15 @@ impl Entry {
     }
 }
 
-/// Does a text look like such a file: a section, and a key with a value?
+/// Does a text look like such a file: a section, and a key with a value, or another file that it includes?
 pub(super) fn is_one(text: &str) -> bool {
     let mut section = false;
     for (_, line) in lines(text) {
         let line = line.trim();
         section |= line.starts_with('[') && line.ends_with(']');
+        if line.starts_with("#INCLUDE ") {
+            return true;
+        }
         if section && line.contains('=') {
             return true;
         }
@@ -60,7 +77,8 @@ pub(super) fn is_one(text: &str) -> bool {
 /// Reads the file; the path of its tool table, if it names one, with the place of the name.
 pub(super) fn read(sheet: &mut Sheet<'_>, folder: &Path) -> Option<(PathBuf, Range<usize>)> {
     sheet.tells = Tells::Machine;
-    let mut file = entries(sheet);
+    let mut file = entries(sheet, folder);
+    file.hal_files(sheet, folder);
     file.units(sheet);
     if let Some(name) = file.take("EMC", "MACHINE").filter(|entry| !entry.value.is_empty()) {
         sheet.put(&["machine", "name"], Value::Text(name.value.clone()), &name.range, &name.place());
@@ -92,8 +110,8 @@ pub(super) fn read(sheet: &mut Sheet<'_>, folder: &Path) -> Option<(PathBuf, Ran
     table.map(|entry| (folder.join(&entry.value), entry.range))
 }
 
-/// The lines of the file that say something.
-fn entries(sheet: &mut Sheet<'_>) -> IniFile {
+/// The lines of the file that say something, with those of the files that it includes.
+fn entries(sheet: &mut Sheet<'_>, folder: &Path) -> IniFile {
     let mut section: Rc<str> = Rc::from("");
     let mut file = IniFile { entries: Vec::new(), last: None, includes: false };
     let is_ended = sheet.text.ends_with('\n');
@@ -101,30 +119,137 @@ fn entries(sheet: &mut Sheet<'_>) -> IniFile {
         let told = line.trim();
         let first = start + (line.len() - line.trim_start().len());
         let range = first..first + told.len();
+        let parsed = parse(told);
         if told.len() > LONGEST_LINE {
             sheet.refuse(&(first..first + 1), format!("the line is longer than {LONGEST_LINE} bytes"));
-        } else if told.to_ascii_uppercase().starts_with("#INCLUDE") {
-            file.includes = true;
-            sheet.leave(&range, format!("`{told}`"), "files that a file includes are not read");
-        } else if told.is_empty() || told.starts_with(['#', ';']) {
-        } else if let Some(name) = told.strip_prefix('[') {
-            match name.split_once(']') {
-                Some((name, _)) => {
-                    section = Rc::from(name.trim());
-                    file.last = Some((Rc::clone(&section), range));
-                }
-                None => sheet.refuse(&range, "a section begins here, and its `]` is missing"),
+            continue;
+        }
+        match parsed {
+            Line::Nothing => {}
+            Line::Include(name) => {
+                let mut within = Within { folder, range: &range, section: &mut section, open: Vec::new() };
+                within.include(sheet, &mut file, name);
             }
-        } else if let Some((key, value)) = told.split_once('=') {
-            let (key, value) = (key.trim().to_owned(), value.trim().to_owned());
-            file.entries.push(Entry { section: Rc::clone(&section), key, value, range, used: false });
-        } else if !is_ended && start + line.len() == sheet.text.len() {
-            sheet.refuse(&range, "the file ends in the middle of a key; is it cut short?");
-        } else {
-            sheet.leave(&range, format!("`{told}`"), "a key without `=`");
+            Line::Section(name) => {
+                section = Rc::from(name);
+                file.last = Some((Rc::clone(&section), range));
+            }
+            Line::OpenSection => sheet.refuse(&range, "a section begins here, and its `]` is missing"),
+            Line::Key(key, value) => {
+                let (section, key, value) = (Rc::clone(&section), key.to_owned(), value.to_owned());
+                file.entries.push(Entry { section, key, value, range, from: None, used: false });
+            }
+            Line::Other if !is_ended && start + line.len() == sheet.text.len() => {
+                sheet.refuse(&range, "the file ends in the middle of a key; is it cut short?");
+            }
+            Line::Other => sheet.leave(&range, format!("`{told}`"), "a key without `=`"),
         }
     }
     file
+}
+
+/// A line of an INI file.
+enum Line<'l> {
+    Nothing,
+    Include(&'l str),
+    Section(&'l str),
+    /// A section without its end.
+    OpenSection,
+    Key(&'l str, &'l str),
+    Other,
+}
+
+fn parse(told: &str) -> Line<'_> {
+    if let Some(name) = told.strip_prefix("#INCLUDE") {
+        return Line::Include(name.trim());
+    }
+    if told.is_empty() || told.starts_with(['#', ';']) {
+        return Line::Nothing;
+    }
+    if let Some(name) = told.strip_prefix('[') {
+        return name.split_once(']').map_or(Line::OpenSection, |(name, _)| Line::Section(name.trim()));
+    }
+    told.split_once('=').map_or(Line::Other, |(key, value)| Line::Key(key.trim(), value.trim()))
+}
+
+/// Where included files are read.
+struct Within<'w> {
+    /// Paths count from here.
+    folder: &'w Path,
+    /// The line of the INI file that leads to them.
+    range: &'w Range<usize>,
+    section: &'w mut Rc<str>,
+    /// The files that are being read, the outermost first.
+    open: Vec<PathBuf>,
+}
+
+impl Within<'_> {
+    /// Takes over the lines of a file; what keeps it from being read is listed.
+    fn include(&mut self, sheet: &mut Sheet<'_>, file: &mut IniFile, name: &str) {
+        let what = format!("`{}`", format!("#INCLUDE {name}").trim_end());
+        let text = match self.text(name) {
+            Ok(text) => text,
+            Err(why) => {
+                file.includes = true;
+                return sheet.leave(self.range, what, why);
+            }
+        };
+        let from: Rc<str> = Rc::from(format!("of {}", shown(name)));
+        for (_, line) in lines(&text) {
+            match parse(line.trim()) {
+                Line::Section(name) => *self.section = Rc::from(name),
+                Line::Include(name) => self.include(sheet, file, name),
+                Line::Key(key, value) if line.len() <= LONGEST_LINE => file.entries.push(Entry {
+                    section: Rc::clone(self.section),
+                    key: key.to_owned(),
+                    value: value.to_owned(),
+                    range: self.range.clone(),
+                    from: Some(Rc::clone(&from)),
+                    used: false,
+                }),
+                Line::OpenSection => {
+                    sheet.refuse(self.range, format!("a section of {} begins without its `]`", shown(name)));
+                }
+                Line::Nothing | Line::Key(..) | Line::Other => {}
+            }
+        }
+        self.open.pop();
+    }
+
+    /// The text of a file, which then counts as open.
+    fn text(&mut self, name: &str) -> Result<String, String> {
+        if name.is_empty() {
+            return Err("it names no file".to_owned());
+        }
+        if name.starts_with('~') {
+            return Err("files of a home folder are not read; name it by its path".to_owned());
+        }
+        let path = paths::absolute(&self.folder.join(name));
+        if self.open.contains(&path) {
+            return Err("the file includes itself".to_owned());
+        }
+        if self.open.len() >= DEEPEST {
+            return Err(format!("files include each other more than {DEEPEST} levels deep"));
+        }
+        let text = text_of(&path)?;
+        self.open.push(path);
+        Ok(text)
+    }
+}
+
+/// The text of a file that another one names.
+fn text_of(path: &Path) -> Result<String, String> {
+    if !path.exists() {
+        return Err(format!("there is no file {}", paths::shown_from_here(path)));
+    }
+    let bytes = reading::regular(path, MOST_BYTES)
+        .map_err(|reason| format!("cannot read {}: {reason}", paths::shown_from_here(path)))?;
+    Ok(String::from_utf8_lossy(&bytes).into_owned())
+}
+
+/// The name of a file without its folder.
+fn shown(name: &str) -> &str {
+    name.rsplit(['/', '\\']).next().unwrap_or(name)
 }
 
 /// The axes of the machine.
@@ -144,7 +269,7 @@ struct IniFile {
     entries: Vec<Entry>,
     /// The section at the end, and where it begins.
     last: Option<(Rc<str>, Range<usize>)>,
-    /// There is more in other files.
+    /// There is more in files that could not be read.
     includes: bool,
 }
 
@@ -160,6 +285,68 @@ impl IniFile {
         let entry = keys.iter().find_map(|key| self.take(section, key))?;
         let number = sheet.positive(entry.first(), &entry.range, &entry.place())?;
         Some((number, entry))
+    }
+
+    /// The limits that HAL files set, over those of the INI file.
+    fn hal_files(&mut self, sheet: &mut Sheet<'_>, folder: &Path) {
+        let mut set: Vec<Entry> = Vec::new();
+        for ix in 0..self.entries.len() {
+            let Some(entry) = self.entries.get_mut(ix) else { break };
+            let is_hal = *entry.section == *"HAL"
+                && matches!(entry.key.as_str(), "HALFILE" | "POSTGUI_HALFILE" | "HALCMD" | "POSTGUI_HALCMD");
+            if !is_hal {
+                continue;
+            }
+            entry.used = true;
+            let (range, name, is_file) =
+                (entry.range.clone(), entry.value.clone(), entry.key.ends_with("FILE"));
+            let file_name = entry.first().to_owned();
+            let told = if is_file { shown(&file_name).to_owned() } else { entry.key.clone() };
+            let text = if !is_file {
+                Ok(name)
+            } else if file_name.starts_with("LIB:") || file_name.starts_with('~') {
+                Err("files of the control's library and of home folders are not read".to_owned())
+            } else if !file_name.to_ascii_lowercase().ends_with(".hal") {
+                Err("only files of HAL commands are read (`.hal`)".to_owned())
+            } else {
+                text_of(&folder.join(&file_name))
+            };
+            match text {
+                Ok(text) => self.limits_of(sheet, &text, &told, &range, &mut set),
+                Err(why) => sheet.leave(&range, format!("[HAL] {file_name}"), why),
+            }
+        }
+        // The last value that is set is the one that stays; it counts before all of the INI file.
+        set.reverse();
+        self.entries.splice(0..0, set);
+    }
+
+    /// The limits that commands of a HAL file set.
+    fn limits_of(
+        &self,
+        sheet: &mut Sheet<'_>,
+        text: &str,
+        name: &str,
+        range: &Range<usize>,
+        set: &mut Vec<Entry>,
+    ) {
+        let value_of = |section: &str, key: &str| {
+            let is_it = |entry: &&Entry| *entry.section == *section && entry.key == key;
+            self.entries.iter().find(is_it).map(|entry| entry.first().to_owned())
+        };
+        for limit in hal::limits(text) {
+            match limit.value(value_of) {
+                Ok(value) => set.push(Entry {
+                    section: Rc::from(limit.section),
+                    key: limit.key.to_owned(),
+                    value,
+                    range: range.clone(),
+                    from: Some(Rc::from(format!("as {name} sets it ({})", limit.pin))),
+                    used: false,
+                }),
+                Err(why) => sheet.leave(range, format!("{} of {name}", limit.pin), why),
+            }
+        }
     }
 
     fn units(&mut self, sheet: &mut Sheet<'_>) {
@@ -338,7 +525,9 @@ impl IniFile {
             }
             let is_limit = LIMITS.contains(&entry.key.as_str());
             let first = used.get(&key);
-            let why = if let Some(first) = first {
+            let why = if let Some(from) = first.and_then(|first| first.from.as_ref()) {
+                format!("the value {from} counts")
+            } else if let Some(first) = first {
                 format!(
                     "line {} has the key already, and the first one counts",
                     sheet.line(first.range.start)

@@ -283,3 +283,89 @@ fn a_program_is_the_same_as_itself() {
         }
     }
 }
+
+/// Two programs that differ in the line that decides how corners are taken.
+fn corners(control: &str, program: &str, [a, b]: [&str; 2]) -> String {
+    let shop = Shop::with(&[("a.nc", &program.replace('#', a)), ("b.nc", &program.replace('#', b))]);
+    let run = shop.gcheck(&format!("diff a.nc b.nc -q --control {control}"));
+    format!("{}{}exit {}\n", run.stdout, run.stderr, run.code)
+}
+
+const SQUARE: &str = "G21 G90 G17 G94 G54\n#\nG0 X0 Y0 Z5\nG1 Z-1 F100\nX10 F500\nY10\nX9.9\nY0\nG0 Z5\nM2\n";
+
+#[test]
+fn tolerances_of_blending_say_by_how_much_a_corner_may_differ() {
+    expect![[r#"
+        how corners are taken differs, once
+          - a.nc:4  corners blended within 0.5 mm   | G1 Z-1 F100
+          + b.nc:4  corners blended within 0.01 mm   | G1 Z-1 F100
+          the paths may differ at 4 corners: by up to 0.5 mm at X0 Y0 Z-1 (a.nc:5)
+        a.nc and b.nc move along the same path, within 0.001 mm, with differences
+        exit 1
+    "#]]
+    .assert_eq(&corners("linuxcnc", SQUARE, ["G64 P0.5", "G64 P0.01"]));
+    expect![[r#"
+        how corners are taken differs, once
+          - a.nc:4  exact stop   | G1 Z-1 F100
+          + b.nc:4  corners blended within 0.2 mm, segments joined within 0.05 mm   | G1 Z-1 F100
+          the paths may differ at 4 corners: by up to 0.2 mm at X0 Y0 Z-1 (a.nc:5)
+        a.nc and b.nc move along the same path, within 0.001 mm, with differences
+        exit 1
+    "#]]
+    .assert_eq(&corners("linuxcnc", SQUARE, ["G61.1", "G64 P0.2 Q0.05"]));
+    // Both stop, or pass, every point of the path.
+    expect![[r#"
+        how corners are taken differs, once
+          - a.nc:4  exact path   | G1 Z-1 F100
+          + b.nc:4  exact stop   | G1 Z-1 F100
+        a.nc and b.nc move along the same path, within 0.001 mm, with differences
+        exit 1
+    "#]]
+    .assert_eq(&corners("linuxcnc", SQUARE, ["G61", "G61.1"]));
+    // Everybody blends until something else is said.
+    expect![[r#"
+        a.nc and b.nc make the machine do the same, within 0.001 mm
+        exit 0
+    "#]]
+    .assert_eq(&corners("linuxcnc", SQUARE, ["G64", ""]));
+}
+
+#[test]
+fn smoothing_contour_control_and_exact_stop_of_one_block_are_compared() {
+    let inches = SQUARE.replace("G21", "G20").replace("X0 Y0 Z5", "X0. Y0. Z5.");
+    expect![[r#"
+        how corners are taken differs, once
+          - a.nc:4  corners blended without a tolerance, smoothing level 1   | G1 Z-1 F100
+          + b.nc:4  corners blended without a tolerance, smoothing level 3, smoothing within 0.002 inch   | G1 Z-1 F100
+          the paths may differ at 4 corners, the first at X0 Y0 Z-0.0001 (a.nc:5): a program gives no tolerance, so the control decides by how much
+        a.nc and b.nc move along the same path, within 0.001 mm, with differences
+        exit 1
+    "#]].assert_eq(&corners("haas-mill", &inches, ["G187 P1", "G187 P3 E0.002"]));
+    expect![[r#"
+        how corners are taken differs, once
+          - a.nc:4  corners blended without a tolerance, smoothing within 0.01 inch   | G1 Z-1 F100
+          + b.nc:4  corners blended without a tolerance, smoothing within 0.002 inch   | G1 Z-1 F100
+          the paths may differ at 4 corners: by up to 0.00021 inch at X0 Y0 Z-0.0001 (a.nc:5)
+        a.nc and b.nc move along the same path, within 0.001 mm, with differences
+        exit 1
+    "#]]
+    .assert_eq(&corners("haas-mill", &inches, ["G187 E0.01", "G187 E0.002"]));
+    let contour = SQUARE.replace("Z5", "Z5.");
+    expect![[r#"
+        how corners are taken differs, once
+          - a.nc:4  corners blended without a tolerance, contour control, level 1   | G1 Z-1 F100
+          + b.nc:4  corners blended without a tolerance, contour control, level 10   | G1 Z-1 F100
+          the paths may differ at 4 corners, the first at X0 Y0 Z-0.001 (a.nc:5): a program gives no tolerance, so the control decides by how much
+        a.nc and b.nc move along the same path, within 0.001 mm, with differences
+        exit 1
+    "#]].assert_eq(&corners("fanuc-mill", &contour, ["G5.1 Q1 R1.", "G5.1 Q1 R10."]));
+    let once = "G21 G90 G17 G94 G54\nG0 X0. Y0. Z5.\nG1 Z-1. F100.\n# X10. F500.\nY10.\nG0 Z5.\nM30\n";
+    expect![[r#"
+        how corners are taken differs, once
+          - a.nc:4  exact stop   | G9 X10. F500.
+          + b.nc:4  corners blended without a tolerance   | X10. F500.
+          the paths may differ at 1 corner, the first at X0 Y0 Z-1 (a.nc:4): a program gives no tolerance, so the control decides by how much
+        a.nc and b.nc move along the same path, within 0.001 mm, with differences
+        exit 1
+    "#]].assert_eq(&corners("fanuc-mill", once, ["G9", ""]));
+}

@@ -407,10 +407,10 @@ fn what_no_machine_has_writes_nothing() {
         "nothing here\n",
         "",
         &expect![[r#"
-        ! error: notes.txt: does not show in which format it describes a machine
-        !   help: name it: `--format ini`, `tool-table`, `settings`, `fusion`, `freecad`, `mtconnect` or `offsets`
-        exit 2
-    "#]],
+            ! error: notes.txt: does not show in which format it describes a machine
+            !   help: name it: `--format ini`, `tool-table`, `settings`, `yaml`, `fusion`, `freecad`, `freecad-machine`, `mtconnect` or `offsets`
+            exit 2
+        "#]],
     );
     check(
         "deep.json",
@@ -1260,23 +1260,23 @@ fn a_section_may_be_in_another_file() {
         &format!("{ini}#INCLUDE a.inc\n"),
         "--dry-run",
         &expect![[r##"
-        # Configuration of gcheck for the programs in this folder and below.
+            # Configuration of gcheck for the programs in this folder and below.
 
-        [machine]
-        units = "mm"  # from mill.ini
-        name = "Mill"  # from mill.ini, [EMC] MACHINE
-        axes = ["X", "Z", "A"]  # from mill.ini, [TRAJ] COORDINATES
-        travel.X = [-300.0, 0.0]  # from mill.ini, [AXIS_X] MIN_LIMIT and MAX_LIMIT
-        travel.Z = [-120.0, 5.0]  # from mill.ini, [JOINT_1] MIN_LIMIT and MAX_LIMIT
-        rapid.X = 3000.0  # from mill.ini, [AXIS_X] MAX_VELOCITY * 60, held by [TRAJ] MAX_LINEAR_VELOCITY
-        rapid.Z = 3000.0  # from mill.ini, [JOINT_1] MAX_VELOCITY * 60
-        acceleration.X = 500.0  # from mill.ini, [AXIS_X] MAX_ACCELERATION
-        acceleration.Z = 400.0  # from mill.ini, [JOINT_1] MAX_ACCELERATION
-        max_feed = 3000.0  # from mill.ini, [TRAJ] MAX_LINEAR_VELOCITY * 60
-        ! mill.ini:4: not used: axis A: the axis has no section with limits
-        ! mill.ini:19: not used: `#INCLUDE a.inc`: files that a file includes are not read
-        exit 0
-    "##]],
+            [machine]
+            units = "mm"  # from mill.ini
+            name = "Mill"  # from mill.ini, [EMC] MACHINE
+            axes = ["X", "Z", "A"]  # from mill.ini, [TRAJ] COORDINATES
+            travel.X = [-300.0, 0.0]  # from mill.ini, [AXIS_X] MIN_LIMIT and MAX_LIMIT
+            travel.Z = [-120.0, 5.0]  # from mill.ini, [JOINT_1] MIN_LIMIT and MAX_LIMIT
+            rapid.X = 3000.0  # from mill.ini, [AXIS_X] MAX_VELOCITY * 60, held by [TRAJ] MAX_LINEAR_VELOCITY
+            rapid.Z = 3000.0  # from mill.ini, [JOINT_1] MAX_VELOCITY * 60
+            acceleration.X = 500.0  # from mill.ini, [AXIS_X] MAX_ACCELERATION
+            acceleration.Z = 400.0  # from mill.ini, [JOINT_1] MAX_ACCELERATION
+            max_feed = 3000.0  # from mill.ini, [TRAJ] MAX_LINEAR_VELOCITY * 60
+            ! mill.ini:4: not used: axis A: the axis has no section with limits
+            ! mill.ini:19: not used: `#INCLUDE a.inc`: there is no file a.inc
+            exit 0
+        "##]],
     );
 }
 

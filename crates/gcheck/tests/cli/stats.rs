@@ -425,3 +425,29 @@ fn bars_that_give_no_part_are_counted_as_such() {
     assert!(stats("I20.").contains("0 parts from"), "{}", stats("I20."));
     assert!(stats("I105.").contains("1 a bar"), "{}", stats("I105."));
 }
+
+#[test]
+fn chip_loads_surface_speeds_and_how_corners_are_taken_are_shown_by_tool() {
+    let configuration = "control = \"linuxcnc\"\n[machine]\nunits = \"mm\"\naxes = [\"X\", \"Y\", \"Z\"]\n[tools]\n\
+        1 = { length = 100.0, diameter = 10.0, teeth = 4, chip_load = [0.02, 0.06], surface_speed = [60.0, 160.0] }\n\
+        2 = { length = 80.0, diameter = 6.0 }\n";
+    let program = "G21 G90 G94 G54\nT1 M6\nG43 H1\nS3000 M3\nG64 P0.02\nG0 X0 Y0 Z5\nG1 Z0 F200\nX50 F600\nG61\nY50\n\
+        T2 M6\nG43 H2\nS5000 M3\nG64\nG1 X0 F500\nM2\n";
+    let shop = Shop::with(&[("gcheck.toml", configuration), ("part.ngc", program)]);
+    let run = shop.gcheck("stats part.ngc -q");
+    let from = run.stdout.find("chip load").expect("chip loads are shown");
+    let to = run.stdout.find("extents").expect("extents follow");
+    expect![[r#"
+        chip load and surface speed
+          T1: 0.0167-0.05 mm a tooth, 94.2478 m/min
+
+        corners
+          T1: corners blended within 0.02 mm; exact path
+          T2: corners blended without a tolerance
+
+    "#]]
+    .assert_eq(&run.stdout[from..to]);
+    let json = shop.gcheck("stats part.ngc -q --output-format json").json();
+    assert_eq!(json["tools"][0]["edge"]["chip_load"]["max"], 0.05, "{:#}", json["tools"][0]);
+    assert_eq!(json["tools"][0]["corners"][0], "corners blended within 0.02 mm");
+}

@@ -9,8 +9,11 @@ use crate::workspace::TextFile;
 
 /// Builders and controls, whether the knowledge base has them or not.
 const BUILDERS: &[&str] = &[
+    "bobscnc",
+    "dah lih",
     "fagor",
     "fanuc",
+    "fluidnc",
     "grbl",
     "haas",
     "heidenhain",
@@ -21,13 +24,17 @@ const BUILDERS: &[&str] = &[
     "mazatrol",
     "mitsubishi",
     "okuma",
+    "pocketnc",
+    "shapeoko",
+    "sherline",
     "siemens",
     "sinumerik",
+    "tormach",
     "tsnc",
 ];
 
 /// Words in names of controls that name nobody.
-const NOBODY: &[&str] = &["generic", "lathe", "mill", "turn"];
+const NOBODY: &[&str] = &["generic", "lathe", "machines", "mill", "turn"];
 
 /// Crates that never ship.
 const FREE: &[&str] = &["gcheck-testkit"];

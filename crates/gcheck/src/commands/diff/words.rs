@@ -7,7 +7,7 @@ use std::path::Path;
 
 use gcheck_controls::Control;
 use gcheck_engine::{Axis, Model, Position, Spindle, Units};
-use gcheck_toolpath::{Aspect, Difference, Differences, Driven, Feed, Parting, Place, Stand, Value};
+use gcheck_toolpath::{Aspect, Corner, Difference, Differences, Driven, Feed, Parting, Place, Stand, Value};
 use serde_json::{Value as Json, json};
 
 use crate::Problem;
@@ -63,6 +63,9 @@ impl Sides<'_> {
             if more > 0 {
                 let _ = writeln!(out, "  … and {more} more");
             }
+            if let Some(corner) = differences.corner.as_ref().filter(|_| aspect == Aspect::Corners) {
+                self.corner(&mut out, corner);
+            }
         }
         out.push_str(&self.verdict(differences));
         out
@@ -96,6 +99,24 @@ impl Sides<'_> {
             };
             self.one(out, side, place.as_ref(), &words);
         }
+    }
+
+    fn corner(&self, out: &mut String, corner: &Corner) {
+        let corners =
+            if corner.count == 1 { "1 corner".to_owned() } else { format!("{} corners", corner.count) };
+        let at = format!("{} ({}:{})", self.point(&corner.at), corner.a.file, corner.a.line);
+        // Writing to a string cannot fail.
+        let _ = match corner.off {
+            Some(off) => writeln!(
+                out,
+                "  the paths may differ at {corners}: by up to {} at {at}",
+                self.length(off, true)
+            ),
+            None => writeln!(
+                out,
+                "  the paths may differ at {corners}, the first at {at}: a program gives no tolerance, so the control decides by how much"
+            ),
+        };
     }
 
     fn difference(&self, out: &mut String, difference: &Difference) {
@@ -230,6 +251,7 @@ impl Sides<'_> {
                     .collect();
                 if on.is_empty() { "no coolant".to_owned() } else { on.join(" and ") }
             }
+            Value::Corners(corners) => corners.words(self.units),
             Value::Stand(stand) => self.stand(stand),
         }
     }
@@ -295,6 +317,12 @@ impl Sides<'_> {
                 "apart": Some(parting.apart).filter(|apart| apart.is_finite()),
             })
         });
+        let corner = differences.corner.as_ref().map(|corner| {
+            json!({
+                "a": place(0, Some(&corner.a)), "at": coordinates(&corner.at),
+                "off": corner.off, "count": corner.count,
+            })
+        });
         let side = |side: usize| {
             self.prepared.get(side).map(|prepared| {
                 let fault = self.faults.get(side).and_then(Option::as_ref).map(|fault| &fault.message);
@@ -310,6 +338,7 @@ impl Sides<'_> {
             "moves": differences.moves,
             "unknown": differences.unknown,
             "parting": parting,
+            "corner": corner,
             "differences": by_aspect,
         })
     }
@@ -325,6 +354,7 @@ fn title(aspect: Aspect) -> &'static str {
         Aspect::Length => "the tool length offset differs",
         Aspect::Cutter => "the cutter offset differs",
         Aspect::Coolant => "coolant differs",
+        Aspect::Corners => "how corners are taken differs",
         Aspect::Dwell => "dwells differ",
         Aspect::Stop => "stops differ",
         Aspect::Other => "other commands differ",

@@ -1,0 +1,184 @@
+//! A tolerance of blending that is larger than a feature cut under it.
+
+use std::collections::BTreeSet;
+use std::f64::consts::FRAC_PI_3;
+
+use gcheck_controls::Effect;
+use gcheck_engine::{At, Event, Fact, PathMode, Position, Role, TravelKind};
+use gcheck_geometry::Mm;
+
+use crate::declare::declare_rule;
+use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
+use crate::{Remembers, remembers};
+
+declare_rule! {
+    /// Corners are blended with a tolerance (`G64 P`) that is larger than the radius of an arc, or than a step between two
+    /// sharp corners.
+    ///
+    /// Arcs count from a sixth of a turn on, and steps between corners of 60 degrees and more, where the moves beside them are
+    /// much longer. Each tolerance is reported once.
+    ///
+    /// ## Why it matters
+    /// The control may leave the path by the tolerance at each corner, so that a feature of that size may be missing from the
+    /// part.
+    ///
+    /// ## Reported
+    /// ```nc,reported,linuxcnc
+    /// G21 G90 G17 G64 P0.5
+    /// G0 X0 Y0
+    /// G1 X10 F500
+    /// G3 X10.2 Y0.2 J0.2
+    /// G1 Y10
+    /// M2
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,linuxcnc
+    /// G21 G90 G17 G64 P0.05
+    /// G0 X0 Y0
+    /// G1 X10 F500
+    /// G3 X10.2 Y0.2 J0.2
+    /// G1 Y10
+    /// M2
+    /// ```
+    rule "tolerance-above-feature" in "motion" {
+        summary: "blending tolerance larger than a feature",
+        severity: Info,
+        tier: Path,
+        since: "0.1.0",
+        run: Run::Path { watch: Watch::MOVES, make: || Box::new(ToleranceAboveFeature::default()) },
+    }
+}
+
+/// So many times as long as a step are the moves beside it; between shorter ones it belongs to a curve.
+const STEP: f64 = 5.0;
+/// A step that is a smaller part of the tolerance is the rounding of a CAM system.
+const NOISE: f64 = 0.1;
+
+#[derive(Default, Clone, PartialEq)]
+struct ToleranceAboveFeature {
+    /// The straight moves before this one, the last one last.
+    before: [Option<Way>; 2],
+    /// The blocks that gave the tolerances that were reported.
+    told: BTreeSet<Option<At>>,
+}
+
+remembers!(ToleranceAboveFeature: told);
+
+/// Direction and length of a straight move in X, Y and Z.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Way {
+    direction: [f64; 3],
+    length: f64,
+}
+
+impl Way {
+    fn new(from: &Position, to: &Position) -> Option<Self> {
+        let ([from_x, from_y, from_z], [x, y, z]) = (from.xyz(), to.xyz());
+        // An axis of which nothing is known does not move here.
+        let part = |from: Mm, to: Mm| if from.0.is_nan() && to.0.is_nan() { 0.0 } else { to.0 - from.0 };
+        let way = [part(from_x, x), part(from_y, y), part(from_z, z)];
+        let [dx, dy, dz] = way;
+        let length = dx.hypot(dy).hypot(dz);
+        let direction = way.map(|part| part / length);
+        (length.is_finite() && length > 0.0).then_some(Self { direction, length })
+    }
+
+    /// Does the path turn by 60 degrees or more into the next move?
+    fn turns_into(&self, next: &Self) -> bool {
+        let dot: f64 = self.direction.iter().zip(next.direction).map(|(a, b)| a * b).sum();
+        dot <= 0.5 + 1e-9
+    }
+}
+
+impl PathRule for ToleranceAboveFeature {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
+    fn concerns(&self, program: &Uses<'_>) -> bool {
+        program.may(|effect| effect == Effect::PathBlending)
+    }
+
+    fn moved(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
+        let way = match event {
+            Event::Travel(travel) if travel.kind == TravelKind::Feed && !travel.expanded => {
+                Way::new(&travel.from, &travel.to)
+            }
+            _ => None,
+        };
+        let [first, step] = self.before;
+        self.before = [step, way];
+        let Some(PathMode::Blending { tolerance, .. }) = cx.state().path_mode(cx.model) else { return };
+        if tolerance.0.is_nan() || tolerance.0 <= 0.0 {
+            return;
+        }
+        let (size, what) = match (event, first, step, way) {
+            (Event::Arc(arc), ..) if !arc.expanded && arc.sweep.abs() >= FRAC_PI_3 - 1e-9 => {
+                let (from, (one, other, _)) = (arc.from.values(), arc.plane.axes());
+                let ends = from.get(one).zip(from.get(other));
+                let Some((x, y)) = ends else { return };
+                ((x - arc.centre.0.0).hypot(y - arc.centre.1.0), "the radius of this arc")
+            }
+            (_, Some(first), Some(step), Some(next))
+                if first.turns_into(&step)
+                    && step.turns_into(&next)
+                    && first.length.min(next.length) > STEP * step.length
+                    && step.length > NOISE * tolerance.0 =>
+            {
+                (step.length, "the step before this")
+            }
+            _ => return,
+        };
+        let fact = Fact::Mode(Role::PathControl);
+        let set_by = cx.trace().set_by(fact);
+        if size.is_nan() || size >= tolerance.0 * (1.0 - 1e-9) || !self.told.insert(set_by) {
+            return;
+        }
+        let name = cx.code_name(Role::PathControl).unwrap_or_default();
+        let finding = cx
+            .finding(
+                &META,
+                cx.range(),
+                format!(
+                    "the tolerance of {} is larger than {} of {} (`{name}`)",
+                    cx.shown(Mm(tolerance.0)),
+                    what,
+                    cx.shown(Mm(size))
+                ),
+            )
+            .label("the control may cut across it")
+            .help("give a tolerance below the smallest feature");
+        report.add(cx.resting_on(finding, fact, &format!("`{name}`")));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::check_rule;
+
+    #[test]
+    fn a_step_between_two_corners() {
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "G21 G90 G64 P0.5\nG0 X0 Y0\nG1 X10 F500\nY0.3\nX20\nY0.6\nX30\nM2\n",
+            &expect![[r#"
+                5 | X20
+                  | ^^^ info[tolerance-above-feature] the tolerance of 0.5 mm is larger than the step before this of 0.3 mm (`G64`)
+            "#]],
+        );
+    }
+
+    #[test]
+    fn segments_of_a_curve_are_no_steps() {
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "G21 G90 G64 P0.5\nG0 X0 Y0\nG1 X0.3 F500\nX0.6 Y0.1\nX0.9 Y0.3\nX1.1 Y0.6\nM2\n",
+            &expect![[""]],
+        );
+    }
+}
