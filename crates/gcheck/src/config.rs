@@ -26,7 +26,7 @@ pub use format::FormatTable;
 pub use layer::Layer;
 pub use pattern::PathPattern;
 pub use placed::Placed;
-pub(crate) use read::check_text;
+pub(crate) use read::{check_text, layer_of_text};
 pub use settings::{FileSettings, RuleWishes};
 pub(crate) use validate::{
     implausible_acceleration, rotary_axis, unknown_rule, validate_control, work_offset,
@@ -44,6 +44,11 @@ pub struct Config {
 }
 
 impl Config {
+    /// A configuration of one text.
+    pub(crate) fn of_layer(layer: Arc<Layer>) -> Self {
+        Self { layers: vec![layer] }
+    }
+
     /// Its layers, the most basic first.
     pub fn layers(&self) -> &[Arc<Layer>] {
         &self.layers
