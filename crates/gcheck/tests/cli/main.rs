@@ -29,6 +29,7 @@ mod machine;
 mod output;
 mod plot;
 mod readers;
+mod resources;
 mod run;
 mod shop;
 mod stats;
