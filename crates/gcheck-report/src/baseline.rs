@@ -220,9 +220,10 @@ impl Baseline {
 
     /// How many findings it knows.
     pub fn len(&self) -> usize {
-        let counts = self.files.values().flat_map(|known| {
-            std::iter::once(known.findings.len()).chain(known.omitted.values().copied())
-        });
+        let counts = self
+            .files
+            .values()
+            .flat_map(|known| std::iter::once(known.findings.len()).chain(known.omitted.values().copied()));
         counts.fold(0, usize::saturating_add)
     }
 

@@ -241,7 +241,7 @@ impl Report {
             if file.out_of_fuel {
                 sum.out_of_fuel.push(file.path.clone());
             }
-            let failed = |rule: &&'static str| FailedRule { file: file.path.clone(), rule: *rule };
+            let failed = |rule: &&'static str| FailedRule { file: file.path.clone(), rule };
             sum.failed_rules.extend(file.failed_rules.iter().map(failed));
             sum.omitted += file.omitted.iter().map(|(_, _, count)| count).sum::<usize>();
             let kept = file.findings.iter().map(|finding| (finding.severity, 1));

@@ -40,7 +40,8 @@ pub fn import(name: &str, bytes: &[u8], before: &str) -> Option<String> {
     let path = Path::new("gcheck.toml");
     let config = Configs::new(&[], true).ok()?.of_file(path).ok()?;
     let surroundings = Surroundings::new(path, &config, None);
-    let target = Target { path, before, overwrite: bytes.len() % 2 == 0, surroundings: &surroundings };
+    let target =
+        Target { path, before, overwrite: bytes.len().is_multiple_of(2), surroundings: &surroundings };
     importing::merge(&target, &[facts], None).ok().map(|merged| merged.text)
 }
 

@@ -26,7 +26,7 @@ pub(crate) fn run(bytes: &[u8]) {
     let mut text = case.text;
     let id = database.open(&text, settings.clone());
     for (round, edit) in edits.into_iter().enumerate() {
-        if round % 2 == 0 {
+        if round.is_multiple_of(2) {
             let first = database.first_findings(id, text.len() / 2, &|| false).ok().flatten();
             assert_fresh(&mut database, id, &settings, &text, first.map(|first| first.findings.clone()));
         }

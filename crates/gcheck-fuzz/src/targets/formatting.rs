@@ -64,7 +64,11 @@ fn style(dialect: &Dialect<'_>, one: u8, two: u8) -> Style {
             letter_case: LetterCase::Upper,
             leading_zeros: LeadingZeros::Drop,
             trailing_zeros: TrailingZeros::Drop,
-            sequence_numbers: if two % 2 == 0 { SequenceNumbers::Drop } else { own.sequence_numbers },
+            sequence_numbers: if two.is_multiple_of(2) {
+                SequenceNumbers::Drop
+            } else {
+                own.sequence_numbers
+            },
             comment_column: 1,
             blank_lines: 0,
             indentation: Indentation::None,

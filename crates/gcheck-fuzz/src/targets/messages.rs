@@ -2,10 +2,12 @@
 //!
 //! Knows: the frames of messages, the methods by name. Must not know: what they answer.
 
-use std::io::{self, PipeReader, PipeWriter, Read as _, Write as _};
+use std::io::{self, BufRead as _, BufReader, PipeReader, PipeWriter, Read as _, Write as _};
 use std::path::{Path, PathBuf};
+use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::{self, JoinHandle};
+use std::time::Duration;
 
 use gcheck_controls::fallback;
 use gcheck_db::Settings;
@@ -18,6 +20,8 @@ use crate::programs;
 
 /// The folder that the server is told of.
 const FOLDER: &str = "/work";
+/// An answer that takes longer is missing.
+const PATIENCE: Duration = Duration::from_secs(20);
 /// Messages of an input.
 const MOST: usize = 40;
 
@@ -91,17 +95,21 @@ impl Host for Files {
 /// A server and both ends of its streams.
 struct Session {
     input: PipeWriter,
-    output: JoinHandle<Vec<u8>>,
+    output: Receiver<Value>,
     server: JoinHandle<io::Result<Ending>>,
     sent: u32,
+    /// What the server said.
+    said: Vec<Value>,
 }
 
 impl Session {
     fn new(files: Arc<Files>) -> io::Result<Self> {
         let (reader, input) = io::pipe()?;
-        let (output, writer) = io::pipe()?;
+        let (from_server, writer) = io::pipe()?;
         let server = thread::spawn(move || serve(files, reader, writer));
-        let mut session = Self { input, output: thread::spawn(move || read_all(output)), server, sent: 0 };
+        let (sender, output) = channel();
+        thread::spawn(move || read_all(from_server, &sender));
+        let mut session = Self { input, output, server, sent: 0, said: Vec::new() };
         let folder = format!("file://{FOLDER}");
         session.request(
             "initialize",
@@ -129,37 +137,58 @@ impl Session {
         self.send(&json!({ "jsonrpc": "2.0", "method": method, "params": params }));
     }
 
+    /// Waits until every request has an answer, or for long.
+    fn wait(&mut self) {
+        while self.said.iter().filter(|message| answer_to(message).is_some()).count() < self.sent as usize {
+            let Ok(message) = self.output.recv_timeout(PATIENCE) else { return };
+            self.said.push(message);
+        }
+    }
+
     /// Ends the session; gives every message of the server.
     fn end(mut self) -> Vec<Value> {
+        // A client that says `exit` does not wait for what it asked before.
+        self.wait();
         self.request("shutdown", &Value::Null);
+        self.wait();
         self.notify("exit", &Value::Null);
-        let Self { input, output, server, .. } = self;
+        let Self { input, output, server, mut said, .. } = self;
         drop(input);
-        let (ended, said) = (server.join(), output.join());
+        let ended = server.join();
         assert!(matches!(ended, Ok(Ok(Ending::Orderly))), "the session ends as it should: {ended:?}");
-        messages(&said.unwrap_or_default())
+        // The stream ends when no thread of the server is left.
+        said.extend(output);
+        said
     }
 }
 
-fn read_all(mut output: PipeReader) -> Vec<u8> {
-    let mut bytes = Vec::new();
-    let _ = output.read_to_end(&mut bytes);
-    bytes
+/// The request that a message answers.
+fn answer_to(message: &Value) -> Option<u64> {
+    if message.get("method").is_some() { None } else { message.get("id")?.as_u64() }
 }
 
-/// Takes a stream apart.
-fn messages(stream: &[u8]) -> Vec<Value> {
-    let mut found = Vec::new();
-    let mut rest = stream;
-    while let Some(end) = rest.windows(4).position(|four| four == b"\r\n\r\n") {
-        let (head, body) = rest.split_at(end);
-        let head = String::from_utf8_lossy(head);
-        let length = head.split(':').nth(1).and_then(|length| length.trim().parse().ok()).unwrap_or(0);
-        let body = body.get(4..).unwrap_or_default();
-        found.extend(serde_json::from_slice(body.get(..length).unwrap_or(body)).ok());
-        rest = body.get(length..).unwrap_or_default();
+/// Takes the stream apart.
+fn read_all(from: PipeReader, to: &Sender<Value>) {
+    let mut from = BufReader::new(from);
+    loop {
+        let mut length = 0;
+        let mut line = String::new();
+        while from.read_line(&mut line).is_ok_and(|read| read > 0) && !line.trim().is_empty() {
+            if let Some(value) = line.to_ascii_lowercase().strip_prefix("content-length:") {
+                length = value.trim().parse().unwrap_or(0);
+            }
+            line.clear();
+        }
+        let mut body = vec![0; length];
+        if length == 0 || from.read_exact(&mut body).is_err() {
+            return;
+        }
+        if let Ok(message) = serde_json::from_slice(&body)
+            && to.send(message).is_err()
+        {
+            return;
+        }
     }
-    found
 }
 
 const DOCUMENTS: &[&str] = &["a.nc", "b.nc", "O9010.nc"];
@@ -242,10 +271,7 @@ fn finish(mut session: Session, texts: &[Option<String>], answered: &mut Vec<usi
     answered.resize(session.sent as usize + 2, 0);
     let mut last = vec![Value::Null; (session.sent + 1 - first) as usize];
     for message in session.end() {
-        if message.get("method").is_some() {
-            continue;
-        }
-        let Some(id) = message.get("id").and_then(Value::as_u64) else { continue };
+        let Some(id) = answer_to(&message) else { continue };
         let id = id as usize;
         if let Some(count) = answered.get_mut(id) {
             *count += 1;

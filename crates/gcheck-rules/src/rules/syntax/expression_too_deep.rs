@@ -6,8 +6,7 @@ use crate::declare::declare_rule;
 use crate::{BlockCx, Finding, Report, Run};
 
 declare_rule! {
-    /// Brackets, functions, signs or `IF … THEN` are nested deeper than gcheck reads, or a line has more operators or
-    /// is longer than it reads.
+    /// Brackets, functions, signs or `IF … THEN` are nested deeper than gcheck reads, or a line has more operators or bytes than it reads.
     ///
     /// ## Why it matters
     /// No control evaluates a block of this depth; most stop at five levels. gcheck does not read the rest of the block.
