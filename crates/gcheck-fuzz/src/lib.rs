@@ -1,7 +1,7 @@
 //! Fuzz targets: each makes something of bytes (a program, edits, a configuration, messages), gives it to gcheck, and panics
 //! where a law does not hold.
 //!
-//! Knows: the laws, and how bytes become inputs that reach far. Must not know: who chooses the bytes. A fuzzer that is guided
+//! Knows: the laws, and how bytes become inputs that reach far. Must not know: what chooses the bytes. A fuzzer that is guided
 //! by coverage does (`cargo xtask fuzz`, `fuzz/`), and so does a test that replays a small corpus (`tests/replay.rs`).
 //!
 //! Never part of a release.
@@ -50,7 +50,7 @@ pub fn target(name: &str) -> Option<Target> {
     TARGETS.iter().copied().find(|target| target.name == name)
 }
 
-/// The program that the program targets make of these bytes, and the control that reads it; for whoever looks at an input that
+/// The program that the program targets make of these bytes, and the control that reads it; for a person who looks at an input that
 /// failed.
 pub fn shown(bytes: &[u8]) -> String {
     let case = programs::case(bytes);

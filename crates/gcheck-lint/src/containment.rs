@@ -37,7 +37,7 @@ pub(crate) fn without_rules_that_panic<T>(
     let mut failed: Vec<&'static RuleMeta> = Vec::new();
     loop {
         CALLED.set(None);
-        // Work that is begun again makes all it uses anew.
+        // Work that is begun again makes all that it uses again.
         match catch_unwind(AssertUnwindSafe(|| work(&selection))) {
             Ok(done) => return (done, failed),
             Err(panic) => match CALLED.take() {

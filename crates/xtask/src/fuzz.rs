@@ -197,7 +197,7 @@ fn read(said: &str) -> Ran {
     ran
 }
 
-/// Leaves of the inputs those that add coverage, and takes the shortest as seeds.
+/// Leaves of the inputs those that add coverage, and takes some of them as seeds.
 fn keep(fuzzer: &Path, target: &str) -> anyhow::Result<()> {
     let corpus = folder().join("corpus").join(target);
     let least = folder().join("corpus").join(format!("{target}.least"));

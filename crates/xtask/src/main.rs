@@ -49,7 +49,7 @@ usage: cargo xtask COMMAND
                               as long as an afternoon does
   fuzz [--minutes N] [--keep] [TARGET…]
                               run the fuzzer that is guided by coverage on each target in turn, N minutes in all;
-                              `--keep` makes seeds of the shortest inputs that it found
+                              `--keep` makes seeds of some of the inputs that it found
   bench [lsp]                 measure speed and memory against the budgets, in one table; `lsp`: of the server alone
   corpus                      check the programs of $GCHECK_CORPUS and write docs/dev/corpus.md
   precision                   draw a sample of those findings, match the verdicts of tests/precision.tsv, write

@@ -18,7 +18,7 @@ use serde_json::{Value, json};
 use crate::choices::Choices;
 use crate::programs;
 
-/// The folder that the server is told of.
+/// The folder of the workspace.
 const FOLDER: &str = "/work";
 /// An answer that takes longer is missing.
 const PATIENCE: Duration = Duration::from_secs(20);
@@ -338,7 +338,7 @@ fn step(
             );
         }
         7 => {
-            // Bytes that are no message, with a frame that says where they end.
+            // Bytes that are not a message, with a frame that says where they end.
             let length = choices.below(32);
             let junk = choices.take(length);
             let _ = write!(session.input, "Content-Length: {}\r\n\r\n", junk.len());

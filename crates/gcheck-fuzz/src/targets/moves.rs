@@ -1,6 +1,6 @@
 //! What a run of a program does, without where in the text.
 //!
-//! Knows: events of a run. Must not know: who compares them.
+//! Knows: events of a run. Must not know: what they are compared with.
 
 use gcheck_engine::{
     Concrete, Event, Machine, Model, NoLibrary, Observer, Options, Origin, Program, State, Stopped, run,

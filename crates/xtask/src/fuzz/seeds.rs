@@ -12,6 +12,8 @@ use crate::workspace;
 
 /// Digits of a target's seeds: a test replays them in a moment, and a reader can look at them.
 const MOST_DIGITS: usize = 24 << 10;
+/// Inputs of a target's seeds.
+const MOST_SEEDS: usize = 60;
 
 fn folder() -> PathBuf {
     workspace::root().join("crates/gcheck-fuzz/seeds")
@@ -37,24 +39,31 @@ pub(super) fn unpack(target: &str, into: &Path) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Makes seeds of the shortest files of a folder, beside the seeds that there are.
+/// Makes seeds of some files of a folder, short ones and long ones, beside the seeds that there are.
 pub(super) fn pack(target: &str, from: &Path) -> anyhow::Result<()> {
     let mut lines: Vec<String> = fs::read_to_string(file(target))?.lines().map(str::to_owned).collect();
+    let mut found = Vec::new();
     for entry in fs::read_dir(from)? {
-        lines.push(digits(&fs::read(entry?.path())?));
+        found.push(digits(&fs::read(entry?.path())?));
     }
-    lines.sort_by(|one, other| (one.len(), one).cmp(&(other.len(), other)));
-    lines.dedup();
-    let mut text = String::new();
-    for line in lines {
-        if text.len() + line.len() > MOST_DIGITS {
-            break;
+    by_length(&mut found);
+    let step = found.len() / MOST_SEEDS + 1;
+    for line in found.into_iter().step_by(step) {
+        let size: usize = lines.iter().map(String::len).sum();
+        if lines.len() < MOST_SEEDS && size + line.len() <= MOST_DIGITS {
+            lines.push(line);
         }
-        text.push_str(&line);
-        text.push('\n');
     }
+    by_length(&mut lines);
+    let text: String = lines.iter().map(|line| format!("{line}\n")).collect();
     fs::write(file(target), text)?;
     Ok(())
+}
+
+/// The short ones first, each once.
+fn by_length(lines: &mut Vec<String>) {
+    lines.sort_by(|one, other| (one.len(), one).cmp(&(other.len(), other)));
+    lines.dedup();
 }
 
 fn digits(bytes: &[u8]) -> String {
