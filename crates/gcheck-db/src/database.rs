@@ -38,12 +38,14 @@ pub struct Analysis {
     pub assumptions: Assumptions,
     /// The analysis of paths ended before it had seen all.
     pub out_of_fuel: bool,
+    /// Rules that panicked, by id: whatever they found is left out.
+    pub failed: Vec<&'static RuleMeta>,
 }
 
 impl Analysis {
     fn of(outcome: Outcome) -> Self {
-        let Outcome { findings, omitted, suppressed, assumptions, out_of_fuel, lines: _ } = outcome;
-        Self { findings, omitted, suppressed, assumptions, out_of_fuel }
+        let Outcome { findings, omitted, suppressed, assumptions, out_of_fuel, failed, lines: _ } = outcome;
+        Self { findings, omitted, suppressed, assumptions, out_of_fuel, failed }
     }
 }
 

@@ -14,6 +14,7 @@ use gcheck_program::{BlockFlags, BlockTable, Loaded, Survey, code_region};
 use gcheck_syntax::SourceText;
 
 use crate::block_delete::{Positions, found_by_all, name_condition};
+use crate::containment::{call, without_rules_that_panic};
 use crate::environment::ProgramLibrary;
 use crate::partitions::{Case, Follower, Partition, Partitions, Rules, Told};
 use crate::watchers::{Scope, Watchers};
@@ -82,25 +83,55 @@ pub struct Outcome {
     pub assumptions: Assumptions,
     /// The analysis of paths ended before it had seen all.
     pub out_of_fuel: bool,
+    /// Rules that panicked, by id: whatever they found is left out.
+    pub failed: Vec<&'static RuleMeta>,
 }
 
-/// Findings that were counted and not kept, by rule and severity.
+impl Outcome {
+    /// Adds rules that panicked, and leaves out what they found in parts of the file that were checked before.
+    pub(crate) fn note_failed(&mut self, failed: Vec<&'static RuleMeta>) {
+        self.findings.retain(|finding| !failed.contains(&finding.rule));
+        self.omitted.retain(|(rule, ..)| !failed.contains(rule));
+        self.failed.extend(failed);
+        self.failed.sort_by_key(|rule| rule.id);
+        self.failed.dedup_by_key(|rule| rule.id);
+    }
+}
+
+/// Findings that were counted and not kept, by rule and severity; and rules that panicked.
 #[derive(Debug, Clone, Default)]
-pub struct Omitted(Vec<(&'static RuleMeta, Severity, usize)>);
+pub struct Omitted {
+    counts: Vec<(&'static RuleMeta, Severity, usize)>,
+    failed: Vec<&'static RuleMeta>,
+}
 
 impl Omitted {
+    /// Notes rules that panicked.
+    pub(crate) fn fail(&mut self, rules: &[&'static RuleMeta]) {
+        for rule in rules {
+            if !self.failed.contains(rule) {
+                self.failed.push(rule);
+            }
+        }
+    }
+
+    /// Rules that panicked.
+    pub(crate) fn failed(&self) -> &[&'static RuleMeta] {
+        &self.failed
+    }
+
     pub(crate) fn add(&mut self, rule: &'static RuleMeta, severity: Severity, more: usize) {
         let same = |(other, of, _): &&mut (&'static RuleMeta, Severity, usize)| {
             std::ptr::eq(*other, rule) && *of == severity
         };
-        match self.0.iter_mut().find(same) {
+        match self.counts.iter_mut().find(same) {
             Some((_, _, count)) => *count += more,
-            None => self.0.push((rule, severity, more)),
+            None => self.counts.push((rule, severity, more)),
         }
     }
 
     pub(crate) fn iter(&self) -> impl Iterator<Item = (&'static RuleMeta, Severity, usize)> {
-        self.0.iter().copied()
+        self.counts.iter().copied()
     }
 }
 
@@ -227,6 +258,11 @@ impl<'c> Collector<'c> {
         self.omitted.add(rule, severity, count);
     }
 
+    /// Notes rules that panicked in a part of the file.
+    pub(crate) fn fail(&mut self, rules: &[&'static RuleMeta]) {
+        self.omitted.fail(rules);
+    }
+
     /// Names the condition of findings that hold with one position of block delete only.
     pub(crate) fn name_positions(&mut self, positions: &Positions) {
         for finding in &mut self.findings {
@@ -250,9 +286,15 @@ impl<'c> Collector<'c> {
     }
 }
 
-/// Checks one file.
+/// Checks one file. A rule that panics takes only its own findings with it, and is named in [`Outcome::failed`].
 pub fn check(job: &Job<'_>) -> Outcome {
-    let plan = Plan::new(job.selection);
+    let (mut outcome, failed) = without_rules_that_panic(job.selection, |rules| check_with(job, rules));
+    outcome.note_failed(failed);
+    outcome
+}
+
+fn check_with(job: &Job<'_>, rules: &Selection) -> Outcome {
+    let plan = Plan::new(rules);
     let text = job.source.text();
     let region = code_region(text);
     let region = region.start as u32..region.end as u32;
@@ -293,7 +335,8 @@ pub(crate) fn check_file(
     let cx = FileCx::new(environment, text, region, survey);
     for (rule, severity) in &plan.program {
         if let Run::Program { check } = rule.run {
-            check(&cx, &mut Report::new(&mut |finding| collector.add(*severity, finding)));
+            let mut add = |finding| collector.add(*severity, finding);
+            call(rule.meta, || check(&cx, &mut Report::new(&mut add)));
         }
     }
 }
@@ -494,7 +537,7 @@ pub(crate) fn check_blocks(
                 && block.flags.intersects(*trigger)
             {
                 let mut add = |finding| collector.add(*severity, name_condition(finding, block.flags, false));
-                check(&cx, &mut Report::new(&mut add));
+                call(rule.meta, || check(&cx, &mut Report::new(&mut add)));
             }
         }
         if block.flags.contains(BlockFlags::ERROR) {
@@ -505,7 +548,7 @@ pub(crate) fn check_blocks(
                     {
                         let mut add =
                             |finding| collector.add(*severity, name_condition(finding, block.flags, false));
-                        check(&cx, error, &mut Report::new(&mut add));
+                        call(rule.meta, || check(&cx, error, &mut Report::new(&mut add)));
                     }
                 }
             }
@@ -521,6 +564,12 @@ fn finish(
     notes: &FileNotes<'_>,
 ) -> Outcome {
     let mut suppressed = 0;
+    // A rule that panicked in one part of the file says nothing of the others, as if it had panicked in all.
+    let failed = std::mem::take(&mut collector.omitted.failed);
+    if !failed.is_empty() {
+        collector.findings.retain(|finding| !failed.contains(&finding.rule));
+        collector.omitted.counts.retain(|(rule, ..)| !failed.contains(rule));
+    }
     if notes.suppressions && !notes.directives.is_empty() {
         let mut suppressions = Suppressions::read(text, notes.directives, plan.table);
         let before = collector.findings.len();
@@ -528,7 +577,8 @@ fn finish(
         suppressed = before - collector.findings.len();
         for (rule, severity) in &plan.suppressions {
             if let Run::Suppressions { check } = rule.run {
-                check(&suppressions, &mut Report::new(&mut |finding| collector.add(*severity, finding)));
+                let mut add = |finding| collector.add(*severity, finding);
+                call(rule.meta, || check(&suppressions, &mut Report::new(&mut add)));
             }
         }
     }
@@ -543,11 +593,12 @@ fn finish(
     });
     Outcome {
         findings,
-        omitted: collector.omitted.0,
+        omitted: collector.omitted.counts,
         suppressed,
         lines: notes.lines,
         assumptions: Assumptions::new(),
         out_of_fuel: false,
+        failed,
     }
 }
 

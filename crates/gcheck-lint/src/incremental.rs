@@ -28,6 +28,7 @@ use paths::{Broken, Inputs, Paths};
 use crate::check::{
     Assumptions, Collector, FileNotes, Omitted, Plan, check_file, conclude, switch_positions,
 };
+use crate::containment::without_rules_that_panic;
 use crate::environment::ProgramLibrary;
 use crate::partitions::Rules;
 use crate::{Environment, Execution, Outcome, ProgramText, RuleTable, Selection};
@@ -217,9 +218,11 @@ impl FileFacts {
         for chunk in chunks {
             let end = self.end_in(chunk);
             if collector.is_full() {
-                for (rule, severity, count) in edited.source.counts(chunk, end).iter() {
+                let counts = edited.source.counts(chunk, end);
+                for (rule, severity, count) in counts.iter() {
                     collector.omit(rule, severity, count);
                 }
+                collector.fail(counts.failed());
             } else {
                 let base = self.starts.get(chunk).copied().unwrap_or(0);
                 edited.source.findings(chunk, end).add_to(collector, base);
@@ -289,12 +292,38 @@ impl Incremental {
         (old.is_empty() && new.is_empty()).then_some(whole)
     }
 
-    /// Checks the file as it is now.
+    /// Checks the file as it is now. A rule that panics takes only its own findings with it.
     ///
     /// # Errors
     /// [`Stopped`] when `stop` said yes; what was done is kept.
     pub fn check(&mut self, edited: &EditedFile<'_>) -> Result<Outcome, Stopped> {
-        let plan = Plan::new(edited.selection);
+        self.contained(edited.selection, |known, rules| known.check_with(edited, rules))
+    }
+
+    /// Does some work; when a rule panics in it, anew without that rule, and nothing is kept for the next time.
+    fn contained(
+        &mut self,
+        selection: &Selection,
+        mut work: impl FnMut(&mut Self, &Selection) -> Result<Outcome, Stopped>,
+    ) -> Result<Outcome, Stopped> {
+        let mut times = 0;
+        let (outcome, failed) = without_rules_that_panic(selection, |rules| {
+            if times > 0 {
+                *self = Self::new();
+            }
+            times += 1;
+            work(self, rules)
+        });
+        if !failed.is_empty() {
+            *self = Self::new();
+        }
+        let mut outcome = outcome?;
+        outcome.note_failed(failed);
+        Ok(outcome)
+    }
+
+    fn check_with(&mut self, edited: &EditedFile<'_>, rules: &Selection) -> Result<Outcome, Stopped> {
+        let plan = Plan::new(rules);
         let JoinedFile { whole, directives, lines } = JoinedFile::new(edited, self.whole_of(edited.chunks))?;
         let mut collector = Collector::new(edited.environment);
         whole.check_chunks(edited, 0..whole.chunks, &mut collector);
@@ -327,9 +356,18 @@ impl Incremental {
     /// # Errors
     /// [`Stopped`] when `stop` said yes; what was done is kept.
     pub fn check_first(&mut self, edited: &EditedFile<'_>, chunks: usize) -> Result<Outcome, Stopped> {
+        self.contained(edited.selection, |known, rules| known.check_first_with(edited, rules, chunks))
+    }
+
+    fn check_first_with(
+        &mut self,
+        edited: &EditedFile<'_>,
+        rules: &Selection,
+        chunks: usize,
+    ) -> Result<Outcome, Stopped> {
         let JoinedFile { whole, directives, lines } = JoinedFile::new(edited, self.whole_of(edited.chunks))?;
         // Which suppressions are of no use is known at the end.
-        let plan = Plan::new(edited.selection).without_suppressions();
+        let plan = Plan::new(rules).without_suppressions();
         let mut collector = Collector::new(edited.environment);
         let chunks = chunks.min(whole.chunks);
         whole.check_chunks(edited, 0..chunks, &mut collector);

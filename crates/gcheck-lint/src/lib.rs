@@ -11,6 +11,7 @@ mod assumptions;
 mod block_context;
 mod block_delete;
 mod check;
+mod containment;
 mod contract;
 mod directives;
 mod environment;

@@ -96,6 +96,15 @@ impl Selection {
         }
     }
 
+    /// Turns off one rule.
+    pub(crate) fn leave_out(&mut self, id: &str) {
+        for (rule, state) in self.table.iter().zip(&mut self.states) {
+            if rule.meta.id == id {
+                *state = State::Off;
+            }
+        }
+    }
+
     /// The rules that are on, with the severity that replaces their own.
     pub fn rules(&self) -> impl Iterator<Item = (&'static RuleEntry, Option<Severity>)> {
         self.table.iter().zip(&self.states).filter_map(|(rule, state)| match state {

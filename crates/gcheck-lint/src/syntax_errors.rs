@@ -14,10 +14,12 @@ use crate::BlockCx;
 /// A control stops at the first mistake too. A mistake that causes others comes before them: a character that is not
 /// ASCII, then a parenthesis or bracket that closes nothing. A letter O in place of a zero has a rule of its own.
 pub(crate) fn shown<'a>(cx: &BlockCx<'a>) -> impl Iterator<Item = &'a SyntaxError> {
-    let code = || cx.table.errors(cx.ix).filter(|e| !is_in_comment(e.kind) && !is_transmission(cx, e));
-    let first = match letter_o(cx) {
-        Some(_) => None,
-        None => code()
+    let code = || cx.table.errors(cx.ix).filter(|e| !is_in_comment(e.kind));
+    let too_long = code().find(|e| e.kind == SyntaxErrorKind::LineTooLong);
+    let first = match (too_long, letter_o(cx)) {
+        (Some(too_long), _) => Some(too_long),
+        (None, Some(_)) => None,
+        (None, None) => code()
             .find(|e| is_foreign_character(cx, e))
             .or_else(|| {
                 code().find(|e| {
@@ -31,16 +33,6 @@ pub(crate) fn shown<'a>(cx: &BlockCx<'a>) -> impl Iterator<Item = &'a SyntaxErro
 
 fn is_in_comment(kind: SyntaxErrorKind) -> bool {
     matches!(kind, SyntaxErrorKind::UnclosedComment | SyntaxErrorKind::NestedComment)
-}
-
-/// Signs of the serial line and of old file systems, which controls pass over: NUL, XON and XOFF, DEL, and the end mark of DOS
-/// in a line of its own at the end.
-fn is_transmission(cx: &BlockCx<'_>, error: &SyntaxError) -> bool {
-    let text = cx.slice(error.range.clone());
-    let alone = error.range == cx.block.range
-        && cx.text.get(error.range.end as usize..).is_some_and(|t| t.trim().is_empty());
-    error.kind == SyntaxErrorKind::Unexpected
-        && (text.chars().all(|c| matches!(c, '\0' | '\x11'..='\x14' | '\x7F')) || (alone && text == "\x1A"))
 }
 
 /// Is the mistake a character outside ASCII, or a byte that is not a character?

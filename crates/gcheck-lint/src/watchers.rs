@@ -16,6 +16,7 @@ use gcheck_program::{BlockFlags, Survey};
 use rustc_hash::FxHashMap;
 
 use crate::block_delete::{self, Key};
+use crate::containment;
 use crate::evaluated::Evaluated;
 use crate::path_context::ReadBlock;
 use crate::shared_memory::SharedMemories;
@@ -110,7 +111,7 @@ impl<'a, 'c> Watchers<'a, 'c> {
         let mut shared = SharedMemories::default();
         for (entry, severity) in rules {
             let Some((watch, rule)) = entry.run.watcher() else { continue };
-            if rule.concerns(&uses) {
+            if containment::call(entry.meta, || rule.concerns(&uses)) {
                 if let Some(make) = rule.shares() {
                     shared.add(make);
                 }
@@ -248,7 +249,8 @@ impl<'a, 'c> Watchers<'a, 'c> {
                     add(severity, block_delete::name_condition(finding, block, skips));
                 }
             };
-            call(&mut *active.rule, &mut Report::new(&mut once));
+            let meta = active.entry.meta;
+            containment::call(meta, || call(&mut *active.rule, &mut Report::new(&mut once)));
             if had_enough.take() {
                 list.remove(next);
             } else {

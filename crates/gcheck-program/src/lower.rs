@@ -10,7 +10,9 @@ use gcheck_controls::{
     CodeEntry, CodeIx, CodeNumber, Control, Effect, Letter, LetterSet, LineCounts, Need, Semicolon,
     WordEntry, WordKind,
 };
-use gcheck_syntax::{Parse, Sink, SyntaxError, SyntaxKind, SyntaxProfile, parse_into, replay};
+use gcheck_syntax::{
+    MAX_LINE_BYTES, Parse, Sink, SyntaxError, SyntaxErrorKind, SyntaxKind, SyntaxProfile, parse_into, replay,
+};
 
 use crate::block::{Block, BlockFlags, BlockIx, BlockTable, Value, Word};
 use crate::expression::{BinaryOp, Expr, ExprIx, Function, Op, is_well_formed};
@@ -465,7 +467,7 @@ impl<'t, 'd> LowerSink<'t, 'd> {
         let table = BlockTable {
             blocks: Vec::with_capacity(lines(text)),
             // Seldom is a word shorter than eight characters with the blank after it.
-            words: Vec::with_capacity(text.len() / 8 + 1),
+            words: Vec::with_capacity(text.len().min(4 * MAX_LINE_BYTES as usize) / 8 + 1),
             ..BlockTable::default()
         };
         Self {
@@ -712,6 +714,22 @@ impl<'t, 'd> LowerSink<'t, 'd> {
     }
 }
 
+/// Signs of the serial line and of old file systems, which controls pass over: NUL, XON and XOFF, DEL, and the end mark of DOS in
+/// a line of its own at the end.
+fn is_transmission(text: &str, error: &SyntaxError) -> bool {
+    let range = error.range.start as usize..error.range.end as usize;
+    if error.kind != SyntaxErrorKind::Unexpected {
+        return false;
+    }
+    let signs = text.get(range.clone()).unwrap_or_default();
+    let is_alone = || {
+        let before = text.get(..range.start).unwrap_or_default();
+        let after = text.get(range.end..).unwrap_or_default();
+        (before.is_empty() || before.ends_with(['\n', '\r'])) && after.trim().is_empty()
+    };
+    signs.chars().all(|c| matches!(c, '\0' | '\x11'..='\x14' | '\x7F')) || (signs == "\x1A" && is_alone())
+}
+
 /// A name as it is compared: lower case, without blanks and brackets.
 pub(crate) fn name_key(text: &[u8]) -> String {
     let text = String::from_utf8_lossy(text);
@@ -862,6 +880,9 @@ impl Sink for LowerSink<'_, '_> {
     }
 
     fn error(&mut self, error: SyntaxError) {
+        if is_transmission(self.text, &error) {
+            return;
+        }
         if self.open.is_empty() {
             self.late_errors.push(error);
         } else {

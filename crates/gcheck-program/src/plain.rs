@@ -4,6 +4,7 @@
 //! does. What it reads is what tokens and grammar would give (law 2).
 
 use gcheck_controls::Letter;
+use gcheck_syntax::MAX_LINE_BYTES;
 
 use crate::number::{self, NumberShape};
 
@@ -23,6 +24,8 @@ pub(crate) struct PlainWord {
 /// Reads the line that begins at `start`, blanks between words allowed. `word` receives its words; the line's end, its end of
 /// line included, is returned. `None` for a line that is not plain; `word` may have received some of it by then.
 pub(crate) fn line(text: &[u8], start: usize, mut word: impl FnMut(PlainWord)) -> Option<usize> {
+    // Of a longer line the grammar reads a part.
+    let text = text.get(..text.len().min(start + MAX_LINE_BYTES as usize)).unwrap_or_default();
     let mut at = start;
     loop {
         match *text.get(at)? {

@@ -462,3 +462,17 @@ proptest! {
         prop_assert_eq!(&flat, &tree, "{:?}", text);
     }
 }
+
+#[test]
+fn signs_of_the_serial_line_are_passed_over() {
+    let control = gcheck_controls::load("fanuc-mill").unwrap();
+    let dialect = Dialect::new(&control);
+    for (text, mistakes) in
+        [("\0\0\0", 0), ("G0 X1.\u{11}\n\u{13}\nM30\n\u{1A}\n", 0), ("\u{1A}G0\n", 1), ("G0 X1.~\n", 1)]
+    {
+        for table in [lower(text, &dialect), lower_tree(&parse(text, dialect.profile()), &dialect)] {
+            let found: usize = table.blocks().map(|(ix, _)| table.errors(ix).count()).sum();
+            assert_eq!(found, mistakes, "{text:?}");
+        }
+    }
+}

@@ -112,7 +112,11 @@ impl Baseline {
                     })?;
                     known.findings.insert(fingerprint, entry.rule);
                 }
-                (None, Some(count)) => *known.omitted.entry(entry.rule).or_default() += count,
+                (None, Some(count)) => {
+                    // A baseline of strangers may hold any numbers.
+                    let sum = known.omitted.entry(entry.rule).or_default();
+                    *sum = sum.saturating_add(count);
+                }
                 _ => {
                     return Err(Malformed {
                         reason: format!("entry {} has neither a fingerprint nor a count alone", index + 1),
@@ -194,7 +198,8 @@ impl Baseline {
             known.findings.insert(fingerprint, finding.rule.id.to_owned());
         }
         for (rule, _, count) in &report.omitted {
-            *known.omitted.entry(rule.id.to_owned()).or_default() += count;
+            let sum = known.omitted.entry(rule.id.to_owned()).or_default();
+            *sum = sum.saturating_add(*count);
         }
         if known == Known::default() {
             self.files.remove(file);
@@ -215,7 +220,11 @@ impl Baseline {
 
     /// How many findings it knows.
     pub fn len(&self) -> usize {
-        self.files.values().map(|known| known.findings.len() + known.omitted.values().sum::<usize>()).sum()
+        let counts = self
+            .files
+            .values()
+            .flat_map(|known| std::iter::once(known.findings.len()).chain(known.omitted.values().copied()));
+        counts.fold(0, usize::saturating_add)
     }
 
     /// Whether it knows none.
@@ -295,6 +304,13 @@ mod tests {
     fn left(baseline: &Baseline, mut report: FileReport) -> (usize, usize, usize) {
         let stale = baseline.apply("part.nc", &mut report);
         (report.findings.len(), report.baseline, stale.len())
+    }
+
+    #[test]
+    fn counts_of_any_size_are_read() {
+        let entry = format!("{{\"file\":\"a\",\"rule\":\"r\",\"omitted\":{}}}", usize::MAX);
+        let text = format!("{{\"version\":1,\"findings\":[{entry},{entry}]}}");
+        assert_eq!(Baseline::parse(&text).unwrap().len(), usize::MAX);
     }
 
     #[test]

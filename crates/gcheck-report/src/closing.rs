@@ -54,6 +54,22 @@ pub fn summary_line(summary: &Summary) -> String {
         }
         line = format!("{line}; analysis ended early, out of fuel: {}", names.join(", "));
     }
+    if !summary.failed_rules.is_empty() {
+        let mut names: Vec<String> = summary
+            .failed_rules
+            .iter()
+            .take(NAMED)
+            .map(|failed| format!("{} in {}", failed.rule, one_line(&failed.file)))
+            .collect();
+        let more = summary.failed_rules.len() - names.len();
+        if more > 0 {
+            names.push(format!("{} more", number(more)));
+        }
+        line = format!(
+            "{line}; failed by a mistake in gcheck, their findings are missing: {}",
+            names.join(", ")
+        );
+    }
     line
 }
 
@@ -198,6 +214,7 @@ fn count(n: usize, one: &str, many: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::FailedRule;
     use crate::testing::{ARC_OFF_CIRCLE, FEED_MISSING, file};
     use expect_test::expect;
     use gcheck_diagnostics::{Finding, Fix};
@@ -219,10 +236,25 @@ mod tests {
             line(fuel),
             "3 errors, 1 warning in 2 files (1,204 lines); analysis ended early, out of fuel: a, b, c, 1 more"
         );
+        let failed = FailedRule { file: "a.nc".to_owned(), rule: "feed-missing" };
+        assert_eq!(
+            line(Summary { files: 1, lines: 1, failed_rules: vec![failed], ..Summary::default() }),
+            "no findings in 1 file (1 line); failed by a mistake in gcheck, their findings are missing: feed-missing in a.nc"
+        );
         assert_eq!(
             line(Summary { files: 1, lines: 1, ..Summary::default() }),
             "no findings in 1 file (1 line)"
         );
+    }
+
+    #[test]
+    fn a_rule_that_failed_is_named_and_leaves_more_to_find() {
+        let mut one = file("a.nc", "G1\n", vec![]);
+        one.failed_rules = vec!["feed-missing"];
+        let report = Report::new(vec![one]);
+        assert!(report.is_incomplete());
+        let json = serde_json::to_value(report.summary()).unwrap();
+        assert_eq!(json["failed_rules"], serde_json::json!([{ "file": "a.nc", "rule": "feed-missing" }]));
     }
 
     fn two_files() -> Report {

@@ -31,6 +31,6 @@ pub use fingerprint::{Fingerprint, Fingerprinter};
 pub use fold::folded;
 pub use formats::{Format, write};
 pub use line_index::{LineIndex, Position};
-pub use report::{Assumed, FileReport, RelatedFile, Report, Skipped, Summary};
+pub use report::{Assumed, FailedRule, FileReport, RelatedFile, Report, Skipped, Summary};
 pub use shown::harmless;
 pub use style::Colour;

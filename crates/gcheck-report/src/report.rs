@@ -35,6 +35,8 @@ pub struct FileReport {
     pub fixed: usize,
     /// The analysis ended before the program did.
     pub out_of_fuel: bool,
+    /// Rules that failed by a mistake of ours, by id: whatever they would have found is missing.
+    pub failed_rules: Vec<&'static str>,
     /// The assumptions of the verdict.
     pub assumptions: Vec<StatedAssumption>,
 }
@@ -97,6 +99,7 @@ pub(crate) struct File {
     baseline: usize,
     fixed: usize,
     pub(crate) out_of_fuel: bool,
+    pub(crate) failed_rules: Vec<&'static str>,
     assumptions: Vec<StatedAssumption>,
 }
 
@@ -125,10 +128,21 @@ pub struct Summary {
     pub fixed: usize,
     /// Paths of the files whose analysis ended early.
     pub out_of_fuel: Vec<String>,
+    /// Rules that failed by a mistake of ours, with the file of each: their findings there are missing.
+    pub failed_rules: Vec<FailedRule>,
     /// Files that could not be checked.
     pub skipped: Vec<Skipped>,
     /// The assumptions of the verdicts, each once, with the number of files that depend on it.
     pub assumptions: Vec<Assumed>,
+}
+
+/// A rule that failed in a file.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct FailedRule {
+    /// The file, as shown.
+    pub file: String,
+    /// The rule's id.
+    pub rule: &'static str,
 }
 
 /// Something taken for granted.
@@ -166,12 +180,13 @@ impl Report {
         self
     }
 
-    /// Is there more to find: a file was skipped, or a budget was used up before the end of an analysis?
+    /// Is there more to find: a file was skipped, a rule failed, or a budget was used up before the end of an analysis?
     pub fn is_incomplete(&self) -> bool {
         let gave_up = |file: &File| {
             let mut rules = file.findings.iter().map(|finding| finding.rule);
             let mut omitted = file.omitted.iter().map(|(rule, ..)| *rule);
             file.out_of_fuel
+                || !file.failed_rules.is_empty()
                 || rules.any(|rule| rule.id == INCOMPLETE)
                 || omitted.any(|rule| rule.id == INCOMPLETE)
         };
@@ -226,6 +241,8 @@ impl Report {
             if file.out_of_fuel {
                 sum.out_of_fuel.push(file.path.clone());
             }
+            let failed = |rule: &&'static str| FailedRule { file: file.path.clone(), rule };
+            sum.failed_rules.extend(file.failed_rules.iter().map(failed));
             sum.omitted += file.omitted.iter().map(|(_, _, count)| count).sum::<usize>();
             let kept = file.findings.iter().map(|finding| (finding.severity, 1));
             let omitted = file.omitted.iter().map(|(_, severity, count)| (*severity, *count));
@@ -286,6 +303,7 @@ impl File {
             baseline,
             fixed,
             out_of_fuel,
+            failed_rules,
             assumptions,
         } = file;
         findings.sort_by(order);
@@ -300,6 +318,7 @@ impl File {
             baseline,
             fixed,
             out_of_fuel,
+            failed_rules,
             assumptions,
         }
     }

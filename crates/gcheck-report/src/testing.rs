@@ -57,6 +57,7 @@ pub(crate) fn file(path: &str, text: &str, findings: Vec<Finding>) -> FileReport
         baseline: 0,
         fixed: 0,
         out_of_fuel: false,
+        failed_rules: Vec::new(),
         assumptions: Vec::new(),
     }
 }

@@ -8,7 +8,7 @@ use std::str::FromStr as _;
 use std::time::Duration;
 
 use gcheck_db::Snapshot;
-use gcheck_diagnostics::Severity;
+use gcheck_diagnostics::{RuleMeta, Severity};
 use gcheck_ide::Diagnostics;
 
 use crate::ConfigurationProblem;
@@ -100,6 +100,16 @@ pub(crate) fn given_up(after: Duration) -> Diagnostic {
         after.as_secs()
     );
     let code = Some(NumberOrString::String(INCOMPLETE.to_owned()));
+    Diagnostic { code, ..at_the_top(DiagnosticSeverity::WARNING, message) }
+}
+
+/// Says that a rule failed, so that its silence is not taken for a program without its mistakes.
+pub(crate) fn failed(rule: &RuleMeta) -> Diagnostic {
+    let message = format!(
+        "the rule `{}` failed by a mistake in gcheck: its findings in this program are missing",
+        rule.id
+    );
+    let code = Some(NumberOrString::String(rule.id.to_owned()));
     Diagnostic { code, ..at_the_top(DiagnosticSeverity::WARNING, message) }
 }
 

@@ -68,6 +68,8 @@ pub(crate) struct Owner {
     world: u64,
     /// The client has said `initialized`, and may be told things.
     is_ready: bool,
+    /// The session has ended.
+    is_over: bool,
 }
 
 /// The host in a type of its own, because a trait object cannot be printed.
@@ -104,12 +106,18 @@ impl Owner {
             touches: 0,
             world: 0,
             is_ready: false,
+            is_over: false,
         }
     }
 
-    /// Works until every sender is gone.
+    /// The session has ended: nobody waits for anything any more.
+    pub(crate) fn end(&mut self) {
+        self.is_over = true;
+    }
+
+    /// Works until the session ends.
     pub(crate) fn run(mut self, inbox: &Inbox<Self>) {
-        loop {
+        while !self.is_over {
             let next = self.next_to_diagnose();
             let patience = if next.is_some() { Duration::ZERO } else { IDLE };
             match (inbox.next(patience), next) {

@@ -18,7 +18,7 @@ use tower_service::Service;
 use crate::Host;
 use crate::framing::{self, Incoming, Malformed};
 use crate::handlers::{Handlers, as_handled};
-use crate::mailbox::mailbox;
+use crate::mailbox::{Kind, mailbox};
 use crate::outbox::Outbox;
 use crate::owner::Owner;
 use crate::parent::Parent;
@@ -78,9 +78,10 @@ pub fn serve(
     thread::Builder::new().name("input".to_owned()).spawn(move || read_all(input, &events))?;
 
     // What the service's own way to the client would be stays unused: answers and notifications share one.
+    let to_owner = mailbox.clone();
     let (mut service, _socket) = Handlers::service(mailbox, parent);
     let runtime = tokio::runtime::Builder::new_current_thread().build()?;
-    Ok(runtime.block_on(async {
+    let ending = runtime.block_on(async {
         let mut is_shut_down = false;
         while let Some(event) = incoming.recv().await {
             match event {
@@ -99,7 +100,10 @@ pub fn serve(
             }
         }
         Ending::Vanished
-    }))
+    });
+    // The owner holds a way to itself, so it would wait for ever. What it works out at the moment is given up.
+    to_owner.post("exit", Kind::Change, Owner::end);
+    Ok(ending)
 }
 
 /// Reads messages until there are no more.

@@ -5,11 +5,13 @@
 
 #![expect(clippy::unwrap_used, reason = "a test that meets the unexpected is to fail")]
 
+use std::io::{Read as _, Write as _};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
 
 use gcheck_db::Settings;
+use gcheck_engine::SourceFile;
 use gcheck_lint::{Programs, RuleTable};
 use gcheck_server::{Choice, Ending, Host, InForce, ProgramFile, ProgramQuery, ProgramText, serve};
 use gcheck_testkit::language_client::LanguageClient;
@@ -18,7 +20,7 @@ use serde_json::{Value, json};
 /// Panics where a program or its surroundings say so.
 struct Fragile;
 
-/// Panics when it is asked for program 666, and takes longer than an analysis may for program 777.
+/// Panics when a rule asks for program 666 or an analysis for the text of program 665, and takes longer than an analysis may for program 777.
 struct FragilePrograms;
 
 impl Programs for FragilePrograms {
@@ -32,6 +34,11 @@ impl Programs for FragilePrograms {
 
     fn has_name(&self, _: &str) -> bool {
         false
+    }
+
+    fn source_of_number(&self, number: u32) -> Option<SourceFile> {
+        assert_ne!(number, 665, "asked for the wrong text");
+        None
     }
 }
 
@@ -124,11 +131,23 @@ fn a_request_that_meets_one_is_refused_and_the_next_answered() {
 
 #[test]
 fn an_analysis_that_meets_one_is_not_tried_again_until_the_text_changes() {
-    let (mut client, server) = session("%\nO1\nM98 P666\nM30\n%\n");
-    logged(&mut client, "asked for the wrong program");
+    let (mut client, server) = session("%\nO1\nM98 P665\nM30\n%\n");
+    logged(&mut client, "asked for the wrong text");
     client.notification("window/showMessage", |p| p["message"].as_str().unwrap().contains("is not checked"));
     change(&mut client, 2, "%\nO1\nM98 P667\nM30\n%\n");
     published(&mut client, 2);
+    end(client, server);
+}
+
+#[test]
+fn a_rule_that_meets_one_is_named_and_the_others_are_heard() {
+    let (mut client, server) = session("%\nO1\nG999\nM98 P666\nM30\n%\n");
+    let shown = published(&mut client, 1).to_string();
+    assert!(shown.contains("failed by a mistake in gcheck"), "{shown}");
+    assert!(shown.contains("unknown-code"), "{shown}");
+    change(&mut client, 2, "%\nO1\nG999\nM98 P667\nM30\n%\n");
+    let shown = published(&mut client, 2).to_string();
+    assert!(!shown.contains("failed by a mistake in gcheck"), "{shown}");
     end(client, server);
 }
 
@@ -154,4 +173,17 @@ fn an_analysis_that_takes_too_long_is_given_up_and_says_so() {
     let shown = published(&mut client, 2);
     assert!(!shown.to_string().contains("analysis-incomplete"), "another text is analysed again: {shown}");
     end(client, server);
+}
+
+#[test]
+fn a_session_that_ends_leaves_no_thread_behind() {
+    let (input, mut to_server) = std::io::pipe().unwrap();
+    let (mut from_server, output) = std::io::pipe().unwrap();
+    let server = std::thread::spawn(move || serve(Arc::new(Fragile), input, output).unwrap());
+    let body = r#"{"jsonrpc":"2.0","method":"exit"}"#;
+    write!(to_server, "Content-Length: {}\r\n\r\n{body}", body.len()).unwrap();
+    assert_eq!(server.join().unwrap(), Ending::Abrupt);
+    // The stream ends when the last thread that could write to it has ended.
+    let mut said = String::new();
+    from_server.read_to_string(&mut said).unwrap();
 }

@@ -27,6 +27,8 @@ pub enum SyntaxErrorKind {
     /// Brackets, signs or `IF … THEN` nested deeper than [`MAX_EXPRESSION_DEPTH`](crate::MAX_EXPRESSION_DEPTH), or more
     /// operators in a line than [`MAX_OPERATORS`](crate::MAX_OPERATORS).
     TooDeep,
+    /// A line longer than [`MAX_LINE_BYTES`](crate::MAX_LINE_BYTES).
+    LineTooLong,
     /// An address without a number or expression.
     AddressWithoutValue,
     /// A number without an address.

@@ -22,6 +22,12 @@ pub const MAX_EXPRESSION_DEPTH: u32 = 64;
 /// some hundred characters; the limit only protects the stack.
 pub const MAX_OPERATORS: u32 = 1_000;
 
+/// Bytes of a line that are read; what follows is one token.
+///
+/// The tokens of a line are kept while it is read, and take several times its size. A control reads lines of some hundred
+/// characters; the limit only protects memory.
+pub const MAX_LINE_BYTES: u32 = 1 << 20;
+
 /// Receives what the grammar recognises, in text order.
 pub trait Sink {
     /// A place to which [`Sink::start_node_at`] can come back.
@@ -61,12 +67,20 @@ pub fn parse_into<S: Sink>(text: &str, profile: SyntaxProfile, sink: &mut S) {
         start = next;
         tokens.clear();
         let mut plain = true;
-        for (token, end) in lexer.by_ref() {
+        let most = start.saturating_add(MAX_LINE_BYTES);
+        while let Some((token, end)) = lexer.next() {
             tokens.push(Lexeme { token, start, end });
             start = end;
             plain &= token.is_plain();
             if token == Token::Newline {
                 break;
+            }
+            let rest = if end >= most { rest_of_line(text.as_bytes(), end) } else { 0 };
+            if rest > 0 {
+                lexer.pass_over(rest);
+                tokens.push(Lexeme { token: Token::Overlong, start, end: end + rest });
+                start += rest;
+                plain = false;
             }
         }
         if tokens.is_empty() {
@@ -94,6 +108,12 @@ pub fn parse_into<S: Sink>(text: &str, profile: SyntaxProfile, sink: &mut S) {
             });
         }
     }
+}
+
+/// Bytes from there to the end of the line.
+fn rest_of_line(text: &[u8], from: u32) -> u32 {
+    let rest = text.get(from as usize..).unwrap_or_default();
+    memchr::memchr2(b'\r', b'\n', rest).unwrap_or(rest.len()) as u32
 }
 
 #[derive(Debug, Clone, Copy)]
@@ -208,7 +228,10 @@ impl<S: Sink> Parser<'_, S> {
     }
 
     fn at_end(&self) -> bool {
-        matches!(self.current(), None | Some(Token::Newline | Token::Semicolon(SemicolonUse::EndOfBlock)))
+        matches!(
+            self.current(),
+            None | Some(Token::Newline | Token::Overlong | Token::Semicolon(SemicolonUse::EndOfBlock))
+        )
     }
 
     /// Is the previous token directly in front, without a blank?
@@ -270,6 +293,7 @@ fn line<S: Sink>(p: &mut Parser<'_, S>) {
                 p.sink.finish_node();
             }
             _ => {
+                overlong(p);
                 p.bump();
                 p.sink.finish_node();
                 return;
@@ -278,6 +302,15 @@ fn line<S: Sink>(p: &mut Parser<'_, S>) {
         if p.at >= p.tokens.len() {
             return;
         }
+    }
+}
+
+/// What follows the part of a line that is read.
+fn overlong<S: Sink>(p: &mut Parser<'_, S>) {
+    if p.current() == Some(Token::Overlong) {
+        // Whatever else is wrong with the line, this is why the rest of it is not read.
+        p.too_deep = false;
+        p.bump_as_error(SyntaxErrorKind::LineTooLong);
     }
 }
 
@@ -305,7 +338,7 @@ impl Tail {
         let mut previous: Option<(usize, Token)> = None;
         for (at, Lexeme { token, .. }) in tokens.iter().enumerate() {
             match (token, previous) {
-                (Token::Whitespace, _) => continue,
+                (Token::Whitespace | Token::Overlong, _) => continue,
                 (Token::Unknown, _) => tail.prose = Some(at),
                 // `T` `O` `O` `L`: two letters in a row are prose.
                 (Token::Letter, Some((first, Token::Letter))) => tail.prose = Some(first),
@@ -328,15 +361,17 @@ fn finish_line<S: Sink>(p: &mut Parser<'_, S>) {
     while matches!(p.current(), Some(Token::Whitespace | Token::Comment(_) | Token::Semicolon(_))) {
         comment_or_blank(p);
     }
-    if !matches!(p.current(), None | Some(Token::Newline)) {
-        let end = p.tokens.iter().rev().find(|l| l.token != Token::Newline).map_or(0, |l| l.end);
+    let is_over = |token: Option<Token>| matches!(token, None | Some(Token::Newline | Token::Overlong));
+    if !is_over(p.current()) {
+        let end = p.tokens.iter().rev().find(|l| !is_over(Some(l.token))).map_or(0, |l| l.end);
         p.error(SyntaxErrorKind::TextAfterEndOfBlock, p.offset()..end);
         p.sink.start_node(SyntaxKind::ERROR);
-        while !matches!(p.current(), None | Some(Token::Newline)) {
+        while !is_over(p.current()) {
             p.bump();
         }
         p.sink.finish_node();
     }
+    overlong(p);
     p.bump();
     p.sink.finish_node();
 }
@@ -410,6 +445,7 @@ fn item<S: Sink>(p: &mut Parser<'_, S>) {
         | Token::Power
         | Token::Equals
         | Token::Comma
+        | Token::Overlong
         | Token::Unknown => unexpected(p),
     }
 }

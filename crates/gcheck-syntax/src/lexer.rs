@@ -156,6 +156,9 @@ pub(crate) enum Token {
     /// Any other character; a name in angle brackets that neither `#` nor `O` introduces.
     #[regex(r"<[^<>\r\n]*>")]
     Unknown,
+
+    /// The rest of a line that is longer than is read; the grammar makes it.
+    Overlong,
 }
 
 /// How a parenthesis comment ended.
@@ -273,7 +276,7 @@ impl Token {
             Self::Print => SyntaxKind::PRINT_KW,
             Self::Port => SyntaxKind::PORT_KW,
             Self::Command => SyntaxKind::COMMAND,
-            Self::Unknown => SyntaxKind::UNKNOWN,
+            Self::Unknown | Self::Overlong => SyntaxKind::UNKNOWN,
         }
     }
 

@@ -18,7 +18,7 @@ mod tree;
 
 pub use chunk::{Changed, Document, MAX_LINES, MIN_LINES, OutOfRange, cut, cuts, line_len};
 pub use error::{ForeignForm, SyntaxError, SyntaxErrorKind};
-pub use grammar::{MAX_EXPRESSION_DEPTH, MAX_OPERATORS, Sink, parse_into};
+pub use grammar::{MAX_EXPRESSION_DEPTH, MAX_LINE_BYTES, MAX_OPERATORS, Sink, parse_into};
 pub use kind::SyntaxKind;
 pub use lexer::count_tokens;
 pub use profile::SyntaxProfile;

@@ -1,8 +1,8 @@
 //! The laws of the syntax crate, on generated text: nothing is lost, nothing panics, edits give what a fresh start gives.
 
 use gcheck_syntax::{
-    Document, MAX_EXPRESSION_DEPTH, MAX_LINES, MAX_OPERATORS, SourceText, SyntaxErrorKind, SyntaxProfile,
-    cut, parse,
+    Document, MAX_EXPRESSION_DEPTH, MAX_LINE_BYTES, MAX_LINES, MAX_OPERATORS, SourceText, SyntaxErrorKind,
+    SyntaxProfile, cut, parse,
 };
 use proptest::prelude::*;
 
@@ -193,4 +193,23 @@ fn a_line_of_a_million_characters_is_read_once() {
     assert_eq!(parse(&text, SyntaxProfile::MACRO_B).errors(), []);
     let comments = "(a".repeat(500_000);
     assert_eq!(parse(&comments, SyntaxProfile::MACRO_B).errors().len(), 1);
+}
+
+#[test]
+fn of_a_longer_line_the_rest_is_one_mistake() {
+    for (line, profile) in [
+        ("X1.5".repeat(300_000), SyntaxProfile::MACRO_B),
+        ("G0;".repeat(500_000), SyntaxProfile::MACRO_B),
+        ("#1=[1+".repeat(300_000), SyntaxProfile::NGC),
+        ("text and more ".repeat(200_000), SyntaxProfile::NGC),
+    ] {
+        let text = format!("{line}\nG1 X1\n");
+        let parsed = parse(&text, profile);
+        assert_eq!(parsed.syntax().text().to_string(), text);
+        let too_long: Vec<_> =
+            parsed.errors().iter().filter(|error| error.kind == SyntaxErrorKind::LineTooLong).collect();
+        let [error] = too_long.as_slice() else { panic!("{} mistakes", too_long.len()) };
+        assert!(error.range.start.abs_diff(MAX_LINE_BYTES) < 16, "{error:?}");
+        assert_eq!(error.range.end as usize, line.len());
+    }
 }

@@ -142,7 +142,7 @@ pub struct CheckOptions {
     /// Exit with 1 from this severity on
     #[arg(long, value_enum, default_value_t, value_name = "SEVERITY")]
     pub fail_on: FailOn,
-    /// Exit with 1 when a file was not analysed to its end: fuel or a budget used up
+    /// Exit with 1 when a file was not analysed to its end: fuel or a budget used up, a rule failed
     #[arg(long)]
     pub fail_on_incomplete: bool,
     /// Exit with 1 when there are more warnings than this

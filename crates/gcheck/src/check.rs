@@ -16,6 +16,11 @@ use crate::Problem;
 use crate::args::{CheckOptions, Global};
 use round::{Check, Looked};
 
+/// Are these bytes what the cache stores, without its heading and check sum?
+pub(crate) fn is_stored_result(bytes: &[u8]) -> bool {
+    cache::Entry::decode(bytes).and_then(|entry| entry.verdict()).is_some()
+}
+
 /// Runs the command; the exit code is its result.
 pub(crate) fn run(global: &Global, options: &CheckOptions) -> Result<u8, Problem> {
     let command = Check::new(global, options)?;

@@ -30,7 +30,7 @@ pub use pattern::PathPattern;
 pub use placed::Placed;
 pub use preset::Preset;
 pub use preset_name::PresetName;
-pub(crate) use read::check_text;
+pub(crate) use read::{check_text, layer_of_text};
 pub use settings::{FileSettings, RuleWishes};
 pub(crate) use validate::{
     implausible_acceleration, rotary_axis, unknown_rule, validate_control, work_offset,
@@ -48,6 +48,11 @@ pub struct Config {
 }
 
 impl Config {
+    /// A configuration of one text.
+    pub(crate) fn of_layer(layer: Arc<Layer>) -> Self {
+        Self { layers: vec![layer] }
+    }
+
     /// Its layers, the most basic first.
     pub fn layers(&self) -> &[Arc<Layer>] {
         &self.layers

@@ -68,6 +68,12 @@ pub(crate) fn read(path: &Path, request: Request<'_>) -> Result<FileFacts, Vec<P
     let refused = |message: &str| vec![Problem::with_file(path, message)];
     let bytes =
         reading::regular(path, MOST_BYTES).map_err(|reason| refused(&format!("cannot read: {reason}")))?;
+    read_bytes(path, &bytes, request)
+}
+
+/// As [`read`], of bytes that are there already; the path tells the format, and where other files are looked for.
+pub(crate) fn read_bytes(path: &Path, bytes: &[u8], request: Request<'_>) -> Result<FileFacts, Vec<Problem>> {
+    let refused = |message: &str| vec![Problem::with_file(path, message)];
     if bytes.starts_with(b"PK\x03\x04") {
         return Err(vec![
             Problem::with_file(path, "is an archive").help("unpack it, and import the file that is in it"),
@@ -79,7 +85,7 @@ pub(crate) fn read(path: &Path, request: Request<'_>) -> Result<FileFacts, Vec<P
     if bytes.contains(&0) {
         return Err(refused("is not text"));
     }
-    let text = String::from_utf8_lossy(bytes.strip_prefix(MARK).unwrap_or(&bytes));
+    let text = String::from_utf8_lossy(bytes.strip_prefix(MARK).unwrap_or(bytes));
     if text.trim().is_empty() {
         return Err(refused("is empty"));
     }

@@ -21,6 +21,7 @@ mod in_force;
 mod lsp;
 mod nearest;
 mod neighbours;
+pub mod of_bytes;
 mod output;
 mod paths;
 mod problem;

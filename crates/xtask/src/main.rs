@@ -17,6 +17,7 @@ mod competitors;
 mod corpus;
 #[cfg(feature = "packages")]
 mod dist;
+mod fuzz;
 mod generate;
 #[cfg(feature = "product")]
 mod measure;
@@ -46,6 +47,9 @@ usage: cargo xtask COMMAND
                               install what tests need, then run everything that CI runs; ARGS go to the tests;
                               --editors runs the editors of the system as well; --soak types at the language server for
                               as long as an afternoon does
+  fuzz [--minutes N] [--keep] [TARGET…]
+                              run the fuzzer that is guided by coverage on each target in turn, N minutes in all;
+                              `--keep` makes seeds of some of the inputs that it found
   bench [lsp]                 measure speed and memory against the budgets, in one table; `lsp`: of the server alone
   corpus                      check the programs of $GCHECK_CORPUS and write docs/dev/corpus.md
   precision                   draw a sample of those findings, match the verdicts of tests/precision.tsv, write
@@ -72,6 +76,7 @@ fn main() -> ExitCode {
     let outcome = match command {
         "blind" => blind::run(rest),
         "tidy" => tidy::run(rest),
+        "fuzz" => fuzz::run(rest),
         "gen" => generate::run(rest),
         "mutations" => mutations::run(rest),
         "new-rule" => new_rule::run(rest),

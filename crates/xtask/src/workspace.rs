@@ -61,16 +61,22 @@ pub(crate) fn members() -> anyhow::Result<Metadata> {
     metadata(MetadataCommand::new().no_deps())
 }
 
-/// The whole dependency graph of this machine's platform.
-pub(crate) fn graph() -> anyhow::Result<Metadata> {
+/// The platform of this machine, as the compiler calls it.
+pub(crate) fn host() -> anyhow::Result<String> {
     let version = Command::new("rustc").arg("-vV").output().context("rustc does not start")?;
     let version = String::from_utf8_lossy(&version.stdout).into_owned();
     let Some(host) = version.lines().find_map(|line| line.strip_prefix("host: ")) else {
         bail!("`rustc -vV` does not name the host");
     };
+    Ok(host.to_owned())
+}
+
+/// The whole dependency graph of this machine's platform.
+pub(crate) fn graph() -> anyhow::Result<Metadata> {
+    let host = host()?;
     let graph = |options: &[&str]| {
         let options =
-            ["--filter-platform", host].into_iter().chain(options.iter().copied()).map(str::to_owned);
+            ["--filter-platform", &host].into_iter().chain(options.iter().copied()).map(str::to_owned);
         metadata(
             MetadataCommand::new().features(CargoOpt::AllFeatures).other_options(options.collect::<Vec<_>>()),
         )

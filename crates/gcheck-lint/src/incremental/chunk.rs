@@ -10,6 +10,7 @@ use gcheck_program::{BlockFlags, ChunkOutline, Dialect, Survey, TapeMarks, lower
 
 use super::anchored::moved_on;
 use crate::check::{Collector, Omitted, Plan, check_blocks, count_lines};
+use crate::containment::without_rules_that_panic;
 use crate::{Environment, Selection};
 
 /// The facts of a chunk that the file as a whole is asked about. Every offset counts from the chunk's start.
@@ -68,11 +69,13 @@ pub struct ChunkFindings {
 impl ChunkFindings {
     /// Of a chunk's text; blocks that begin at `end` or after it are not read by the control.
     pub fn new(text: &str, end: u32, environment: Environment<'_>, selection: &Selection) -> Self {
-        let plan = Plan::new(selection);
         let table = lower(text, environment.dialect);
-        let mut collector = Collector::new(environment);
-        check_blocks(environment, &plan, end, 0, &table, text, &mut collector);
-        let (findings, omitted) = collector.into_parts();
+        let ((findings, mut omitted), failed) = without_rules_that_panic(selection, |rules| {
+            let mut collector = Collector::new(environment);
+            check_blocks(environment, &Plan::new(rules), end, 0, &table, text, &mut collector);
+            collector.into_parts()
+        });
+        omitted.fail(&failed);
         Self { findings, omitted }
     }
 
@@ -85,6 +88,7 @@ impl ChunkFindings {
         for (rule, severity, count) in self.omitted.iter() {
             counts.add(rule, severity, count);
         }
+        counts.fail(self.omitted.failed());
         counts
     }
 
@@ -99,5 +103,6 @@ impl ChunkFindings {
         for (rule, severity, count) in self.omitted.iter() {
             collector.omit(rule, severity, count);
         }
+        collector.fail(self.omitted.failed());
     }
 }

@@ -169,7 +169,7 @@ mod tests {
               {"rule":"feed-missing","severity":"error","certainty":"always","message":"no feed rate is in effect","file":"part.nc","range":{"start":{"line":4,"column":5,"offset":25},"end":{"line":4,"column":7,"offset":27}},"label":"here","labels":[{"message":"`G90` set here","file":"part.nc","range":{"start":{"line":3,"column":1,"offset":17},"end":{"line":3,"column":4,"offset":20}}},{"message":"called from here","file":"sub/O9 1.nc","range":{"start":{"line":1,"column":1,"offset":0},"end":{"line":1,"column":3,"offset":2}}}],"notes":["the control stops without a feed rate","from the manual:\n  \"feed is modal\""],"help":"write a feed rate, e.g. `F200.`","alarm":"312 FEED","assumptions":["setting 162 is off"],"fixes":[{"title":"add `F200.`","safe":false,"edits":[{"file":"part.nc","range":{"start":{"line":4,"column":10,"offset":30},"end":{"line":4,"column":10,"offset":30}},"text":" F200."}]}],"fingerprint":"149a7a4dd9ecc09d284ba0866a301a1b"},
               {"rule":"arc-end-off-circle","severity":"info","certainty":"maybe","message":"arc may end off the circle","file":"part.nc","range":{"start":{"line":5,"column":5,"offset":37},"end":{"line":5,"column":16,"offset":48}},"label":null,"labels":[],"notes":[],"help":null,"alarm":null,"assumptions":[],"fixes":[],"fingerprint":"a447bc762e13c1017d57e064941370ba"}
             ],
-            "summary": {"files":2,"lines":7,"errors":1,"warnings":0,"infos":1,"hints":0,"omitted":0,"suppressed":1,"baseline":0,"fixed":0,"out_of_fuel":["empty.nc"],"skipped":[],"assumptions":[]}
+            "summary": {"files":2,"lines":7,"errors":1,"warnings":0,"infos":1,"hints":0,"omitted":0,"suppressed":1,"baseline":0,"fixed":0,"out_of_fuel":["empty.nc"],"failed_rules":[],"skipped":[],"assumptions":[]}
             }
         "#]].assert_eq(&render(&everything(), Format::Json));
     }
@@ -181,7 +181,7 @@ mod tests {
             "version": 1,
             "files": [],
             "findings": [],
-            "summary": {"files":0,"lines":0,"errors":0,"warnings":0,"infos":0,"hints":0,"omitted":0,"suppressed":0,"baseline":0,"fixed":0,"out_of_fuel":[],"skipped":[],"assumptions":[]}
+            "summary": {"files":0,"lines":0,"errors":0,"warnings":0,"infos":0,"hints":0,"omitted":0,"suppressed":0,"baseline":0,"fixed":0,"out_of_fuel":[],"failed_rules":[],"skipped":[],"assumptions":[]}
             }
         "#]].assert_eq(&render(&Report::new(vec![]), Format::Json));
     }

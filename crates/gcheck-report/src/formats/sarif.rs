@@ -276,14 +276,18 @@ fn log(report: &Report, most: usize) -> Log<'_> {
             source_language: "gcode",
             properties: ArtifactProperties { control: &file.control },
         });
-        if file.out_of_fuel {
-            let text = "The analysis ended before the program did: out of fuel.".to_owned();
+        let notification = |level, text: String| {
             let physical_location = PhysicalLocation { artifact_location: place(), region: None };
-            notifications.push(Notification {
-                level: "warning",
-                message: Message { text },
-                locations: vec![Location { id: None, physical_location, message: None }],
-            });
+            let locations = vec![Location { id: None, physical_location, message: None }];
+            Notification { level, message: Message { text }, locations }
+        };
+        if file.out_of_fuel {
+            let text = "The analysis ended before the program did: out of fuel.";
+            notifications.push(notification("warning", text.to_owned()));
+        }
+        for rule in &file.failed_rules {
+            let text = format!("The rule `{rule}` failed by a mistake in gcheck: its findings are missing.");
+            notifications.push(notification("error", text));
         }
         for (finding, fingerprint) in file.findings.iter().zip(file.fingerprints()) {
             if kept.next() == Some(true) {

@@ -17,6 +17,7 @@ fn every_kind() -> Vec<Kind> {
         | Kind::UnclosedBracket
         | Kind::StrayBracket
         | Kind::TooDeep
+        | Kind::LineTooLong
         | Kind::AddressWithoutValue
         | Kind::ValueWithoutAddress
         | Kind::MalformedNumber
@@ -57,6 +58,7 @@ fn every_kind() -> Vec<Kind> {
         Kind::UnclosedBracket,
         Kind::StrayBracket,
         Kind::TooDeep,
+        Kind::LineTooLong,
         Kind::AddressWithoutValue,
         Kind::ValueWithoutAddress,
         Kind::MalformedNumber,

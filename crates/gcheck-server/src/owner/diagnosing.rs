@@ -165,6 +165,9 @@ impl Owner {
         };
         let Some(document) = self.documents.get(uri) else { return list };
         list.extend(diagnostics::of_problems(document, self.abilities.encoding, &snapshot));
+        list.extend(
+            analysis.into_iter().flat_map(|analysis| &analysis.failed).map(|rule| diagnostics::failed(rule)),
+        );
         if document.took_too_long() {
             list.push(diagnostics::given_up(time_for(snapshot.len())));
         }

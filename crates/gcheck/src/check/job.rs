@@ -200,12 +200,14 @@ fn check_file(bench: &Bench<'_>, target: &Target) -> Result<Checked, Problem> {
         control: choice,
         findings: outcome.findings,
         omitted: outcome.omitted,
+        failed_rules: outcome.failed.iter().map(|rule| rule.id).collect(),
         lines: outcome.lines,
         suppressed: outcome.suppressed,
         out_of_fuel: outcome.out_of_fuel,
         assumptions: describe_all(&outcome.assumptions, &model),
     };
-    if let Some((cache, key)) = slot {
+    // What a rule failed to say is not known the next time either.
+    if let Some((cache, key)) = slot.filter(|_| verdict.failed_rules.is_empty()) {
         cache.store(key, &Entry::new(questions.into_asked(), &verdict));
     }
     Ok(Checked { report: report(target, source, verdict, fixed), change })
@@ -241,6 +243,7 @@ fn report(target: &Target, source: SourceText, verdict: Verdict, fixed: usize) -
         baseline: 0,
         fixed,
         out_of_fuel: verdict.out_of_fuel,
+        failed_rules: verdict.failed_rules,
         assumptions: verdict.assumptions,
     }
 }

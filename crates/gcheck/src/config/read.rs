@@ -75,11 +75,16 @@ fn file(path: &Path) -> Result<(Layer, Option<PathBuf>), Problem> {
 
 /// Whether a text would do as the configuration of this path; what it extends is not read.
 pub(crate) fn check_text(path: &Path, text: &str) -> Result<(), Problem> {
+    layer_of_text(path, text).map(|_| ())
+}
+
+/// A text as the configuration of this path; what it extends is not read.
+pub(crate) fn layer_of_text(path: &Path, text: &str) -> Result<Layer, Problem> {
     let name = paths::shown_from_here(path);
     let absolute = paths::absolute(path);
     let folder = absolute.parent().unwrap_or(&absolute).to_owned();
     let file = parse(&name, text)?;
-    Layer::new(Some(absolute), file, Text { name: &name, text, folder: &folder }).map(|_| ())
+    Layer::new(Some(absolute), file, Text { name: &name, text, folder: &folder })
 }
 
 /// Reads `KEY=VALUE` of the command line; a value that is not TOML is text.

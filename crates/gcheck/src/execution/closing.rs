@@ -36,6 +36,7 @@ pub(crate) fn control_line(session: &Session<'_>) -> String {
         baseline: 0,
         fixed: 0,
         out_of_fuel: false,
+        failed_rules: Vec::new(),
         assumptions: Vec::new(),
     }]);
     gcheck_report::control_lines(&report).join("\n")

@@ -2,6 +2,7 @@
 //!
 //! Knows: system calls. Must not know: their order, what is done when one fails.
 
+use std::ffi::OsString;
 use std::fs::{self, File, Metadata, Permissions};
 use std::io::{self, Write as _};
 use std::path::Path;
@@ -41,6 +42,8 @@ pub(super) struct Old {
     owner: (u32, u32),
     #[cfg(unix)]
     names: u64,
+    /// Extended attributes by name; access control lists are among them.
+    attributes: Vec<(OsString, Vec<u8>)>,
 }
 
 impl Old {
@@ -53,6 +56,7 @@ impl Old {
             owner: (data.uid(), data.gid()),
             #[cfg(unix)]
             names: data.nlink(),
+            attributes: Vec::new(),
         }
     }
 
@@ -69,6 +73,23 @@ impl Old {
     }
 }
 
+#[cfg(any(target_os = "linux", target_vendor = "apple"))]
+mod attributes;
+
+/// Systems whose files have no such attributes, or where nobody uses them.
+#[cfg(not(any(target_os = "linux", target_vendor = "apple")))]
+mod attributes {
+    use super::{File, OsString, Path, io};
+
+    pub(super) fn of(_: &Path) -> io::Result<Vec<(OsString, Vec<u8>)>> {
+        Ok(Vec::new())
+    }
+
+    pub(super) fn give(_: &File, _: &[(OsString, Vec<u8>)]) -> io::Result<()> {
+        Ok(())
+    }
+}
+
 /// The system's own.
 #[derive(Debug)]
 pub(super) struct System;
@@ -78,7 +99,7 @@ impl Disk for System {
 
     fn about(&self, path: &Path) -> io::Result<Option<Old>> {
         match fs::metadata(path) {
-            Ok(data) => Ok(Some(Old::of(&data))),
+            Ok(data) => Ok(Some(Old { attributes: attributes::of(path)?, ..Old::of(&data) })),
             Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
             Err(error) => Err(error),
         }
@@ -107,7 +128,12 @@ impl Disk for System {
             }
         }
         file.set_permissions(old.permissions.clone())?;
-        Ok(())
+        // After the permissions: an access control list has its own idea of them.
+        attributes::give(file, &old.attributes).map_err(|_| {
+            Failure::Refused(
+                "it has extended attributes or an access control list, which a new file cannot have",
+            )
+        })
     }
 
     fn sync(&self, file: &File) -> io::Result<()> {

@@ -130,7 +130,7 @@ fn json_has_the_shape_of_the_contract() {
     }
     let counts = ["files", "lines", "errors", "warnings", "infos", "hints", "suppressed", "baseline"];
     check_shape(&json["summary"], &counts.map(|count| (count, "count")), &json);
-    check_shape(&json["summary"], &[("out_of_fuel", "list")], &json);
+    check_shape(&json["summary"], &[("out_of_fuel", "list"), ("failed_rules", "list")], &json);
     assert_eq!(json["summary"]["files"], 2);
     assert_eq!(json["summary"]["errors"], 1);
     assert_eq!(json["summary"]["warnings"], 2);

@@ -31,6 +31,7 @@ mod output;
 mod plot;
 mod presets;
 mod readers;
+mod resources;
 mod run;
 mod shop;
 mod stats;

@@ -109,7 +109,8 @@ const OWN: &[(&str, &[&str])] = &[
 ];
 
 /// Use whatever they need: the binary ties everything together, the others never ship.
-const FREE: &[&str] = &["gcheck", "gcheck-packages", "gcheck-testkit", "gcheck-tests", "xtask"];
+const FREE: &[&str] =
+    &["gcheck", "gcheck-fuzz", "gcheck-packages", "gcheck-testkit", "gcheck-tests", "xtask"];
 
 /// Packages whose folder has another name: the end-to-end tests are where cargo users look for them.
 const OTHER_FOLDER: &[(&str, &str)] = &[("gcheck-tests", "tests")];

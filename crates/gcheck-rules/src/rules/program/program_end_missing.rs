@@ -138,6 +138,10 @@ fn end(cx: &FileCx<'_>, last: &Range<u32>) -> Option<Fix> {
     let rest = text.get((last.end - base) as usize..)?;
     let line_end = line_end(rest);
     let behind = last.end + gcheck_syntax::line_len(rest.as_bytes()) as u32;
+    // After a tape mark the control may read nothing more: an end there would be missing again.
+    if behind > cx.region.end || cx.slice(last.clone()).trim_start().starts_with('%') {
+        return None;
+    }
     let is_open = !text.get(..(behind - base) as usize)?.ends_with(['\n', '\r']);
     let before = if is_open { line_end } else { "" };
     let title = format!("end the program with `{code}`");
@@ -159,6 +163,13 @@ mod tests {
         };
         assert_eq!(mended("haas-lathe", "%\r\nO1\r\nG0 X1.\r\n%\r\n"), "%\r\nO1\r\nG0 X1.\r\nM30\r\n%\r\n");
         assert_eq!(mended("haas-mill", "O1\nG0 X1. (END)"), "O1\nG0 X1. (END)\nM30\n");
+        for control in gcheck_controls::names() {
+            let after_mark = findings(&only(&RULE), control, "N10\n%#1\n", &World::default());
+            assert!(
+                after_mark.iter().all(|finding| finding.fixes.is_empty()),
+                "{control}: the end is not read there"
+            );
+        }
     }
 
     #[test]

@@ -1,12 +1,12 @@
 //! A block that is nested too deeply to be read.
 
-use gcheck_syntax::{MAX_EXPRESSION_DEPTH, MAX_OPERATORS, SyntaxError, SyntaxErrorKind};
+use gcheck_syntax::{MAX_EXPRESSION_DEPTH, MAX_LINE_BYTES, MAX_OPERATORS, SyntaxError, SyntaxErrorKind};
 
 use crate::declare::declare_rule;
 use crate::{BlockCx, Finding, Report, Run};
 
 declare_rule! {
-    /// Brackets, functions, signs or `IF … THEN` are nested deeper than gcheck reads, or a line has more operators than it reads.
+    /// Brackets, functions, signs or `IF … THEN` are nested deeper than gcheck reads, or a line has more operators or bytes than it reads.
     ///
     /// ## Why it matters
     /// No control evaluates a block of this depth; most stop at five levels. gcheck does not read the rest of the block.
@@ -24,7 +24,10 @@ declare_rule! {
         severity: Error,
         tier: Token,
         since: "0.1.0",
-        run: Run::Token { on: |kind| kind == SyntaxErrorKind::TooDeep, check },
+        run: Run::Token {
+            on: |kind| matches!(kind, SyntaxErrorKind::TooDeep | SyntaxErrorKind::LineTooLong),
+            check,
+        },
     }
 }
 
@@ -33,6 +36,14 @@ fn check(cx: &BlockCx<'_>, error: &SyntaxError, report: &mut Report<'_>) {
 }
 
 fn finding(cx: &BlockCx<'_>, error: &SyntaxError) -> Finding {
+    if error.kind == SyntaxErrorKind::LineTooLong {
+        // The place where reading ends: the rest may be most of the file.
+        let start = error.range.start;
+        return Finding::new(&META, cx.in_file(start..start), "line is longer than gcheck reads")
+            .label(format!("more than {} MB before this", MAX_LINE_BYTES >> 20))
+            .note("the rest of the line was not read")
+            .help("put each block on a line of its own");
+    }
     Finding::new(&META, cx.in_file(error.range.clone()), "expression is nested too deeply")
         .label(format!("more than {MAX_EXPRESSION_DEPTH} levels, or {MAX_OPERATORS} operators in the line"))
         .note("the rest of the block was not read")
@@ -70,6 +81,15 @@ mod tests {
             let block = format!("#1=[1{}]", "+1".repeat(operators));
             let found = findings(&only(&RULE), "fanuc-mill", &block, &World::default());
             assert_eq!(found.len(), count, "{operators}");
+        }
+    }
+
+    #[test]
+    fn a_line_is_read_up_to_a_megabyte() {
+        for (words, count) in [(262_144, 0), (262_145, 1), (1_000_000, 1)] {
+            let line = "X1.5".repeat(words);
+            let found = findings(&only(&RULE), "fanuc-mill", &line, &World::default());
+            assert_eq!(found.len(), count, "{words}");
         }
     }
 

@@ -55,7 +55,8 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
     // Most programs have no such comment, and need no second look.
     let mut calls = Vec::new();
     for (start, run) in cx.runs() {
-        let found = comments(run).filter_map(|(at, comment)| {
+        let short = comments(run).filter(|(_, comment)| comment.len() <= LONGEST);
+        let found = short.filter_map(|(at, comment)| {
             let (tool, place) = finds(comment)?;
             Some((tool, start + (at + place.start) as u32..start + (at + place.end) as u32))
         });
@@ -75,6 +76,8 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
 
 /// A program with more such comments keeps its tool calls there on purpose.
 const MOST: usize = 20;
+/// Bytes of a comment that may hold a tool call: what is longer is not a remark, and its words would take several times its size.
+const LONGEST: usize = 4_096;
 
 /// `T3 M06` or `M6 T3` in a comment.
 fn spindle_call(comment: &str) -> Option<(u32, Range<usize>)> {

@@ -23,6 +23,8 @@ pub(in crate::check) struct Verdict {
     pub(in crate::check) lines: usize,
     pub(in crate::check) suppressed: usize,
     pub(in crate::check) out_of_fuel: bool,
+    /// Rules that failed; a verdict with any is not stored.
+    pub(in crate::check) failed_rules: Vec<&'static str>,
     pub(in crate::check) assumptions: Vec<StatedAssumption>,
 }
 
@@ -78,7 +80,16 @@ const SOURCES: [ControlSource; 5] = [
 
 impl Entry {
     pub(in crate::check) fn new(asked: Asked, verdict: &Verdict) -> Self {
-        let Verdict { control, findings, omitted, lines, suppressed, out_of_fuel, assumptions } = verdict;
+        let Verdict {
+            control,
+            findings,
+            omitted,
+            lines,
+            suppressed,
+            out_of_fuel,
+            failed_rules: _,
+            assumptions,
+        } = verdict;
         let mut texts = Writer::default();
         let source = SOURCES.iter().position(|source| *source == control.source).unwrap_or_default();
         Self {
@@ -110,7 +121,7 @@ impl Entry {
         postcard::to_allocvec(self).ok()
     }
 
-    pub(super) fn decode(payload: &[u8]) -> Option<Self> {
+    pub(in crate::check) fn decode(payload: &[u8]) -> Option<Self> {
         postcard::from_bytes(payload).ok()
     }
 }
@@ -212,6 +223,7 @@ impl Reader<'_> {
             lines: usize::try_from(entry.lines).ok()?,
             suppressed: usize::try_from(entry.suppressed).ok()?,
             out_of_fuel: entry.out_of_fuel,
+            failed_rules: Vec::new(),
             assumptions: entry
                 .assumptions
                 .iter()

@@ -1,0 +1,52 @@
+//! A rule that panics takes only its own findings with it.
+//!
+//! Knows: which rule is called at the moment, on this thread. Must not know: how rules are called, any rule.
+//!
+//! Rules see a program together, in one pass; one that panics leaves that pass unfinished. So the pass begins again without it.
+//! As long as no rule panics this costs two writes to memory for each call.
+
+use std::borrow::Cow;
+use std::cell::Cell;
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
+
+use gcheck_diagnostics::RuleMeta;
+
+use crate::Selection;
+
+thread_local! {
+    /// The rule that is called, for as long as the call lasts.
+    static CALLED: Cell<Option<&'static RuleMeta>> = const { Cell::new(None) };
+}
+
+/// Calls a rule.
+pub(crate) fn call<T>(rule: &'static RuleMeta, call: impl FnOnce() -> T) -> T {
+    CALLED.set(Some(rule));
+    let result = call();
+    CALLED.set(None);
+    result
+}
+
+/// Does some work with a selection of rules; when a rule panics in it, again without that rule. Gives the rules that panicked.
+///
+/// A panic outside of a rule goes on: it says nothing about any rule.
+pub(crate) fn without_rules_that_panic<T>(
+    selection: &Selection,
+    mut work: impl FnMut(&Selection) -> T,
+) -> (T, Vec<&'static RuleMeta>) {
+    let mut selection = Cow::Borrowed(selection);
+    let mut failed: Vec<&'static RuleMeta> = Vec::new();
+    loop {
+        CALLED.set(None);
+        // Work that is begun again makes all that it uses again.
+        match catch_unwind(AssertUnwindSafe(|| work(&selection))) {
+            Ok(done) => return (done, failed),
+            Err(panic) => match CALLED.take() {
+                Some(rule) if selection.contains(rule.id) => {
+                    failed.push(rule);
+                    selection.to_mut().leave_out(rule.id);
+                }
+                _ => resume_unwind(panic),
+            },
+        }
+    }
+}

@@ -1,0 +1,228 @@
+//! `cargo xtask fuzz`: builds the fuzzer, runs it on each target in turn, and keeps seeds small.
+//!
+//! Knows: flags of the compiler for coverage, options and words of libFuzzer, the form of seeds. Must not know: any target.
+//!
+//! The fuzzer (`fuzz/`) is built by the toolchain of the repository: coverage is a pass of LLVM that a stable compiler can be
+//! asked for, and memory errors need no sanitizer where no code is unsafe.
+
+mod seeds;
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, ExitCode};
+use std::time::{Duration, Instant};
+use std::{env, fs};
+
+use anyhow::{Context as _, bail, ensure};
+
+use crate::workspace;
+
+/// Names the target to the fuzzer.
+const TARGET: &str = "GCHECK_FUZZ_TARGET";
+
+/// What makes the compiler count edges, and compare what programs compare.
+const COVERAGE: [&str; 6] = [
+    "-Cpasses=sancov-module",
+    "-Cllvm-args=-sanitizer-coverage-level=4",
+    "-Cllvm-args=-sanitizer-coverage-inline-8bit-counters",
+    "-Cllvm-args=-sanitizer-coverage-pc-table",
+    "-Cllvm-args=-sanitizer-coverage-trace-compares",
+    "--cfg fuzzing",
+];
+
+/// Bytes of an input: longer ones say no more, and take longer.
+const MOST_BYTES: usize = 1_024;
+/// An input that takes so many seconds is a failure.
+const MOST_SECONDS: u32 = 25;
+/// Memory of the fuzzer with all that it keeps, in megabytes; more is a failure.
+const MOST_MEGABYTES: u32 = 2_048;
+
+/// What is asked for.
+struct Wishes {
+    minutes: f64,
+    keeps: bool,
+    targets: Vec<String>,
+}
+
+/// Runs `fuzz [--minutes N] [--keep] [TARGET…]`; fails when a target fails.
+pub(crate) fn run(arguments: &[String]) -> anyhow::Result<ExitCode> {
+    let wishes = wishes(arguments)?;
+    let fuzzer = build()?;
+    let targets = u32::try_from(wishes.targets.len()).unwrap_or(1);
+    let each = Duration::from_secs_f64(wishes.minutes * 60.0) / targets;
+    println!("| target | executions | minutes | edges | features | inputs kept | |");
+    println!("|---|---|---|---|---|---|---|");
+    let mut failed = false;
+    for target in &wishes.targets {
+        let ran = fuzz(&fuzzer, target, each)?;
+        println!("{}", ran.row(target));
+        failed |= ran.failed;
+        if wishes.keeps && !ran.failed {
+            keep(&fuzzer, target)?;
+        }
+    }
+    Ok(if failed { ExitCode::FAILURE } else { ExitCode::SUCCESS })
+}
+
+fn wishes(arguments: &[String]) -> anyhow::Result<Wishes> {
+    let mut wishes = Wishes { minutes: 13.0, keeps: false, targets: Vec::new() };
+    let known = seeds::targets()?;
+    let mut rest = arguments.iter();
+    while let Some(argument) = rest.next() {
+        match argument.as_str() {
+            "--minutes" => {
+                let minutes = rest.next().and_then(|number| number.parse().ok());
+                wishes.minutes = minutes.context("`--minutes` takes a number")?;
+            }
+            "--keep" => wishes.keeps = true,
+            name if known.iter().any(|target| target == name) => wishes.targets.push(name.to_owned()),
+            other => bail!("`{other}` is not a target; known are {}", known.join(", ")),
+        }
+    }
+    if wishes.targets.is_empty() {
+        wishes.targets = known;
+    }
+    Ok(wishes)
+}
+
+/// The folder of the fuzzer.
+fn folder() -> PathBuf {
+    workspace::root().join("fuzz")
+}
+
+/// Builds the fuzzer; gives where it is.
+fn build() -> anyhow::Result<PathBuf> {
+    let host = workspace::host()?;
+    let cargo = env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    // With a target of its own, build scripts and macros are built without these flags.
+    let status = Command::new(cargo)
+        .current_dir(workspace::root())
+        .args([
+            "build",
+            "--release",
+            "--locked",
+            "--manifest-path",
+            "fuzz/Cargo.toml",
+            "--target-dir",
+            "fuzz/target",
+        ])
+        .args(["--target", &host])
+        .env("RUSTFLAGS", COVERAGE.join(" "))
+        .status()
+        .context("cargo does not start")?;
+    ensure!(status.success(), "the fuzzer does not build");
+    Ok(folder().join("target").join(host).join("release/gcheck-fuzzer"))
+}
+
+/// What a run of the fuzzer did, in its own words.
+#[derive(Debug, Default, PartialEq)]
+struct Ran {
+    executions: u64,
+    seconds: f64,
+    edges: u64,
+    features: u64,
+    inputs: u64,
+    failed: bool,
+}
+
+impl Ran {
+    fn row(&self, target: &str) -> String {
+        format!(
+            "| {target} | {} | {:.1} | {} | {} | {} | {} |",
+            self.executions,
+            self.seconds / 60.0,
+            self.edges,
+            self.features,
+            self.inputs,
+            if self.failed { "**failed**" } else { "" }
+        )
+    }
+}
+
+fn fuzz(fuzzer: &Path, target: &str, time: Duration) -> anyhow::Result<Ran> {
+    let corpus = folder().join("corpus").join(target);
+    let artifacts = folder().join("artifacts").join(target);
+    fs::create_dir_all(&artifacts)?;
+    seeds::unpack(target, &corpus)?;
+    let started = Instant::now();
+    let output = command(fuzzer, target)
+        .arg(&corpus)
+        .arg(format!("-max_total_time={}", time.as_secs().max(1)))
+        .arg(format!("-artifact_prefix={}/", artifacts.display()))
+        .args(["-print_final_stats=1", "-reload=0", "-close_fd_mask=1"])
+        .output()
+        .context("the fuzzer does not start")?;
+    let said = String::from_utf8_lossy(&output.stderr);
+    let mut ran = read(&said);
+    ran.seconds = started.elapsed().as_secs_f64();
+    ran.failed = !output.status.success();
+    if ran.failed {
+        let from = said.find("panicked at").or_else(|| said.find("ERROR: libFuzzer")).unwrap_or(0);
+        eprintln!("{target}:\n{}", said.get(from..).unwrap_or_default());
+    }
+    Ok(ran)
+}
+
+/// The fuzzer on one target, within its limits.
+fn command(fuzzer: &Path, target: &str) -> Command {
+    let mut command = Command::new(fuzzer);
+    command
+        .env(TARGET, target)
+        .arg(format!("-max_len={MOST_BYTES}"))
+        .arg(format!("-timeout={MOST_SECONDS}"))
+        .arg(format!("-rss_limit_mb={MOST_MEGABYTES}"));
+    command
+}
+
+/// Takes the last counts out of what libFuzzer says.
+fn read(said: &str) -> Ran {
+    let mut ran = Ran::default();
+    for line in said.lines() {
+        if let Some((_, count)) = line.split_once("stat::number_of_executed_units:") {
+            ran.executions = count.trim().parse().unwrap_or(0);
+        }
+        if !line.starts_with('#') {
+            continue;
+        }
+        let words: Vec<&str> = line.split_whitespace().collect();
+        let after = |name: &str| {
+            let at = words.iter().position(|word| *word == name)?;
+            words.get(at + 1)?.split('/').next()?.parse().ok()
+        };
+        let ended = words.first().and_then(|first| first.trim_start_matches('#').parse().ok());
+        ran.executions = ran.executions.max(ended.unwrap_or(0));
+        ran.edges = after("cov:").unwrap_or(ran.edges);
+        ran.features = after("ft:").unwrap_or(ran.features);
+        ran.inputs = after("corp:").unwrap_or(ran.inputs);
+    }
+    ran
+}
+
+/// Leaves of the inputs those that add coverage, and takes some of them as seeds.
+fn keep(fuzzer: &Path, target: &str) -> anyhow::Result<()> {
+    let corpus = folder().join("corpus").join(target);
+    let least = folder().join("corpus").join(format!("{target}.least"));
+    if least.exists() {
+        fs::remove_dir_all(&least)?;
+    }
+    fs::create_dir_all(&least)?;
+    let merged =
+        command(fuzzer, target).args(["-merge=1", "-close_fd_mask=1"]).args([&least, &corpus]).output()?;
+    ensure!(merged.status.success(), "the inputs of {target} cannot be minimised");
+    fs::remove_dir_all(&corpus)?;
+    fs::rename(&least, &corpus)?;
+    seeds::pack(target, &corpus)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Ran, read};
+
+    #[test]
+    fn the_last_counts_are_what_a_run_did() {
+        let said = "#2\tINITED cov: 10 ft: 11 corp: 1/1b exec/s: 0 rss: 30Mb\n\
+            #4096\tpulse  cov: 1200 ft: 3400 corp: 56/7890b lim: 4 exec/s: 2048 rss: 60Mb\n\
+            stat::number_of_executed_units: 5000\n";
+        let expected = Ran { executions: 5_000, edges: 1_200, features: 3_400, inputs: 56, ..Ran::default() };
+        assert_eq!(read(said), expected);
+    }
+}
