@@ -100,8 +100,8 @@ pub(crate) mod five_axis {
     pub(crate) mod maybe_refused_in_five_axis_mode;
     pub(crate) mod reference_return_under_tilt;
     pub(crate) mod refused_in_five_axis_mode;
-    pub(crate) mod rotary_feed_per_minute;
     pub(crate) mod rotary_axis_jumps;
+    pub(crate) mod rotary_feed_per_minute;
     pub(crate) mod rotary_motion_under_dynamic_offset;
     pub(crate) mod tilt_modes_conflict;
     pub(crate) mod tool_direction_unknown;
@@ -534,8 +534,8 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &five_axis::maybe_refused_in_five_axis_mode::RULE,
     &five_axis::reference_return_under_tilt::RULE,
     &five_axis::refused_in_five_axis_mode::RULE,
-    &five_axis::rotary_feed_per_minute::RULE,
     &five_axis::rotary_axis_jumps::RULE,
+    &five_axis::rotary_feed_per_minute::RULE,
     &five_axis::rotary_motion_under_dynamic_offset::RULE,
     &five_axis::tilt_modes_conflict::RULE,
     &five_axis::tool_direction_unknown::RULE,
