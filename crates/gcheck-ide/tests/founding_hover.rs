@@ -81,7 +81,7 @@ const PAGES: &[Page] = &[
                 "A or B names the rotary axis; its value does not count.",
                 "the cylinder is on A; the value does not count",
             ),
-            ("No other axis carries a cylinder.", "C does not carry a cylinder"),
+            ("The pages differ about another axis.", "Of C the manuals differ"),
             ("`Q` is the diameter.", "diameter of the cylinder"),
             (
                 "`Q` without a rotary axis is an alarm when the block runs.",

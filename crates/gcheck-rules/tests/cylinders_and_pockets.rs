@@ -167,7 +167,7 @@ fn words_of_a_pocket() {
             Y0. 99999.: error[pocket-start-outside]
             Y0. ABC: error[unexpected-text]
             Y0. #100: 
-            Z-.5 missing: warning[cycle-r-below-bottom] warning[required-word-missing]
+            Z-.5 missing: error[required-word-missing]
             Z-.5 twice: warning[word-given-twice]
             Z-.5 -1.: 
             Z-.5 0.: 

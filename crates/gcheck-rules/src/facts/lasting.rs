@@ -56,7 +56,5 @@ pub(crate) fn first_call_elsewhere(survey: &Survey) -> Option<u32> {
 /// the last program counts.
 pub(crate) fn is_refused_without(control: &Control, code: Code<'_>, letter: Letter) -> bool {
     let row = control.lasting_in(letter, &code.entry().group);
-    row.is_some_and(|row| {
-        row.confidence == Confidence::Manual && row.until.contains(&LastingEnd::ProgramEnd)
-    })
+    row.is_some_and(|row| row.confidence == Confidence::Manual && row.until.contains(&LastingEnd::ProgramEnd))
 }

@@ -87,7 +87,7 @@ run(mill("O1\nG20 G90 G54 G0 X0. Y0. Z0.\nS900 M3\nG1 G141 D1 X1. Y0. Z0. I0. J0
 computed: By(&[
 same(mill("O1\nG20 G90 G54 G0 X0. Y0. Z0.\nS900 M3\n#1=1\nG1 G141 D#1 X1. Y0. Z0. I0. J0. K1. F20.\nG40\nM30\n").with(HALF), mill("O1\nG20 G90 G54 G0 X0. Y0. Z0.\nS900 M3\nG1 G141 D1 X1. Y0. Z0. I0. J0. K1. F20.\nG40\nM30\n").with(HALF)),
 rule("warning[cutter-vector-without-size]", mill("O1\nG20 G90 G54 G0 X0. Y0. Z0.\nS900 M3\n#1=0\nG1 G141 D#1 X1. Y0. Z0. I0. J0. K1. F20.\nG40\nM30\n"), mill("O1\nG20 G90 G54 G0 X0. Y0. Z0.\nS900 M3\n#1=1\nG1 G141 D#1 X1. Y0. Z0. I0. J0. K1. F20.\nG40\nM30\n")),
-rule("warning[computed-value-out-of-range]", mill("O1\nG20 G90 G54 G0 X0. Y0. Z0.\nS900 M3\n#1=1.5\nG1 G141 D#1 X1. Y0. Z0. I0. J0. K1. F20.\nG40\nM30\n"), mill("O1\nG20 G90 G54 G0 X0. Y0. Z0.\nS900 M3\n#1=1\nG1 G141 D#1 X1. Y0. Z0. I0. J0. K1. F20.\nG40\nM30\n")),
+rule("info[computed-value-out-of-range]", mill("O1\nG20 G90 G54 G0 X0. Y0. Z0.\nS900 M3\n#1=1.5\nG1 G141 D#1 X1. Y0. Z0. I0. J0. K1. F20.\nG40\nM30\n"), mill("O1\nG20 G90 G54 G0 X0. Y0. Z0.\nS900 M3\n#1=1\nG1 G141 D#1 X1. Y0. Z0. I0. J0. K1. F20.\nG40\nM30\n")),
 same(mill("O1\nG20 G90 G54 G0 X0. Y0. Z0.\nS900 M3\n#1=1.5\nG1 G141 D#1 X1. Y0. Z0. I0. J0. K1. F20.\nG40\nM30\n").with(TWO), mill("O1\nG20 G90 G54 G0 X0. Y0. Z0.\nS900 M3\nG1 G141 D2 X1. Y0. Z0. I0. J0. K1. F20.\nG40\nM30\n").with(TWO)),
 ]),
 lasting: By(&[

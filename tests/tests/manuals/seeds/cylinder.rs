@@ -81,7 +81,7 @@ const SENTENCES: &[Sentence] = &[
             },
 ]),
 computed: By(&[
-same(wrapped("O1\nG21 G90 G54 G0 X0. Y0. Z0. A0.\n#100=100.\nG107 Y0. A0. Q#100\nG1 Y[#100*0.314159] F100.\nG107\nM30\n"), wrapped("O1\nG21 G90 G54 G0 X0. Y0. Z0. A0.\nG107 Y0. A0. Q100.\nG1 Y31.4159 F100.\nG107\nM30\n")),
+same(wrapped("O1\nG21 G90 G54 G0 X0. Y0. Z0. A0.\n#100=100.\nG107 Y0. A0. Q#100\nG1 Y[#100*0.314159] F100.\nG107\nM30\n"), wrapped("O1\nG21 G90 G54 G0 X0. Y0. Z0. A0.\nG107 Y0. A0. Q100.\nG1 Y31.416 F100.\nG107\nM30\n")),
 ]),
 lasting: By(&[
 run(wrapped("O1\nG21 G90 G54 G0 X0. Y0. Z0. A0.\nG107 Y0. A0. Q100.\nG1 X5. F100.\nY31.4159\nG0 Y0.\nG107\nM30\n"), &["5.0000 31.4159 0.0000 36.0000", "rapid 5.0000 0.0000 0.0000 0.0000"]),
@@ -605,7 +605,7 @@ range: No("no range"),
             },
 ]),
 computed: By(&[
-run(wrapped("O1\nG21 G90 G54 G0 X0. Y0. Z0. A0.\n#1=100.\nG107 Y0. A0. Q#1\n#2=0\nWHILE [#2 LT 3] DO1\n#2=#2+1\nG1 Y[31.4159*#2] F100.\nEND1\nG107\nM30\n"), &["36.0000", "71.9999", "107.9999"]),
+run(wrapped("O1\nG21 G90 G54 G0 X0. Y0. Z0. A0.\n#1=100.\nG107 Y0. A0. Q#1\n#2=0\nWHILE [#2 LT 3] DO1\n#2=#2+1\nG1 Y[31.4159*#2] F100.\nEND1\nG107\nM30\n"), &["36.0001", "72.0002", "108.0003"]),
 ]),
 lasting: By(&[
 run(wrapped("O1\nG21 G90 G54 G0 X0. Y0. Z0. A0.\nG107 Y0. A0. Q100.\nG91 G1 Y31.4159 F100.\nY31.4159\nG90\nG107\nM30\n"), &["36.0000", "71.9999"]),

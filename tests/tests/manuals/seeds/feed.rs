@@ -1067,9 +1067,9 @@ fn bad_input() {
         F in a subprogram, generic-mill: 
         F in a subprogram, haas-mill: 
         F in a subprogram, fanuc-mill: 
-        F behind a block skip, generic-mill: error[feed-missing]
-        F behind a block skip, haas-mill: error[feed-missing]
-        F behind a block skip, fanuc-mill: error[feed-missing]
+        F behind a block skip, generic-mill: warning[feed-missing]
+        F behind a block skip, haas-mill: warning[feed-missing]
+        F behind a block skip, fanuc-mill: warning[feed-missing]
         F in a loop, generic-mill: error[feed-zero]
         F in a loop, haas-mill: error[feed-zero]
         F in a loop, fanuc-mill: error[feed-zero]

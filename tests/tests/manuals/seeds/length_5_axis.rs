@@ -109,7 +109,7 @@ range: No("see G143-3"),
 computed: By(&[
 same(mill("O1\nG20 G90\nT1 M6\nG0 G54 X0. Y0. Z2. A0. B0.\nS900 M3\n#1=1\nG143 H#1 X0. Y0. Z1. A-20. B-20.\nG49\nM30\n").with(FOUR), mill("O1\nG20 G90\nT1 M6\nG0 G54 X0. Y0. Z2. A0. B0.\nS900 M3\nG143 H1 X0. Y0. Z1. A-20. B-20.\nG49\nM30\n").with(FOUR)),
 rule("error[five-axis-length-without-offset]", mill("O1\nG20 G90\nT1 M6\nG0 G54 X0. Y0. Z2. A0. B0.\nS900 M3\n#1=0\nG143 H#1 X0. Y0. Z1. A-20. B-20.\nG49\nM30\n"), mill("O1\nG20 G90\nT1 M6\nG0 G54 X0. Y0. Z2. A0. B0.\nS900 M3\n#1=1\nG143 H#1 X0. Y0. Z1. A-20. B-20.\nG49\nM30\n")),
-rule("warning[computed-value-out-of-range]", mill("O1\nG20 G90\nT1 M6\nG0 G54 X0. Y0. Z2. A0. B0.\nS900 M3\n#1=1.5\nG143 H#1 X0. Y0. Z1. A-20. B-20.\nG49\nM30\n"), mill("O1\nG20 G90\nT1 M6\nG0 G54 X0. Y0. Z2. A0. B0.\nS900 M3\n#1=1\nG143 H#1 X0. Y0. Z1. A-20. B-20.\nG49\nM30\n")),
+rule("info[computed-value-out-of-range]", mill("O1\nG20 G90\nT1 M6\nG0 G54 X0. Y0. Z2. A0. B0.\nS900 M3\n#1=1.5\nG143 H#1 X0. Y0. Z1. A-20. B-20.\nG49\nM30\n"), mill("O1\nG20 G90\nT1 M6\nG0 G54 X0. Y0. Z2. A0. B0.\nS900 M3\n#1=1\nG143 H#1 X0. Y0. Z1. A-20. B-20.\nG49\nM30\n")),
 same(mill("O1\nG20 G90\nT1 M6\nG0 G54 X0. Y0. Z2. A0. B0.\nS900 M3\n#1=1.5\nG143 H#1 X0. Y0. Z1. A-20. B-20.\nG49\nM30\n").with(TWO), mill("O1\nG20 G90\nT1 M6\nG0 G54 X0. Y0. Z2. A0. B0.\nS900 M3\nG143 H2 X0. Y0. Z1. A-20. B-20.\nG49\nM30\n").with(TWO)),
 rule("warning[five-axis-length-without-offset]", mill("O1\nG20 G90\nT1 M6\nG0 G54 X0. Y0. Z2. A0. B0.\nS900 M3\n#1=1\nIF [#500 EQ 1] GOTO 10\n#1=0\nN10 G143 H#1 X0. Y0. Z1. A-20. B-20.\nG49\nM30\n"), mill("O1\nG20 G90\nT1 M6\nG0 G54 X0. Y0. Z2. A0. B0.\nS900 M3\n#1=1\nIF [#500 EQ 1] GOTO 10\n#1=1\nN10 G143 H#1 X0. Y0. Z1. A-20. B-20.\nG49\nM30\n")),
 ]),

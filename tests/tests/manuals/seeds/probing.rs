@@ -95,7 +95,7 @@ run(mill("O1\n#1=0.1\nM53\nG04 P#1\nM63\nM30\n"), &["dwell 0.100"]),
 ]),
 lasting: No("not lasting"),
 missing: By(&[
-rule("warning[required-word-missing]", mill("O1\nM53\nG04\nM63\nM30\n"), mill("O1\nM53\nG04 P100\nM63\nM30\n")),
+rule("error[required-word-missing]", mill("O1\nM53\nG04\nM63\nM30\n"), mill("O1\nM53\nG04 P100\nM63\nM30\n")),
 ]),
 extra: By(&[
 rule("warning[axis-word-unsure]", mill("O1\nM53\nG04 P100 Z2.\nM63\nM30\n"), mill("O1\nM53\nG04 P100\nM63\nM30\n")),
@@ -146,7 +146,7 @@ lasting: By(&[
 ]),
 missing: By(&[
                 Rule {
-                    finding: "error[first-touch-missing]",
+                    finding: "warning[first-touch-missing]",
                     violates: mill("O1\nG91\n/G31 Y-1. F10. M75\nG0 Y-5.\nG136 Y1. F10.\nG90\nM30\n"),
                     conforms: mill("O1\nG91\nG31 Y-1. F10. M75\n/G0 Y-5.\nG136 Y1. F10.\nG90\nM30\n"),
                 },
@@ -461,7 +461,7 @@ lasting: By(&[
                     conforms: mill("O1\nG91 G1 Y2. F10.\nG31 Y-1. F10.\nG90\nM30\n"),
                 },
                 Rule {
-                    finding: "warning[required-word-missing]",
+                    finding: "error[required-word-missing]",
                     violates: mill("O1\nG91 G31 Y-1. F10. M75\nG136 Y1.\nG90\nM30\n"),
                     conforms: KEPT,
                 },
@@ -823,10 +823,10 @@ fn words_made_wrong() {
         G35 D huge: error[number-out-of-range]
         G35 D no number: error[address-without-value]
         G35 D unknown: 
-        G35 F missing: warning[required-word-missing]
+        G35 F missing: error[required-word-missing]
         G35 F doubled: warning[word-given-twice]
         G35 F negative: error[sign-not-accepted]
-        G35 F zero: warning[number-out-of-range]
+        G35 F zero: error[number-out-of-range]
         G35 F huge: warning[probe-feed-too-high]
         G35 F no number: error[address-without-value]
         G35 F unknown: 
@@ -865,10 +865,10 @@ fn words_made_wrong() {
         G37 Z huge: 
         G37 Z no number: error[address-without-value]
         G37 Z unknown: 
-        G37 F missing: warning[required-word-missing]
+        G37 F missing: error[required-word-missing]
         G37 F doubled: warning[word-given-twice]
         G37 F negative: error[sign-not-accepted]
-        G37 F zero: warning[number-out-of-range]
+        G37 F zero: error[number-out-of-range]
         G37 F huge: warning[probe-feed-too-high]
         G37 F no number: error[address-without-value]
         G37 F unknown: 
@@ -886,10 +886,10 @@ fn words_made_wrong() {
         G136 I huge: warning[shift-of-axis-not-probed]
         G136 I no number: error[address-without-value]
         G136 I unknown: warning[shift-of-axis-not-probed]
-        G136 F missing: warning[required-word-missing]
+        G136 F missing: error[required-word-missing]
         G136 F doubled: warning[word-given-twice]
         G136 F negative: error[sign-not-accepted]
-        G136 F zero: warning[number-out-of-range]
+        G136 F zero: error[number-out-of-range]
         G136 F huge: warning[probe-feed-too-high]
         G136 F no number: error[address-without-value]
         G136 F unknown: 

@@ -40,9 +40,13 @@ impl PathRule for ArcTurnsNotWhole {
             let is_whole = cx.known_number('P').is_some_and(|turns| turns.fract() == 0.0);
             let what = if is_whole { "above zero" } else { "whole" };
             report.add(
-                cx.finding(&META, cx.letter_range('P'), format!("number of turns of an arc (`P`) that is not {what}"))
-                    .label("counts turns; a turn that is begun counts as one")
-                    .help("give a whole number above zero"),
+                cx.finding(
+                    &META,
+                    cx.letter_range('P'),
+                    format!("number of turns of an arc (`P`) that is not {what}"),
+                )
+                .label("counts turns; a turn that is begun counts as one")
+                .help("give a whole number above zero"),
             );
         }
     }

@@ -60,7 +60,7 @@ impl PathRule for RotaryFeedPerMinute {
         if !is_simple || mode == FeedMode::InverseTime || !is_five_axis(travel) {
             return;
         }
-        // The feed is that of the tip, or another rule speaks of it.
+        // The feed is that of the tip, or another rule reports it.
         let length = state.effect(Role::Length, cx.model);
         if length.is_none_or(|length| length == Effect::ToolCentrePoint || is_along_tool(length)) {
             return;
@@ -71,10 +71,8 @@ impl PathRule for RotaryFeedPerMinute {
         if self.told.replace(set_by) == Some(set_by) {
             return;
         }
-        let (name, per) = (
-            cx.name_of(code),
-            if mode == FeedMode::PerRevolution { "per turn" } else { "per minute" },
-        );
+        let (name, per) =
+            (cx.name_of(code), if mode == FeedMode::PerRevolution { "per turn" } else { "per minute" });
         let finding = cx
             .finding(&META, cx.range(), format!("two rotary axes turn in a cut with feed {per} (`{name}`)"))
             .label("`F` does not say how fast the tool cuts here")

@@ -14,16 +14,14 @@ declare_rule! {
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
-    /// #1=3
-    /// IF [#1 EQ 3] THEN GOTO 40
+    /// IF [#500 EQ 3] THEN GOTO 40
     /// G0 X1.
     /// N40 M30
     /// ```
     /// ## Not reported
     /// ```nc,quiet,haas-mill
-    /// #1=3
-    /// IF [#1 EQ 3] GOTO 40
-    /// IF [#1 EQ 4] THEN #2=5
+    /// IF [#500 EQ 3] GOTO 40
+    /// IF [#500 EQ 4] THEN #501=5
     /// N40 M30
     /// ```
     rule "then-before-jump" in "macros" {

@@ -46,8 +46,10 @@ fn finding(cx: &BlockCx<'_>, word: &Word, most: u32) -> Finding {
     let source = cx.control().limits().source.as_deref().map(|s| format!("  [{s}]")).unwrap_or_default();
     // What a control without an alarm of its own does with a higher number is not written anywhere.
     let is_refused = cx.control().alarm(META.id).is_some();
-    let finding = Finding::new(&META, cx.range(word), format!("sequence number too high: `{}`", cx.text(word)))
-        .label(if is_refused { "the control refuses it" } else { "above the highest that the manual gives" });
+    let finding =
+        Finding::new(&META, cx.range(word), format!("sequence number too high: `{}`", cx.text(word))).label(
+            if is_refused { "the control refuses it" } else { "above the highest that the manual gives" },
+        );
     let finding = if is_refused { finding } else { finding.at_most(Severity::Warning) };
     finding
         .note(format!("{} reads sequence numbers up to {most}{source}", cx.control().title()))

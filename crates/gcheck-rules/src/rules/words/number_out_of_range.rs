@@ -62,7 +62,8 @@ fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
         let Some(facts) = cx.facts(word) else { continue };
         let value = counted(cx, word, &facts, value);
         let nearest = nearest_reading(cx, word, &facts, value);
-        let low = facts.min.is_some_and(|min| nearest < min) || facts.above.is_some_and(|above| value <= above);
+        let low =
+            facts.min.is_some_and(|min| nearest < min) || facts.above.is_some_and(|above| value <= above);
         let high = facts.max.is_some_and(|max| nearest > max);
         // Another rule reports a minus sign that is not accepted.
         let is_sign = word.shape.minus && !facts.negative;

@@ -14,6 +14,9 @@ use rustix::io::Errno;
 /// Attributes that the system gives every file by itself, or that only the superuser may set.
 const OF_THE_SYSTEM: [&str; 3] = ["security.", "trusted.", "com.apple.provenance"];
 
+/// A longer answer is refused: a file with it is not replaced.
+const MOST_BYTES: usize = 16 << 20;
+
 /// The attributes of a file, as far as they are its own. A file system without any has none.
 ///
 /// # Errors
@@ -50,19 +53,17 @@ pub(super) fn give(file: &File, attributes: &[(OsString, Vec<u8>)]) -> io::Resul
     Ok(())
 }
 
-/// All bytes of an answer whose length is asked first; it may grow in between.
+/// All bytes of an answer of unknown length.
 fn sized(ask: impl Fn(&mut [u8]) -> Result<usize, Errno>) -> Result<Vec<u8>, Errno> {
+    // Linux gives no more than this; other systems may.
+    let mut bytes = vec![0; 64 << 10];
     loop {
-        let mut bytes = vec![0; ask(&mut [])?];
-        if bytes.is_empty() {
-            return Ok(bytes);
-        }
         match ask(&mut bytes) {
             Ok(length) => {
                 bytes.truncate(length);
                 return Ok(bytes);
             }
-            Err(Errno::RANGE) => {}
+            Err(Errno::RANGE) if bytes.len() < MOST_BYTES => bytes.resize(bytes.len() * 2, 0),
             Err(error) => return Err(error),
         }
     }

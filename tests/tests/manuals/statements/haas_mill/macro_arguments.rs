@@ -167,10 +167,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 &["rapid X1.", "rapid X2.", "rapid X3.", "rapid X4.", "rapid X5."],
             )],
         ),
-        gap(
+        held(
             "p. 197",
             "An argument without a point is easily ten thousand times too small.",
-            "warning[missing-decimal-point] for arguments that count least increments, but not for D, E, F, H, M, S and T, nor for a zero",
+            "rule `missing-decimal-point`",
             &[rule(
                 "warning[missing-decimal-point]",
                 "O1\nG65 P2 X1\nM30\nO2\n#100=#24\nM99\n",

@@ -74,10 +74,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 rule("error[number-out-of-range]", "O1\nG43 H250\nM30\n", "O1\nG43 H200\nM30\n"),
             ],
         ),
-        gap(
+        held(
             "p. 220",
             "A computed value of an address is rounded to its last digit: .123456 goes to .1235 in inches and .123 in metric.",
-            "computed lengths are rounded to 0.0001 inch or 0.001 mm, angles to 0.001°, before they are used",
+            "`computed-lengths-round`",
             &[
                 moves("O1\nG20 G54 G0 G90\n#1=.123456\nX#1\nM30\n", &["rapid X.1235"]),
                 moves("O1\nG21 G54 G0 G90\n#1=.123456\nX#1\nM30\n", &["rapid X.123"]),
@@ -367,12 +367,12 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 &["rapid X7.", "rapid X9."],
             )],
         ),
-        gap(
+        held(
             "p. 228",
             "THEN does not go with GOTO.",
-            "error for GOTO after THEN: IF [..] GOTO n is the form",
+            "rule `then-before-jump`",
             &[rule(
-                "error[statement-of-another-control]",
+                "warning[then-before-jump]",
                 "O1\n#1=#500\nIF [#1 EQ 2] THEN GOTO5\nG4 P1.\nN5 M30\n",
                 "O1\n#1=#500\nIF [#1 EQ 2] GOTO5\nG4 P1.\nN5 M30\n",
             )],

@@ -315,7 +315,7 @@ const STATEMENTS: &[Statement] = &[
         "A high R asks for very many passes",
         "rule `cycle-numbers-contradict`",
         &[rule(
-            "warning[cycle-numbers-contradict]",
+            "error[cycle-numbers-contradict]",
             "G18 G21 G90\nS100 M3\nG0 X20 Z1\nG76 P1.5 Z-10 I-2 J0.3 K1 R90\nM2\n",
             "G18 G21 G90\nS100 M3\nG0 X20 Z1\nG76 P1.5 Z-10 I-2 J0.3 K1 R2\nM2\n",
         )],
@@ -411,7 +411,7 @@ const STATEMENTS: &[Statement] = &[
         "rule `cycle-numbers-contradict`",
         &[
             rule(
-                "warning[cycle-numbers-contradict]",
+                "error[cycle-numbers-contradict]",
                 "G18 G21 G90\nS100 M3\nG0 X20 Z1\nG76 P1.5 Z-10 I-2 J1 K1\nM2\n",
                 "G18 G21 G90\nS100 M3\nG0 X20 Z1\nG76 P1.5 Z-10 I-2 J0.9 K1\nM2\n",
             ),
@@ -446,7 +446,7 @@ const STATEMENTS: &[Statement] = &[
         &[
             runs("G18\nS100 M3\nG0 X20 Z1\nG76 P1.5 Z-10 I-2 J0.3 K1 E6 L3\nM2\n", &["STRAIGHT_FEED("]),
             rule(
-                "warning[cycle-numbers-contradict]",
+                "error[cycle-numbers-contradict]",
                 "G18 G21 G90\nS100 M3\nF100\nG0 X20 Z1\nG76 P1.5 Z-10 I-2 J0.3 K1 E6 L3\nM2\n",
                 "G18 G21 G90\nS100 M3\nF100\nG0 X20 Z1\nG76 P1.5 Z-10 I-2 J0.3 K1 E2 L3\nM2\n",
             ),

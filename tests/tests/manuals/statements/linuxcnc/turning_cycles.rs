@@ -261,7 +261,7 @@ const STATEMENTS: &[Statement] = &[
         "rule `cycle-numbers-contradict`",
         &[
             rule(
-                "warning[cycle-numbers-contradict]",
+                "error[cycle-numbers-contradict]",
                 "G17 G21 G90\nO100 SUB\nG0 X4 Z0\nG1 Z-5\nO100 ENDSUB\nF100\nG0 X5\nG71 Q100 I1\nM2\n",
                 "G18 G21 G90\nO100 SUB\nG0 X4 Z0\nG1 Z-5\nO100 ENDSUB\nF100\nG0 X5\nG71 Q100 I1\nM2\n",
             ),
