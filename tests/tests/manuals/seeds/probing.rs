@@ -95,7 +95,7 @@ run(mill("O1\n#1=0.1\nM53\nG04 P#1\nM63\nM30\n"), &["dwell 0.100"]),
 ]),
 lasting: No("not lasting"),
 missing: By(&[
-rule("error[required-word-missing]", mill("O1\nM53\nG04\nM63\nM30\n"), mill("O1\nM53\nG04 P100\nM63\nM30\n")),
+rule("warning[required-word-missing]", mill("O1\nM53\nG04\nM63\nM30\n"), mill("O1\nM53\nG04 P100\nM63\nM30\n")),
 ]),
 extra: By(&[
 rule("warning[axis-word-unsure]", mill("O1\nM53\nG04 P100 Z2.\nM63\nM30\n"), mill("O1\nM53\nG04 P100\nM63\nM30\n")),
