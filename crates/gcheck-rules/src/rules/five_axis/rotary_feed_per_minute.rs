@@ -1,5 +1,7 @@
 //! A cut that turns two rotary axes while linear ones move, with feed per minute.
 
+use std::collections::BTreeSet;
+
 use gcheck_controls::Effect;
 use gcheck_engine::{At, Axis, Event, Fact, FeedMode, Role, Travel, TravelKind};
 
@@ -35,14 +37,14 @@ declare_rule! {
         severity: Warning,
         tier: Path,
         since: "0.1.0",
-        run: Run::Path { watch: Watch::CUTS, make: || Box::new(RotaryFeedPerMinute { told: None }) },
+        run: Run::Path { watch: Watch::CUTS, make: || Box::new(RotaryFeedPerMinute::default()) },
     }
 }
 
-#[derive(Clone, PartialEq)]
+#[derive(Default, Clone, PartialEq)]
 struct RotaryFeedPerMinute {
-    /// The block that switched on the feed mode, as it was reported last.
-    told: Option<Option<At>>,
+    /// Blocks that switched on the feed mode: one finding for each.
+    told: BTreeSet<Option<At>>,
 }
 
 remembers!(RotaryFeedPerMinute: told);
@@ -68,7 +70,7 @@ impl PathRule for RotaryFeedPerMinute {
         let fact = Fact::Mode(Role::FeedMode);
         let set_by = cx.trace().set_by(fact);
         let Some(code) = state.mode(Role::FeedMode).only() else { return };
-        if self.told.replace(set_by) == Some(set_by) {
+        if !self.told.insert(set_by) {
             return;
         }
         let (name, per) =
