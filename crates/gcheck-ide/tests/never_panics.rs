@@ -13,127 +13,15 @@ use std::sync::Arc;
 
 use gcheck_db::{Database, DocumentId, Settings, Snapshot};
 use gcheck_ide::{Edit, InlayOptions, Workspace, WorkspaceFile};
+use gcheck_testkit::pieces::PROGRAM_PIECES;
 use proptest::prelude::*;
 
 const CONTROLS: [&str; 6] =
     ["haas-mill", "haas-lathe", "fanuc-mill", "fanuc-lathe", "linuxcnc", "generic-mill"];
 
-/// Pieces of programs, whole and broken, of all controls.
-const PIECES: &[&str] = &[
-    "%",
-    "O1",
-    "O0002 (PART)",
-    "O",
-    "N10",
-    "N",
-    "N10 ",
-    "/",
-    "/2 ",
-    "G0 ",
-    "G01",
-    "G1 X1. ",
-    "X1",
-    "Y-2.5 ",
-    "Z[#1+2]",
-    "X#100 ",
-    "G2 I1. J0. ",
-    "G3 X1. Y1. R-2. ",
-    "G83 Z-1. R1. Q.5 F10. ",
-    "G80 ",
-    "G81X1.Z-1.R1.F1.",
-    "G41 D1 ",
-    "G43 H1 ",
-    "G91 ",
-    "G90 ",
-    "G20 ",
-    "G21 ",
-    "G18 ",
-    "G68 R45. ",
-    "G51 P2. ",
-    "T1 M6 ",
-    "T0101 ",
-    "T",
-    "M6",
-    "M3 S1000 ",
-    "F100. ",
-    "S",
-    "G96 S200 ",
-    "G71 P10 Q20 U.1 W.1 D1. F.2 ",
-    "U1. ",
-    "W-1. ",
-    "M97 P10 ",
-    "M98 P2 ",
-    "M98 P#1",
-    "G65 P9010 A1. B#2 ",
-    "M99 ",
-    "M99 P10",
-    "M30",
-    "M2",
-    "#1=1",
-    "#100=#1+[2*3.]",
-    "#[#1+1]=",
-    "##1=2",
-    "#<d>=3",
-    "#<_x>",
-    "#<",
-    "#",
-    "IF [#1 EQ 1] GOTO 10",
-    "IF [",
-    "WHILE [#1 LT 5] DO1",
-    "END1",
-    "GOTO 10",
-    "GOTO #1",
-    "GOTO",
-    "o100 sub",
-    "o100 endsub",
-    "o<probe> sub",
-    "o<probe> endsub",
-    "o<probe> call [1] [#2]",
-    "o100 call",
-    "o110 if [#1]",
-    "o110 else",
-    "o110 endif",
-    "o120 while [0]",
-    "o120 endwhile",
-    "o[#1] call",
-    "o130 do",
-    "o130 while [1]",
-    "DPRNT[A#1]",
-    "(NOTE)",
-    "(",
-    "(a (b) c)",
-    "; rest",
-    ";",
-    "(gcheck: ignore all)",
-    "(gcheck: ignore ",
-    "(gcheck: control=",
-    "(MSG, µ)",
-    "(日本🙂)",
-    "SIN[",
-    "ATAN[1]/[2]",
-    "[",
-    "]",
-    ")",
-    "=",
-    ",R1.",
-    "\u{1A}",
-    "\u{FEFF}",
-    "é",
-    "\t",
-    "\r",
-    "\0",
-    "1.2.3",
-    "G1.25 ",
-    "G999 ",
-    "M123 ",
-    "@1^2",
-    "X 1 . 5",
-    ":1234",
-];
-
 fn program() -> impl Strategy<Value = String> {
     let piece = prop_oneof![
-        8 => proptest::sample::select(PIECES).prop_map(str::to_owned),
+        8 => proptest::sample::select(PROGRAM_PIECES).prop_map(str::to_owned),
         1 => any::<char>().prop_map(String::from),
     ];
     let end = prop_oneof![3 => Just(""), 2 => Just("\n"), 1 => Just("\r\n"), 1 => Just(" ")];
@@ -316,9 +204,9 @@ proptest! {
 
 #[test]
 fn every_place_of_a_program_of_everything() {
-    let text = PIECES.join("\n");
+    let text = PROGRAM_PIECES.join("\n");
     for control in CONTROLS {
-        let mut world = World::new(control, &[text.clone(), PIECES.join(" "), String::new()]);
+        let mut world = World::new(control, &[text.clone(), PROGRAM_PIECES.join(" "), String::new()]);
         for offset in (0..=text.len() as u32).step_by(101) {
             ask_everything(&mut world, offset, offset + 40, "20");
         }

@@ -6,3 +6,4 @@ pub mod blind;
 pub mod corpus;
 pub mod inputs;
 pub mod language_client;
+pub mod pieces;
