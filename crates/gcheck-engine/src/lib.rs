@@ -40,7 +40,7 @@ pub use model::{Model, Role};
 pub use observer::{Nobody, Observer};
 pub use origin::{At, Origin};
 pub use position::{Axis, Position};
-pub use program::{Library, LookedUp, NoLibrary, Program, ProgramFile, SourceFile};
+pub use program::{Library, LookedUp, NoLibrary, Program, ProgramFile, SourceFile, number_of_name};
 pub use run::{Alarm, MOST_ALARMS, RunResult, Stopped, run};
 #[cfg(feature = "forgetful")]
 pub use state::state_fields;

@@ -5,6 +5,7 @@
 
 use std::borrow::Cow;
 use std::cell::RefCell;
+use std::ffi::OsStr;
 use std::path::Path;
 use std::rc::Rc;
 
@@ -31,10 +32,9 @@ pub struct SourceFile {
     pub text: String,
 }
 
-/// The number that a file is named by: `O1234.nc`, `1234`.
-fn number_in_name(name: &str) -> Option<u32> {
-    let stem = Path::new(name).file_stem()?.to_str()?;
-    stem.trim_start_matches(['O', 'o']).parse().ok()
+/// The number that a file is named by, from its name without the extension: `O1234`, `1234`.
+pub fn number_of_name(stem: &str) -> Option<u32> {
+    stem.strip_prefix(['O', 'o']).unwrap_or(stem).parse().ok()
 }
 
 /// No other files.
@@ -178,7 +178,8 @@ impl<'a> Program<'a> {
             in_file(file).or_else(|| {
                 // A file may be named by the number without a number in it; one of another number is another program.
                 let is_another = |file: Rc<ProgramFile<'_>>| {
-                    number_in_name(&file.name) != Some(number)
+                    let stem = Path::new(&*file.name).file_stem().and_then(OsStr::to_str);
+                    stem.and_then(number_of_name) != Some(number)
                         && file.loaded.outline().programs().any(|program| program.number.is_some())
                 };
                 (!self.file(file).is_some_and(is_another)).then_some(At { file, block: 0 })

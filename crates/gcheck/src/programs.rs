@@ -9,8 +9,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
-use gcheck_engine::{Library, SourceFile};
+use gcheck_engine::{Library, SourceFile, number_of_name};
 use gcheck_lint::Programs;
+use gcheck_program::code_region;
 use gcheck_server::OpenPrograms;
 
 use crate::discovery::is_program_name;
@@ -63,7 +64,7 @@ impl Open {
             let is_fresh = known.get(path).is_some_and(|(read, _)| *read == state);
             if !is_fresh {
                 let text = self.texts.text(path).unwrap_or_default();
-                known.insert(path.clone(), (state, numbers_in(text.as_bytes()).collect()));
+                known.insert(path.clone(), (state, numbers_in(text.as_bytes())));
             }
             is_named(path, number) || known.get(path).is_some_and(|(_, numbers)| numbers.contains(&number))
         };
@@ -234,68 +235,44 @@ fn stem(path: &Path) -> Option<String> {
     path.file_stem().map(|stem| stem.to_string_lossy().to_lowercase())
 }
 
-/// The number of `o1234` or `1234`.
-fn number_of_name(stem: &str) -> Option<u32> {
-    stem.strip_prefix('o').unwrap_or(stem).parse().ok()
-}
-
 fn is_named(path: &Path, number: u32) -> bool {
     stem(path).is_some_and(|stem| number_of_name(&stem) == Some(number))
 }
 
 /// Words after a number that call or steer: `O100 call` and `O101 while` begin no program.
-const NOT_A_BEGINNING: [&[u8]; 14] = [
-    b"call",
-    b"endsub",
-    b"return",
-    b"if",
-    b"elseif",
-    b"else",
-    b"endif",
-    b"while",
-    b"endwhile",
-    b"do",
-    b"repeat",
-    b"endrepeat",
-    b"break",
-    b"continue",
+const NOT_A_BEGINNING: [&str; 14] = [
+    "call",
+    "endsub",
+    "return",
+    "if",
+    "elseif",
+    "else",
+    "endif",
+    "while",
+    "endwhile",
+    "do",
+    "repeat",
+    "endrepeat",
+    "break",
+    "continue",
 ];
 
-/// Numbers of `O1234` and `:1234` at the heads of lines, up to the end of the tape.
-fn numbers_in(content: &[u8]) -> impl Iterator<Item = u32> {
-    on_tape(content).split(|b| matches!(b, b'\n' | b'\r')).filter_map(|line| {
-        let line = line.trim_ascii_start();
-        let digits = line
-            .strip_prefix(b"O")
-            .or_else(|| line.strip_prefix(b"o"))
-            .or_else(|| line.strip_prefix(b":"))?;
-        let end = digits.iter().position(|b| !b.is_ascii_digit()).unwrap_or(digits.len());
-        let (number, rest) = digits.split_at_checked(end)?;
-        let rest = rest.trim_ascii_start();
-        let word = rest.split(|b| !b.is_ascii_alphabetic()).next().unwrap_or_default();
-        if NOT_A_BEGINNING.iter().any(|not| word.eq_ignore_ascii_case(not)) {
-            return None;
-        }
-        std::str::from_utf8(number).ok()?.parse().ok()
-    })
+/// Numbers of `O1234` and `:1234` at the heads of lines, in the part of the file that a control reads.
+fn numbers_in(content: &[u8]) -> Vec<u32> {
+    let text = String::from_utf8_lossy(content);
+    let read = text.get(code_region(&text)).unwrap_or_default();
+    read.split(['\n', '\r']).filter_map(number_at_head).collect()
 }
 
-/// What a control reads: a `%` at the head of a line ends it, unless nothing comes before it.
-fn on_tape(content: &[u8]) -> &[u8] {
-    let is_blank = |bytes: &[u8]| bytes.iter().all(|b| matches!(b, b' ' | b'\t' | b'\r' | b'\n' | 0));
-    let mut at = 0;
-    let mut is_open = false;
-    for line in content.split_inclusive(|b| matches!(b, b'\n' | b'\r')) {
-        let before = content.get(..at).unwrap_or_default();
-        if line.trim_ascii_start().starts_with(b"%") {
-            if is_open || !is_blank(before) {
-                return before;
-            }
-            is_open = true;
-        }
-        at += line.len();
+fn number_at_head(line: &str) -> Option<u32> {
+    let digits = line.trim_ascii_start().strip_prefix(['O', 'o', ':'])?;
+    let end = digits.find(|c: char| !c.is_ascii_digit()).unwrap_or(digits.len());
+    let (number, rest) = digits.split_at_checked(end)?;
+    let word = rest.trim_ascii_start().split(|c: char| !c.is_ascii_alphabetic()).next().unwrap_or_default();
+    if NOT_A_BEGINNING.iter().any(|not| word.eq_ignore_ascii_case(not)) {
+        return None;
     }
-    content
+    number.parse().ok()
 }
 
 #[cfg(test)]
@@ -304,16 +281,14 @@ mod tests {
 
     #[test]
     fn what_is_after_the_tape_is_not_there() {
-        let numbers = |text: &[u8]| numbers_in(text).collect::<Vec<u32>>();
-        assert_eq!(numbers(b"%\nO1\nM30\n%\n%\nO2\nM30\n%\n"), [1]);
-        assert_eq!(numbers(b"O1\nM30\n%\nO2\n"), [1]);
+        assert_eq!(numbers_in(b"%\nO1\nM30\n%\n%\nO2\nM30\n%\n"), [1]);
+        assert_eq!(numbers_in(b"O1\nM30\n%\nO2\n"), [1]);
     }
 
     #[test]
     fn numbers_stand_at_the_heads_of_lines() {
-        let numbers: Vec<u32> =
-            numbers_in(b"%\r\nO0100 (A)\nG0 O5\n :200\no300 sub\nO<name> call\nO400 call\no401 While [1]\n")
-                .collect();
+        let numbers =
+            numbers_in(b"%\r\nO0100 (A)\nG0 O5\n :200\no300 sub\nO<name> call\nO400 call\no401 While [1]\n");
         assert_eq!(numbers, [100, 200, 300]);
     }
 }
