@@ -300,7 +300,7 @@ impl Incremental {
         self.contained(edited.selection, |known, rules| known.check_with(edited, rules))
     }
 
-    /// Does some work; when a rule panics in it, anew without that rule, and nothing is kept for the next time.
+    /// Does some work. When a rule panics in it, the work is done again without that rule, and nothing is kept for the next time.
     fn contained(
         &mut self,
         selection: &Selection,

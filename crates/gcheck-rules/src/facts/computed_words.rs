@@ -116,7 +116,7 @@ pub(crate) fn finding(cx: &PathCx<'_>, rule: &'static RuleMeta, refused: &Refuse
         Why::Large => ("too large", range_of(facts), range_confidence(cx, refused)),
         Why::Unlisted => ("not among those", range_of(facts), facts.range_confidence),
         Why::Gap => {
-            let takes = format!("{}, but not {}", range_of(facts), gaps_of(facts));
+            let takes = format!("{}, but not {}", range_of(facts), spans(facts.gaps));
             ("not among those", takes, facts.range_confidence)
         }
         Why::Fraction => ("not a whole number", "whole numbers".to_owned(), facts.confidence),
@@ -184,11 +184,6 @@ pub(crate) fn range_of(facts: &WordFacts<'_>) -> String {
 /// Is the value between the bounds, where the word has no meaning?
 pub(crate) fn is_in_gap(value: f64, facts: &WordFacts<'_>) -> bool {
     facts.gaps.iter().any(|[first, last]| (*first..=*last).contains(&value))
-}
-
-/// "201 to 999".
-pub(crate) fn gaps_of(facts: &WordFacts<'_>) -> String {
-    spans(facts.gaps)
 }
 
 /// Bounds in words; `None` where there are none.

@@ -36,7 +36,7 @@ impl Leaving {
 
     /// By how much the path may differ at the corner with the move that follows; `None` where it does not.
     ///
-    /// A rounding stays within half of each move, so that it is no further from the corner than a circle that touches both
+    /// A rounding stays within half of each move, so that it is at most as far from the corner as a circle that touches both
     /// there; where a tolerance is less, it counts.
     pub(super) fn off(self, next: &Curve, modes: [CornerMode; 2]) -> Option<Off> {
         if !corners_differ(modes) {

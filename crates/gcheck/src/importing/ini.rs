@@ -240,7 +240,7 @@ impl Within<'_> {
 /// The text of a file that another one names.
 fn text_of(path: &Path) -> Result<String, String> {
     if !path.exists() {
-        return Err(format!("there is no file {}", paths::shown_from_here(path)));
+        return Err(format!("the file {} does not exist", paths::shown_from_here(path)));
     }
     let bytes = reading::regular(path, MOST_BYTES)
         .map_err(|reason| format!("cannot read {}: {reason}", paths::shown_from_here(path)))?;

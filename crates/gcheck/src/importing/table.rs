@@ -61,7 +61,7 @@ pub(super) fn read_named(sheet: &mut Sheet<'_>, path: &Path, range: &Range<usize
     let shown = paths::shown_from_here(path);
     let is_csv = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("csv"));
     if !path.exists() {
-        return sheet.leave(range, place, format!("there is no file {shown}"));
+        return sheet.leave(range, place, format!("the file {shown} does not exist"));
     }
     let bytes = match reading::regular(path, MOST_BYTES) {
         Ok(bytes) => bytes,

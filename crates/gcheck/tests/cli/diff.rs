@@ -322,7 +322,7 @@ fn tolerances_of_blending_say_by_how_much_a_corner_may_differ() {
         exit 1
     "#]]
     .assert_eq(&corners("linuxcnc", SQUARE, ["G61", "G61.1"]));
-    // Everybody blends until something else is said.
+    // Both programs blend until one of them says otherwise.
     expect![[r#"
         a.nc and b.nc make the machine do the same, within 0.001 mm
         exit 0

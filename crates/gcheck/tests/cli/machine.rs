@@ -291,7 +291,7 @@ fn what_is_in_the_file_stays_and_its_unit_counts() {
         wrote gcheck.toml: 11 values, 1 kept
         next: `gcheck check --show-settings`
         ! mill.ini:20: not used: [AXIS_A] MIN_LIMIT and MAX_LIMIT: the axis has no end of travel
-        ! mill.ini:27: not used: [EMCIO] TOOL_TABLE: there is no file tool.tbl
+        ! mill.ini:27: not used: [EMCIO] TOOL_TABLE: the file tool.tbl does not exist
         ! kept: machine.max_rpm is 9000 in gcheck.toml, and mill.ini:25 says 12000.0 (`--overwrite` takes the imported one)
         exit 0
         # Ours.
@@ -1274,7 +1274,7 @@ fn a_section_may_be_in_another_file() {
             acceleration.Z = 400.0  # from mill.ini, [JOINT_1] MAX_ACCELERATION
             max_feed = 3000.0  # from mill.ini, [TRAJ] MAX_LINEAR_VELOCITY * 60
             ! mill.ini:4: not used: axis A: the axis has no section with limits
-            ! mill.ini:19: not used: `#INCLUDE a.inc`: there is no file a.inc
+            ! mill.ini:19: not used: `#INCLUDE a.inc`: the file a.inc does not exist
             exit 0
         "##]],
     );

@@ -61,7 +61,7 @@ fn files_that_cannot_be_included_are_listed() {
             wrote gcheck.toml: 9 values
             next: `gcheck check --show-settings`
             ! mill.ini:1: not used: `#INCLUDE`: it names no file
-            ! mill.ini:2: not used: `#INCLUDE nosuchfile`: there is no file nosuchfile
+            ! mill.ini:2: not used: `#INCLUDE nosuchfile`: the file nosuchfile does not exist
             ! mill.ini:3: not used: `#INCLUDE ~/mine.inc`: files of a home folder are not read; name it by its path
             ! mill.ini:4: not used: `#INCLUDE round.inc`: the file includes itself
             ! mill.ini:8: not used: [TRAJ] MAX_LINEAR_VELOCITY: it allows 3000 mm/min, more than the slowest axis reaches (2400 mm/min), so `max_feed` is not written
@@ -98,7 +98,7 @@ fn an_axis_in_a_file_that_is_missing_is_listed_and_not_called_cut_short() {
         acceleration.X = 500.0  # from mill.ini, [AXIS_X] MAX_ACCELERATION
         max_feed = 3000.0  # from mill.ini, [TRAJ] MAX_LINEAR_VELOCITY * 60
         ! mill.ini:2: not used: axis Z: the axis has no section with limits
-        ! mill.ini:12: not used: `#INCLUDE z.inc`: there is no file z.inc
+        ! mill.ini:12: not used: `#INCLUDE z.inc`: the file z.inc does not exist
         exit 0
     "##]],
     );

@@ -94,9 +94,8 @@ impl PathRule for CutterVectorWithoutSize {
 
 /// Does another block give a `D`?
 fn is_given_elsewhere(cx: &PathCx<'_>) -> bool {
-    let here = cx.origin().letters.contains(Letter::of('D'));
-    let all = cx.survey.letters.contains(Letter::of('D'));
-    all && !here
+    let d = Letter::of('D');
+    cx.survey.letters.contains(d) && !cx.origin().letters.contains(d)
 }
 
 #[cfg(test)]

@@ -42,7 +42,7 @@ fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
             (StatementKind::If { .. }, _) => after = Some(statement.range.start),
             (StatementKind::Goto { .. }, Some(start)) => {
                 let Some(then) = then_between(cx, start, statement.range.start) else { continue };
-                let with_blank = then.start..statement.range.start + cx.in_file(0..0).start;
+                let with_blank = then.start..cx.in_file(statement.range.clone()).start;
                 let finding = Finding::new(&META, then, "`THEN` before a jump (`GOTO`)")
                     .label("a jump is written right after the condition")
                     .note(format!("the manual does not allow `THEN` with `GOTO`  [{source}]"))

@@ -1,10 +1,10 @@
 //! A value outside the range of its word.
 
-use gcheck_controls::{Code, Letter, Unpointed, WordEntry, WordKind};
+use gcheck_controls::{Code, Letter, Unpointed, WordEntry, WordKind, spans};
 use gcheck_program::{BlockFlags, Word};
 
 use crate::declare::declare_rule;
-use crate::facts::computed_words::{gaps_of, is_among, is_in_gap, range_of};
+use crate::facts::computed_words::{is_among, is_in_gap, range_of};
 use crate::{BlockCx, Finding, Reads, Report, Run, Severity, WordFacts, limit};
 
 declare_rule! {
@@ -149,7 +149,7 @@ fn in_gap(cx: &BlockCx<'_>, word: &Word, facts: &WordFacts<'_>) -> Finding {
     let of = facts.code.map(|code| format!(" for `{}`", cx.written(code))).unwrap_or_default();
     Finding::new(&META, cx.range(word), format!("value names nothing{of}: `{}`", cx.text(word)))
         .label(facts.is)
-        .note(format!("`{}`{of} cannot be {}  [{}]", word.letter, gaps_of(facts), facts.source))
+        .note(format!("`{}`{of} cannot be {}  [{}]", word.letter, spans(facts.gaps), facts.source))
         .help("correct the value")
         .at_most(limit(facts.range_confidence))
 }
