@@ -226,7 +226,8 @@ fn tangent(at: Vector, centre: Vector, way: f64) -> f64 {
 fn mirror(centre: Vector, start: Vector, chord: Vector) -> Vector {
     let spoke = [centre[0] - start[0], centre[1] - start[1]];
     let along = (spoke[0] * chord[0] + spoke[1] * chord[1]) / (chord[0] * chord[0] + chord[1] * chord[1]);
-    [0, 1].map(|axis| centre[axis] - 2.0 * (spoke[axis] - along * chord[axis]))
+    let across = [spoke[0] - along * chord[0], spoke[1] - along * chord[1]];
+    [centre[0] - 2.0 * across[0], centre[1] - 2.0 * across[1]]
 }
 
 /// A straight cut in the plane; `None` where it does not move in it.

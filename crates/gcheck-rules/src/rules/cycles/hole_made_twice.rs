@@ -145,7 +145,7 @@ impl HoleMadeTwice {
 
     /// The hole that is being made is done.
     fn close(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
-        let Some(hole) = self.current.take().filter(|hole| hole.is_known()) else { return };
+        let Some(hole) = self.current.take().filter(Hole::is_known) else { return };
         let Some(before) = self.holes.iter().find(|other| other.at == hole.at) else {
             if self.holes.len() < MOST {
                 self.holes.push(hole);

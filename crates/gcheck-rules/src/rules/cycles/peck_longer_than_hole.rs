@@ -65,10 +65,8 @@ impl PathRule for PeckLongerThanHole {
         let depth = travel.from.raw(Axis::Z) - travel.to.raw(Axis::Z);
         let peck = Mm(q * unit.in_mm());
         // The first stroke goes to the bottom, and the word says so.
-        if !is_length
-            || !(depth > 0.0 && peck.0 > depth * 1.01)
-            || cx.origin().letters.contains(Letter::of('I'))
-        {
+        let is_longer = is_length && depth > 0.0 && peck.0 > depth * 1.01;
+        if !is_longer || cx.origin().letters.contains(Letter::of('I')) {
             return;
         }
         let tool = Abstract::known(state.tool()).and_then(whole).and_then(|tool| state.tables().tool(tool));
