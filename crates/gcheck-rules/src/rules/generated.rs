@@ -13,6 +13,7 @@ pub(crate) mod arcs {
 }
 
 pub(crate) mod bar_feeder {
+    pub(crate) mod bar_fed_before_cutoff;
     pub(crate) mod bar_feed_in_cutoff_program;
     pub(crate) mod bar_initial_push_zero;
     pub(crate) mod bar_job_without_end;
@@ -463,6 +464,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &arcs::arc_wrong_plane_word::RULE,
     &arcs::full_circle_by_radius::RULE,
     &arcs::zero_radius_arc::RULE,
+    &bar_feeder::bar_fed_before_cutoff::RULE,
     &bar_feeder::bar_feed_in_cutoff_program::RULE,
     &bar_feeder::bar_initial_push_zero::RULE,
     &bar_feeder::bar_job_without_end::RULE,

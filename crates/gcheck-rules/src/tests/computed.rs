@@ -65,8 +65,9 @@ fn a_mistake_is_found_whether_its_words_are_written_or_computed() {
     };
     let shown: String = silent.into_iter().map(line).collect();
     expect![[r#"
-        4932 words
+        4954 words
         allowance-into-contour: F G X Z
+        bar-fed-before-cutoff: F G I J K M S T X Z
         blank-inside-number: G Y
         block-number-not-first: G
         code-must-come-first: M

@@ -1,0 +1,138 @@
+//! A bar feed while the part that was turned is still on the bar.
+
+use std::ops::Range;
+
+use gcheck_controls::Effect;
+use gcheck_engine::{Axis, Event, Travel, TravelKind};
+use gcheck_geometry::Mm;
+
+use crate::declare::declare_rule;
+use crate::facts::bar_feed::bar_feeder;
+use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
+use crate::{Remembers, remembers};
+
+declare_rule! {
+    /// The program turns a part and feeds the bar, and has not cut the part off: nothing was cut across the bar behind it.
+    ///
+    /// ## Why it matters
+    /// The part is pushed out with the bar. What comes after it cuts in wrong places, and the piece that is cut off in the end
+    /// is too long.
+    ///
+    /// ## Reported
+    /// ```nc,reported,haas-lathe
+    /// O1
+    /// G20 G99
+    /// T101
+    /// G97 S800 M3
+    /// G0 X0.85 Z0.1
+    /// G1 X0.5 F0.006
+    /// Z-1.25
+    /// G0 X4. Z4.
+    /// M5
+    /// G105 I2. J1.375 K0.5
+    /// M99
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,haas-lathe
+    /// O1
+    /// G20 G99
+    /// T101
+    /// G97 S800 M3
+    /// G0 X0.85 Z0.1
+    /// G1 X0.5 F0.006
+    /// Z-1.25
+    /// G0 X4. Z4.
+    /// T404
+    /// G0 X0.85 Z-1.375
+    /// G1 X-0.03 F0.002
+    /// G0 X4.
+    /// Z4.
+    /// M5
+    /// G105 I2. J1.375 K0.5
+    /// M99
+    /// ```
+    rule "bar-fed-before-cutoff" in "bar_feeder" {
+        summary: "bar fed while the turned part is still on it",
+        severity: Warning,
+        tier: Path,
+        since: "0.1.0",
+        run: Run::Path {
+            watch: Watch::CHANGES.union(Watch::MOVES),
+            make: || Box::new(BarFedBeforeCutoff::default()),
+        },
+    }
+}
+
+#[derive(Default, Clone, PartialEq)]
+struct BarFedBeforeCutoff {
+    /// The deepest cut along the part since it was cut off.
+    cut: Option<DeepestCut>,
+}
+
+remembers!(BarFedBeforeCutoff: cut);
+
+#[derive(Clone, PartialEq)]
+struct DeepestCut {
+    /// Work coordinate, millimetres; below zero.
+    z: f64,
+    bytes: Range<u32>,
+}
+
+remembers!(DeepestCut: bytes);
+
+/// Levels and radii that differ by less are one: millimetres.
+const SLACK: f64 = 0.05;
+/// Nearer to the face of the part, a cut is of the face: millimetres.
+const FACE: f64 = 1.0;
+
+impl PathRule for BarFedBeforeCutoff {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
+    fn concerns(&self, program: &Uses<'_>) -> bool {
+        program.may(|effect| effect == Effect::BarFeed)
+    }
+
+    fn moved(&mut self, cx: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
+        let Event::Travel(travel) = event else { return };
+        let z = travel.to.raw(Axis::Z);
+        if travel.kind != TravelKind::Feed || z > -FACE || z.is_nan() {
+            return;
+        }
+        let deepest = self.cut.as_ref().map_or(0.0, |cut| cut.z);
+        if goes_in(travel) && z <= deepest + SLACK {
+            // Behind all that was turned: a tube is cut off before the centre.
+            self.cut = None;
+        } else if z < deepest {
+            self.cut = Some(DeepestCut { z, bytes: cx.range() });
+        }
+    }
+
+    fn changed(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
+        match event {
+            // The part may be taken away, or held elsewhere.
+            Event::Chuck(_) | Event::BarLoad | Event::BarUnload(_) => self.cut = None,
+            Event::BarFeed(_) => {
+                let Some(cut) = self.cut.take() else { return };
+                if bar_feeder(cx).is_none() || !cx.is_on_every_path() || cx.is_after_unknown_program() {
+                    return;
+                }
+                report.add(
+                    cx.finding(&META, cx.range(), "the bar is fed with the turned part still on it")
+                        .label("nothing has cut the part off")
+                        .also(cut.bytes, format!("turned to Z {} here", cx.shown(Mm(cut.z))))
+                        .help("part off before the feed, or name the program that parts off with `P`"),
+                );
+            }
+            _ => {}
+        }
+    }
+}
+
+/// A straight cut in X alone, toward the centre.
+fn goes_in(travel: &Travel) -> bool {
+    let (from, to) = (&travel.from, &travel.to);
+    let is_square = (from.raw(Axis::Z) - to.raw(Axis::Z)).abs() < SLACK;
+    is_square && to.raw(Axis::X) < from.raw(Axis::X) - SLACK
+}
