@@ -2,6 +2,8 @@
 //!
 //! Knows: names, help texts, what excludes what. Must not know: what an argument does.
 
+mod edit;
+
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
@@ -12,6 +14,8 @@ use gcheck_format::Numbering;
 use gcheck_report::Format;
 
 use crate::Problem;
+
+pub use edit::{About, EditCommand, EditTarget, Lines, MirrorAxis, QuarterTurns};
 
 /// Blocks that may be executed when nobody says otherwise.
 pub(crate) const FUEL: u64 = gcheck_lint::Execution::FUEL;
@@ -67,6 +71,16 @@ pub enum Command {
     Check(CheckOptions),
     /// Format programs, and renumber their blocks
     Fmt(FmtOptions),
+    /// Change the path, the feeds or the speeds of a program, and prove what the change does
+    ///
+    /// gcheck executes the program before and after the change and compares all moves. It writes the file only if every move
+    /// is as the change says, within 0.001 mm, and if both runs come to the end of the program. Otherwise the file stays as
+    /// it is, and a message names the reason and its line.
+    ///
+    /// Exit codes: 0 the file is changed, or there is nothing to change; 1 `--check` or `--diff` would change it; 2 the
+    /// change is refused, or its proof failed.
+    #[command(subcommand)]
+    Edit(EditCommand),
     /// Execute a program and print its moves
     Run(RunOptions),
     /// Cycle time, distances, extents, feeds and speeds of a program, by tool and in total

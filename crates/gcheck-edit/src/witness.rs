@@ -1,0 +1,177 @@
+//! What a run shows of the blocks of a program, so that their words can be rewritten as they were read.
+//!
+//! Knows: the modes in which each block ran. Must not know: how words are rewritten.
+
+use std::collections::BTreeSet;
+
+use gcheck_engine::{Assumption, At, Machine, Model, Options, Program, RunResult, Units};
+use gcheck_toolpath::Act;
+
+use crate::change::Change;
+use crate::course::Course;
+use crate::facts::Facts;
+use crate::rates::Rates;
+use crate::refusal::Refusal;
+use crate::run::{Executed, Visitor, run};
+use crate::scope::Scope;
+
+/// What runs of a program have shown.
+pub struct Witness<'c> {
+    /// By number of the block.
+    pub(crate) blocks: Vec<Option<Seen>>,
+    pub(crate) tracker: Tracker<'c>,
+    unfollowed: Option<Refusal>,
+    /// What the runs rest on.
+    assumptions: BTreeSet<Assumption>,
+}
+
+/// A block that ran.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Seen {
+    pub(crate) facts: Facts,
+    pub(crate) is_selected: bool,
+    /// The modes were the same each time.
+    pub(crate) is_certain: bool,
+}
+
+/// What is followed along a run for a change.
+pub(crate) enum Tracker<'c> {
+    Course(Box<Course<'c>>),
+    Rates(Box<Rates<'c>>),
+    /// Every act is as before.
+    Same,
+}
+
+impl<'c> Tracker<'c> {
+    pub(crate) fn new(change: &'c Change, scope: &Scope, model: &'c Model<'c>) -> Self {
+        let is_whole = *scope == Scope::All;
+        match change {
+            Change::ScaleFeeds(_) | Change::ScaleSpeeds(_) => Self::Rates(Box::new(Rates::new(change, model))),
+            Change::Translate(_) | Change::Mirror(..) | Change::Rotate(..) => {
+                Self::Course(Box::new(Course::new(change, is_whole, model)))
+            }
+            Change::Renumber => Self::Same,
+        }
+    }
+
+    pub(crate) fn begin(&mut self) {
+        match self {
+            Self::Course(course) => course.begin(),
+            Self::Rates(rates) => rates.begin(),
+            Self::Same => {}
+        }
+    }
+
+    pub(crate) fn executed(&mut self, block: &Executed<'_>) {
+        match self {
+            Self::Course(course) => course.executed(block),
+            Self::Rates(rates) => rates.executed(block),
+            Self::Same => {}
+        }
+    }
+
+    pub(crate) fn act(&mut self, at: At, is_expanded: bool, act: Act) -> Act {
+        match self {
+            Self::Course(course) => course.act(at, is_expanded, act),
+            Self::Rates(rates) => rates.act(act),
+            Self::Same => act,
+        }
+    }
+
+    pub(crate) fn refusal(&self) -> Option<&Refusal> {
+        match self {
+            Self::Course(course) => course.refusal(),
+            Self::Rates(rates) => rates.refusal(),
+            Self::Same => None,
+        }
+    }
+}
+
+impl std::fmt::Debug for Witness<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Witness").field("blocks", &self.blocks.len()).finish_non_exhaustive()
+    }
+}
+
+impl<'c> Witness<'c> {
+    /// Nothing seen yet.
+    pub fn new(change: &'c Change, scope: &Scope, model: &'c Model<'c>) -> Self {
+        Self {
+            blocks: Vec::new(),
+            tracker: Tracker::new(change, scope, model),
+            unfollowed: None,
+            assumptions: BTreeSet::new(),
+        }
+    }
+
+    /// What the runs rest on that nobody told.
+    pub fn assumptions(&self) -> &BTreeSet<Assumption> {
+        &self.assumptions
+    }
+
+    /// The units of the last block that ran.
+    pub fn units(&self) -> Option<Units> {
+        self.blocks.iter().rev().flatten().find_map(|seen| seen.facts.units)
+    }
+
+    /// Why the change cannot be proved, as far as the runs have shown.
+    pub(crate) fn refusal(&self) -> Option<Refusal> {
+        self.unfollowed.as_ref().or_else(|| self.tracker.refusal()).cloned()
+    }
+}
+
+/// Executes a program once more for a witness. The result tells whether it came to its end; where it did not, nothing that
+/// the witness has seen counts.
+pub fn witness(
+    witness: &mut Witness<'_>,
+    program: &Program<'_>,
+    model: &Model<'_>,
+    machine: &Machine,
+    options: Options,
+    fuel: u64,
+    scope: &Scope,
+) -> RunResult {
+    witness.tracker.begin();
+    let result = run(program, model, machine, options, fuel, scope, witness);
+    witness.assumptions.extend(result.assumptions.iter().cloned());
+    result
+}
+
+impl Visitor for Witness<'_> {
+    fn executed(&mut self, block: &Executed<'_>) {
+        self.tracker.executed(block);
+        if block.at.file != 0 {
+            return;
+        }
+        let index = block.at.block as usize;
+        if self.blocks.len() <= index {
+            self.blocks.resize(index + 1, None);
+        }
+        let Some(slot) = self.blocks.get_mut(index) else { return };
+        let new = Seen { facts: block.facts, is_selected: block.is_selected, is_certain: true };
+        *slot = Some(match slot {
+            None => new,
+            Some(old) => {
+                // Which tool is in the spindle changes the meaning of no word.
+                let tool = old.facts.tool;
+                let is_same = Facts { tool, ..new.facts } == old.facts && old.is_selected == new.is_selected;
+                Seen {
+                    is_certain: old.is_certain && is_same,
+                    is_selected: old.is_selected || new.is_selected,
+                    ..*old
+                }
+            }
+        });
+    }
+
+    fn act(&mut self, at: At, is_expanded: bool, act: Act) {
+        self.tracker.act(at, is_expanded, act);
+    }
+
+    fn unfollowed(&mut self, start: u32, end: u32, file: Option<&str>) {
+        if self.unfollowed.is_none() {
+            let reason = "this block moves the axes in a way that is not followed, so nothing is proved of it";
+            self.unfollowed = Some(Refusal::at(start..end, reason).in_file(file));
+        }
+    }
+}
