@@ -19,6 +19,10 @@ pub enum Change {
     Rotate(u8, [Amount; 2]),
     /// Blocks get other numbers, and what names them with them; the edits come from elsewhere.
     Renumber,
+    /// Canned cycles as plain moves.
+    ExpandCycle,
+    /// Loops turn by turn.
+    UnrollLoop,
 }
 
 /// A length as somebody gives it for a program.
@@ -55,6 +59,8 @@ impl Change {
             Self::Mirror(..) => "mirror",
             Self::Rotate(..) => "rotate",
             Self::Renumber => "renumber",
+            Self::ExpandCycle => "expand-cycle",
+            Self::UnrollLoop => "unroll-loop",
         }
     }
 
@@ -67,6 +73,8 @@ impl Change {
             Self::Mirror(..) => "mirror the path",
             Self::Rotate(..) => "rotate the path",
             Self::Renumber => "renumber",
+            Self::ExpandCycle => "write the cycle as moves",
+            Self::UnrollLoop => "unroll the loop",
         }
     }
 
@@ -81,7 +89,7 @@ impl Change {
             format!("{}{unit}", plain(amount.number))
         };
         match self {
-            Self::Renumber => "every move is as before".to_owned(),
+            Self::Renumber | Self::ExpandCycle | Self::UnrollLoop => "every move is as before".to_owned(),
             Self::ScaleFeeds(factor) => format!("every feed is {} times what it was", plain(*factor)),
             Self::ScaleSpeeds(factor) => {
                 format!("every spindle speed is {} times what it was", plain(*factor))

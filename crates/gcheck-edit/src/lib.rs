@@ -10,6 +10,7 @@
 mod change;
 mod course;
 mod cutters;
+mod expand;
 mod expecting;
 mod facts;
 mod meaning;
@@ -22,6 +23,7 @@ mod rigid;
 mod run;
 mod scope;
 mod sheet;
+mod unroll;
 mod witness;
 
 pub use change::{Amount, Change};

@@ -7,6 +7,7 @@ use gcheck_program::{Dialect, Loaded, Value};
 
 /// How a program writes its numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[expect(clippy::struct_excessive_bools, reason = "independent habits of a writer")]
 pub(crate) struct Hand {
     /// Zeros fill decimals: `1.500`.
     pads: bool,
@@ -16,6 +17,10 @@ pub(crate) struct Hand {
     points_feeds: bool,
     /// There are blanks between words.
     spaced: bool,
+    /// Coordinates have a point.
+    points: bool,
+    /// Codes below 10 have a zero in front: `G01`.
+    zeros: bool,
 }
 
 impl Hand {
@@ -28,6 +33,10 @@ impl Hand {
             let pairs = words.iter().zip(words.iter().skip(1));
             hand.spaced |= { pairs }.any(|(word, next)| word.range().end < next.range().start);
             for word in words {
+                if word.code.is_some() && !word.shape.point {
+                    let range = place.base + word.range().start..place.base + word.range().end;
+                    hand.zeros |= word.shape.whole_digits == 2 && loaded.slice(range).get(1..2) == Some("0");
+                }
                 if !matches!(word.value, Value::Number(_)) || !word.shape.point {
                     continue;
                 }
@@ -36,9 +45,20 @@ impl Hand {
                 hand.pads |= word.shape.decimals > 0 && text.ends_with('0');
                 hand.bare |= word.shape.whole_digits == 0 && word.shape.decimals > 0;
                 hand.points_feeds |= word.letter == Letter::of('F');
+                hand.points |= matches!(word.letter.ascii(), b'X' | b'Y' | b'Z' | b'U' | b'V' | b'W');
             }
         }
         hand
+    }
+
+    /// Do coordinates have a point?
+    pub(crate) const fn points(self) -> bool {
+        self.points
+    }
+
+    /// Do codes below 10 have a zero in front?
+    pub(crate) const fn zeros(self) -> bool {
+        self.zeros
     }
 
     /// What is between words.

@@ -44,7 +44,11 @@ pub fn plan(
     let mut planner = Planner { change, scope, witness, model, cuts: false };
     for number in 0..file.loaded.outline().blocks() {
         let Some(place) = file.loaded.place(number, program.dialect()) else { continue };
-        planner.block(&mut sheet, number, &place)?;
+        match &witness.tracker {
+            Tracker::Cycles(cycles) => cycles.write(&mut sheet, number, &place)?,
+            Tracker::Loops(loops) => loops.write(&mut sheet, number, &place, program),
+            _ => planner.block(&mut sheet, number, &place)?,
+        }
     }
     if let Tracker::Rates(rates) = &witness.tracker {
         inserted(&mut sheet, rates, program, &file.loaded)?;
@@ -96,7 +100,7 @@ impl Planner<'_> {
                 let Some(rigid) = course.rigid() else { return Ok(()) };
                 places::rewrite(sheet, place, &seen, &read, rigid)
             }
-            Tracker::Same => Ok(()),
+            Tracker::Cycles(_) | Tracker::Loops(_) | Tracker::Same => Ok(()),
             Tracker::Rates(rates) => {
                 let factors = rates.own(number);
                 let words: Vec<(Word, Meaning)> = read.words.clone();
@@ -137,7 +141,7 @@ impl Planner<'_> {
     fn concerns(&self, block: &Block, place: &Place) -> bool {
         let words = place.table.words(place.block());
         let is_about = |word: &Word| match self.change {
-            Change::Renumber => false,
+            Change::Renumber | Change::ExpandCycle | Change::UnrollLoop => false,
             Change::ScaleFeeds(_) => word.letter.ascii() == b'F',
             Change::ScaleSpeeds(_) => word.letter.ascii() == b'S',
             Change::Translate(_) | Change::Mirror(..) | Change::Rotate(..) => {

@@ -66,7 +66,7 @@ impl Rigid {
                     _ => {}
                 }
             }
-            Change::ScaleFeeds(_) | Change::ScaleSpeeds(_) | Change::Renumber => return None,
+            _ => return None,
         }
         Some(rigid)
     }

@@ -39,6 +39,19 @@ pub(crate) struct Executed<'a> {
 
 /// Takes what happens in a run.
 pub(crate) trait Visitor {
+    /// It wants to be told of blocks before they are executed.
+    const LOOKS_BEFORE: bool = false;
+
+    /// A block is about to be executed in a state.
+    fn before(&mut self, at: At, place: &Place, state: &State<Concrete>) {
+        let _ = (at, place, state);
+    }
+
+    /// Something happened, before its block is over.
+    fn event(&mut self, event: &Event) {
+        let _ = event;
+    }
+
     /// A block was executed; its acts come after this.
     fn executed(&mut self, block: &Executed<'_>);
 
@@ -151,14 +164,21 @@ fn is_expanded(event: &Event) -> bool {
 }
 
 impl<V: Visitor> Observer<Concrete> for Watcher<'_, '_, V> {
-    fn before(&mut self, _: Origin, state: &State<Concrete>) {
+    fn before(&mut self, origin: Origin, state: &State<Concrete>) {
         self.before = *state.position();
+        if V::LOOKS_BEFORE
+            && let Some(file) = self.program.file(origin.at.file)
+            && let Some(place) = file.loaded.place(origin.at.block, self.program.dialect())
+        {
+            self.visitor.before(origin.at, &place, state);
+        }
     }
 
     fn event(&mut self, origin: Origin, state: &State<Concrete>, event: &Event) {
         if matches!(event, Event::Stop(Stop::Optional)) && !self.optional_stop {
             return;
         }
+        self.visitor.event(event);
         let (file, line) = self.place(origin);
         if *event == Event::Unfollowed {
             self.visitor.unfollowed(origin.start, origin.end, Some(&*file).filter(|name| !name.is_empty()));

@@ -47,6 +47,11 @@ impl<'a, 'p> Sheet<'a, 'p> {
         }
     }
 
+    /// The line end of the program.
+    pub(crate) fn line_end(&self) -> &'static str {
+        if self.loaded.chunk_text(0).contains("\r\n") { "\r\n" } else { "\n" }
+    }
+
     /// Bytes of the file of a word.
     pub(crate) fn range(place: &Place, word: &Word) -> Range<u32> {
         place.base + word.range().start..place.base + word.range().end

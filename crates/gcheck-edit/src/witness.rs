@@ -4,16 +4,19 @@
 
 use std::collections::BTreeSet;
 
-use gcheck_engine::{Assumption, At, Machine, Model, Options, Program, RunResult, Units};
+use gcheck_engine::{Assumption, At, Concrete, Event, Machine, Model, Options, Program, RunResult, State, Units};
+use gcheck_program::Place;
 use gcheck_toolpath::Act;
 
 use crate::change::Change;
 use crate::course::Course;
+use crate::expand::Cycles;
 use crate::facts::Facts;
 use crate::rates::Rates;
 use crate::refusal::Refusal;
 use crate::run::{Executed, Visitor, run};
 use crate::scope::Scope;
+use crate::unroll::Loops;
 
 /// What runs of a program have shown.
 pub struct Witness<'c> {
@@ -38,6 +41,8 @@ pub(crate) struct Seen {
 pub(crate) enum Tracker<'c> {
     Course(Box<Course<'c>>),
     Rates(Box<Rates<'c>>),
+    Cycles(Box<Cycles<'c>>),
+    Loops(Box<Loops<'c>>),
     /// Every act is as before.
     Same,
 }
@@ -50,6 +55,8 @@ impl<'c> Tracker<'c> {
             Change::Translate(_) | Change::Mirror(..) | Change::Rotate(..) => {
                 Self::Course(Box::new(Course::new(change, is_whole, model)))
             }
+            Change::ExpandCycle => Self::Cycles(Box::new(Cycles::new(model))),
+            Change::UnrollLoop => Self::Loops(Box::new(Loops::new(scope, model))),
             Change::Renumber => Self::Same,
         }
     }
@@ -58,7 +65,7 @@ impl<'c> Tracker<'c> {
         match self {
             Self::Course(course) => course.begin(),
             Self::Rates(rates) => rates.begin(),
-            Self::Same => {}
+            Self::Cycles(_) | Self::Loops(_) | Self::Same => {}
         }
     }
 
@@ -66,7 +73,8 @@ impl<'c> Tracker<'c> {
         match self {
             Self::Course(course) => course.executed(block),
             Self::Rates(rates) => rates.executed(block),
-            Self::Same => {}
+            Self::Cycles(cycles) => cycles.executed(block),
+            Self::Loops(_) | Self::Same => {}
         }
     }
 
@@ -74,7 +82,7 @@ impl<'c> Tracker<'c> {
         match self {
             Self::Course(course) => course.act(at, is_expanded, act),
             Self::Rates(rates) => rates.act(act),
-            Self::Same => act,
+            Self::Cycles(_) | Self::Loops(_) | Self::Same => act,
         }
     }
 
@@ -82,6 +90,8 @@ impl<'c> Tracker<'c> {
         match self {
             Self::Course(course) => course.refusal(),
             Self::Rates(rates) => rates.refusal(),
+            Self::Cycles(cycles) => cycles.refusal(),
+            Self::Loops(loops) => loops.refusal(),
             Self::Same => None,
         }
     }
@@ -132,12 +142,53 @@ pub fn witness(
     scope: &Scope,
 ) -> RunResult {
     witness.tracker.begin();
-    let result = run(program, model, machine, options, fuel, scope, witness);
+    let mut watching = Watching { witness, program, machine };
+    let result = run(program, model, machine, options, fuel, scope, &mut watching);
     witness.assumptions.extend(result.assumptions.iter().cloned());
     result
 }
 
-impl Visitor for Witness<'_> {
+/// A witness at work.
+struct Watching<'w, 'c, 'p> {
+    witness: &'w mut Witness<'c>,
+    program: &'w Program<'p>,
+    machine: &'w Machine,
+}
+
+impl Visitor for Watching<'_, '_, '_> {
+    const LOOKS_BEFORE: bool = true;
+
+    fn before(&mut self, at: At, place: &Place, state: &State<Concrete>) {
+        match &mut self.witness.tracker {
+            Tracker::Cycles(cycles) => cycles.before(),
+            Tracker::Loops(loops) => loops.before(self.program, self.machine, at, place, state),
+            _ => {}
+        }
+    }
+
+    fn event(&mut self, event: &Event) {
+        if let Tracker::Cycles(cycles) = &mut self.witness.tracker {
+            cycles.event(event);
+        }
+    }
+
+    fn executed(&mut self, block: &Executed<'_>) {
+        self.witness.executed(block);
+    }
+
+    fn act(&mut self, at: At, is_expanded: bool, act: Act) {
+        self.witness.tracker.act(at, is_expanded, act);
+    }
+
+    fn unfollowed(&mut self, start: u32, end: u32, file: Option<&str>) {
+        if self.witness.unfollowed.is_none() {
+            let reason = "this block moves the axes in a way that is not followed, so nothing is proved of it";
+            self.witness.unfollowed = Some(Refusal::at(start..end, reason).in_file(file));
+        }
+    }
+}
+
+impl Witness<'_> {
     fn executed(&mut self, block: &Executed<'_>) {
         self.tracker.executed(block);
         if block.at.file != 0 {
@@ -162,16 +213,5 @@ impl Visitor for Witness<'_> {
                 }
             }
         });
-    }
-
-    fn act(&mut self, at: At, is_expanded: bool, act: Act) {
-        self.tracker.act(at, is_expanded, act);
-    }
-
-    fn unfollowed(&mut self, start: u32, end: u32, file: Option<&str>) {
-        if self.unfollowed.is_none() {
-            let reason = "this block moves the axes in a way that is not followed, so nothing is proved of it";
-            self.unfollowed = Some(Refusal::at(start..end, reason).in_file(file));
-        }
     }
 }

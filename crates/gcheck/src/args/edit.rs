@@ -81,6 +81,23 @@ pub enum EditCommand {
         #[command(flatten)]
         target: EditTarget,
     },
+    /// Write canned cycles as the plain moves that they are made of
+    ///
+    /// Drilling, pecking and boring at feed become `G0`, `G1` and `G4`. Cycles that tap or stop the spindle stay.
+    ExpandCycle {
+        /// The program and the part of it that changes.
+        #[command(flatten)]
+        target: EditTarget,
+    },
+    /// Write loops turn by turn, with values in the place of variables
+    ///
+    /// `WHILE … END` and the O-word loops of LinuxCNC become plain blocks; an assignment stays only if a later block reads
+    /// the variable.
+    UnrollLoop {
+        /// The program and the part of it that changes.
+        #[command(flatten)]
+        target: EditTarget,
+    },
     /// Number the blocks anew, with every word that names one
     Renumber {
         /// The first number and the step: `10:10`
@@ -177,6 +194,8 @@ impl EditCommand {
             | Self::Translate { target, .. }
             | Self::Mirror { target, .. }
             | Self::Rotate { target, .. }
+            | Self::ExpandCycle { target }
+            | Self::UnrollLoop { target }
             | Self::Renumber { target, .. } => target,
         }
     }

@@ -117,6 +117,8 @@ fn change(command: &EditCommand) -> Result<Change, Problem> {
             };
             Change::Rotate(quarters, about.map_or([Amount::ZERO; 2], |about| about.0))
         }
+        EditCommand::ExpandCycle { .. } => Change::ExpandCycle,
+        EditCommand::UnrollLoop { .. } => Change::UnrollLoop,
         EditCommand::Renumber { .. } => Change::Renumber,
     })
 }

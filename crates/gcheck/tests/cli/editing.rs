@@ -87,7 +87,7 @@ fn feeds_of_some_lines_get_words_where_the_selection_begins_and_ends() {
     changes(PART, "haas-mill", "scale-feeds 50% --lines 11-12", &expect![[r#"
         11 G2 X10. Y50. I10. J0. F400.
         13 Y0. F800.
-        ! part.nc: changed for haas-mill: every feed is 0.5 times what it was in lines 11 to 12, and every other move is as before, within 0.001 mm (37 moves compared)
+        ! part.nc: changed for haas-mill: in lines 11 to 12 every feed is 0.5 times what it was, and every other move is as before, within 0.001 mm (37 moves compared)
         ! note: the size of cutter 1 is not known; the proof takes a radius of 0.01 mm
         exit 0
     "#]]);
@@ -97,7 +97,7 @@ fn feeds_of_some_lines_get_words_where_the_selection_begins_and_ends() {
 fn feeds_of_a_tool() {
     changes(PART, "haas-mill", "scale-feeds 1.25 --tool 2", &expect![[r#"
         22 G99 G83 X10. Y10. Z-12. R2. Q4. F150.
-        ! part.nc: changed for haas-mill: every feed is 1.25 times what it was with T2, and every other move is as before, within 0.001 mm (37 moves compared)
+        ! part.nc: changed for haas-mill: with T2 every feed is 1.25 times what it was, and every other move is as before, within 0.001 mm (37 moves compared)
         ! note: the size of cutter 1 is not known; the proof takes a radius of 0.01 mm
         exit 0
     "#]]);
@@ -107,7 +107,7 @@ fn feeds_of_a_tool() {
 fn speeds_of_a_tool() {
     changes(PART, "haas-mill", "scale-speeds 1.1 --tool 1", &expect![[r#"
          5 S4400 M3
-        ! part.nc: changed for haas-mill: every spindle speed is 1.1 times what it was with T1, and every other move is as before, within 0.001 mm (37 moves compared)
+        ! part.nc: changed for haas-mill: with T1 every spindle speed is 1.1 times what it was, and every other move is as before, within 0.001 mm (37 moves compared)
         ! note: the size of cutter 1 is not known; the proof takes a radius of 0.01 mm
         exit 0
     "#]]);
@@ -143,7 +143,7 @@ fn the_path_of_a_tool_is_shifted_and_the_other_stays() {
         20 G0 X15. Y10.
         22 G99 G83 X15. Y10. Z-12. R2. Q4. F120.
         23 X55.
-        ! part.nc: changed for haas-mill: every move is shifted by X5 with T2, and every other move is as before, within 0.001 mm (37 moves compared)
+        ! part.nc: changed for haas-mill: with T2 every move is shifted by X5, and every other move is as before, within 0.001 mm (37 moves compared)
         ! note: the size of cutter 1 is not known; the proof takes a radius of 0.01 mm
         exit 0
     "#]]);
@@ -560,11 +560,11 @@ fn a_program_in_another_file_that_goes_to_places() {
     let run = shop.gcheck("edit translate --x 1 --y 1 part.nc --control haas-mill");
     assert_eq!(run.code, 2);
     expect![[r#"
-        error: O2000.nc:3:1: cannot shift the path: this block is not in the selection and goes on from a moved point: it does not give Y as a coordinate
+        error: O2000.nc:3:1: cannot shift the path: this block gives places, and it is in another file, which stays as it is
           |
         3 | G1 X10. F100.
           | ^^^^^^^^^^^^^
-          help: end the selection where the next block gives all moved axes, or extend it
+          help: change that file as well, or select the lines of this one that go with the change
         part.nc: nothing is changed
     "#]].assert_eq(&run.stderr);
     shop.file("O2000.nc", "%\nO2000\nG91 G1 X10. F100.\nG90\nM99\n%\n");
@@ -651,4 +651,193 @@ fn usage() {
         expected.assert_eq(&run.stderr);
     }
     assert_eq!(shop.read("part.nc"), PART);
+}
+
+// The same moves, written otherwise.
+
+#[test]
+fn cycles_become_plain_moves() {
+    changes(PART, "haas-mill", "expand-cycle", &expect![[r#"
+        22 G99
+        23 G0 Z2.
+        24 G1 Z-2. F120.
+        25 G0 Z2.
+        26 G0 Z0.54
+        27 G1 Z-6.
+        28 G0 Z2.
+        29 G0 Z-3.46
+        30 G1 Z-10.
+        31 G0 Z2.
+        32 G0 Z-7.46
+        33 G1 Z-12.
+        34 G0 Z2.
+        35 G0 X50.
+        36 G1 Z-2.
+        37 G0 Z2.
+        38 G0 Z0.54
+        39 G1 Z-6.
+        40 G0 Z2.
+        41 G0 Z-3.46
+        42 G1 Z-10.
+        43 G0 Z2.
+        44 G0 Z-7.46
+        45 G1 Z-12.
+        46 G0 Z2.
+        47 G80
+        48 G91 G28 Z0. M5
+        49 M30
+        50 %
+        ! part.nc: changed for haas-mill: every move is as before, within 0.001 mm (37 moves compared)
+        ! note: the size of cutter 1 is not known; the proof takes a radius of 0.01 mm
+        exit 0
+    "#]]);
+    let program = "%\r\nO1\r\nG21G17G90G54G40G80\r\nG00X0.Y0.Z10.\r\nN5G98G82X1.Y2.Z-6.R2.P500F100.(SPOT)\r\nN6X5.\r\nG91X3.L2\r\nG90G80\r\nG00Z50.\r\nM30\r\n%\r\n";
+    changes(program, "haas-mill", "expand-cycle", &expect![[r#"
+         5 N5G98 (SPOT)
+         6 G00X1.Y2.
+         7 G00Z2.
+         8 G01Z-6.F100.
+         9 G04P0.5
+        10 G00Z10.
+        11 N6G00X5.
+        12 G00Z2.
+        13 G01Z-6.
+        14 G04P0.5
+        15 G00Z10.
+        16 G91
+        17 G00X3.
+        18 G00Z-8.
+        19 G01Z-8.
+        20 G04P0.5
+        21 G00Z16.
+        22 G00X3.
+        23 G00Z-8.
+        24 G01Z-8.
+        25 G04P0.5
+        26 G00Z16.
+        27 G90G80
+        28 G00Z50.
+        29 M30
+        30 %
+        ! part.nc: changed for haas-mill: every move is as before, within 0.001 mm (18 moves compared)
+        exit 0
+    "#]]);
+    let program = "G20 G90 G17 G40 G80\nG0 X0 Y0 Z1\nG98 G82 X1 Y2 Z-.6 R.2 P0.5 F10\nX3\nG80\nG0 Z5\nM2\n";
+    changes(program, "linuxcnc", "expand-cycle", &expect![[r#"
+         3 G98
+         4 G0 X1. Y2.
+         5 G0 Z.2
+         6 G1 Z-.6 F10
+         7 G4 P.5
+         8 G0 Z1.
+         9 G0 X3.
+        10 G0 Z.2
+        11 G1 Z-.6
+        12 G4 P.5
+        13 G0 Z1.
+        14 G80
+        15 G0 Z5
+        16 M2
+        ! part.nc: changed for linuxcnc: every move is as before, within 0.001 mm (10 moves compared)
+        exit 0
+    "#]]);
+}
+
+#[test]
+fn cycles_that_are_more_than_moves_stay() {
+    let head = "%\nO1\nG21 G17 G90 G94 G54 G40 G80\nT3 M6\nS500 M3\nG0 X0. Y0.\nG43 H3 Z5.\n";
+    refuses(&format!("{head}G84 Z-10. R2. F500.\nG80\nG0 Z50.\nM30\n%\n"), "haas-mill", "expand-cycle", &expect![[r#"
+        error: part.nc:8:1: cannot write the cycle as moves: this cycle is more than moves and dwells: it taps, or stops and turns the spindle
+          |
+        8 | G84 Z-10. R2. F500.
+          | ^^^^^^^^^^^^^^^^^^^
+        part.nc: nothing is changed
+    "#]]);
+    refuses(&format!("{head}/G81 Z-10. R2. F500.\nG80\nG0 Z50.\nM30\n%\n"), "haas-mill", "expand-cycle", &expect![[r#"
+        error: part.nc:8:1: cannot write the cycle as moves: this block has a condition or a `/`, which its moves would need one by one
+          |
+        8 | /G81 Z-10. R2. F500.
+          | ^^^^^^^^^^^^^^^^^^^^
+        part.nc: nothing is changed
+    "#]]);
+    refuses(&format!("{head}G81 Z-10. R2. F500.\nX5.\nX10.\nG80\nG0 Z50.\nM30\n%\n"), "haas-mill", "expand-cycle --lines 8", &expect![[r#"
+        error: part.nc: cannot write the cycle as moves: the proof failed
+        the paths part at X5 Y0 Z5
+          - part.nc:9  to X5 Y0 Z2   | X5.
+          + part.nc (changed):12  to X10 Y0 Z5   | X10.
+          note: `-` is what the change promises, `+` is what the changed program does
+        part.nc: nothing is changed
+    "#]]);
+}
+
+#[test]
+fn loops_become_their_turns() {
+    let program = "%\nO1\nG21 G17 G90 G54 G40 G80\n#1=0\nG0 X0. Y0. Z5.\nWHILE [#1 LT 3] DO1\nN20 G0 X[#1*10.] Y#1 (ROW)\nG1 Z-[1.+#1/3] F[100.+#1]\nG0 Z5.\n#1=#1+1\nEND1\nG0 X[#1*20.]\nM30\n%\n";
+    changes(program, "fanuc-mill", "unroll-loop", &expect![[r#"
+         6 G0 X0. Y0. (ROW)
+         7 G1 Z-1. F100.
+         8 G0 Z5.
+         9 G0 X10. Y1. (ROW)
+        10 G1 Z-1.333 F101.
+        11 G0 Z5.
+        12 G0 X20. Y2. (ROW)
+        13 G1 Z-1.667 F102.
+        14 G0 Z5.
+        15 #1=3.
+        16 G0 X[#1*20.]
+        17 M30
+        18 %
+        ! part.nc: changed for fanuc-mill: every move is as before, within 0.001 mm (10 moves compared)
+        exit 0
+    "#]]);
+    let program = "G21 G17 G90 G54 G40\nG0 X0 Y0 Z5\n#<n>=0\no1 while [#<n> lt 2]\n  #2=0\n  o2 repeat [2]\n    G0 X[#<n>*10] Y[#2*5]\n    #2=[#2+1]\n  o2 endrepeat\n  #<n>=[#<n>+1]\no1 endwhile\nG0 Z9\nM2\n";
+    changes(program, "linuxcnc", "unroll-loop", &expect![[r#"
+        ! error: part.nc:7:1: cannot unroll the loop: a word of this block has no value that is known
+        !   |
+        ! 7 |     G0 X[#<n>*10] Y[#2*5]
+        !   | ^^^^^^^^^^^^^^^^^^^^^^^^^
+        !   help: give values with --set
+        ! part.nc: nothing is changed
+        exit 2
+    "#]]);
+}
+
+#[test]
+fn loops_whose_turns_are_not_certain_stay() {
+    let head = "%\nO1\nG21 G17 G90 G54 G40 G80\n#1=0\nG0 X0. Y0. Z5.\nWHILE [#1 LT 3] DO1\n";
+    let tail = "#1=#1+1\nEND1\nM30\n%\n";
+    refuses(&format!("{head}/G0 X#1\n{tail}"), "fanuc-mill", "unroll-loop", &expect![[r#"
+        error: part.nc:7:1: cannot unroll the loop: whether this block acts is decided in each turn by a condition or by block delete
+          |
+        7 | /G0 X#1
+          | ^^^^^^^
+          help: write the condition as a jump over the block
+        part.nc: nothing is changed
+    "#]]);
+    refuses(&format!("{head}G0 X#500\n{tail}"), "fanuc-mill", "unroll-loop", &expect![[r#"
+        error: part.nc:7:1: cannot unroll the loop: a word of this block has no value that is known
+          |
+        7 | G0 X#500
+          | ^^^^^^^^
+          help: give values with --set
+        part.nc: nothing is changed
+    "#]]);
+    refuses(&format!("{head}DPRNT[A#1[30]]\n{tail}"), "fanuc-mill", "unroll-loop", &expect![[r#"
+        error: part.nc:7:1: cannot unroll the loop: this block prints or commands something in each turn
+          |
+        7 | DPRNT[A#1[30]]
+          | ^^^^^^^^^^^^^^
+          help: select lines without it
+        part.nc: nothing is changed
+    "#]]);
+    // A program that the loop calls reads what the loop counts.
+    let program = format!("{head}M98 P50\n{tail}").replace("M30\n", "M30\nO50\nG0 X[#1*5.]\nM99\n");
+    refuses(&program, "fanuc-mill", "unroll-loop", &expect![[r#"
+        error: part.nc: cannot unroll the loop: the proof failed
+        the paths part at X0 Y0 Z5
+          - part.nc:12  to X5 Y0 Z5   | G0 X[#1*5.]
+          + part.nc (changed):12  has no moves left   | G0 X[#1*5.]
+          note: `-` is what the change promises, `+` is what the changed program does
+        part.nc: nothing is changed
+    "#]]);
 }
