@@ -23,6 +23,14 @@ pub enum Change {
     ExpandCycle,
     /// Loops turn by turn.
     UnrollLoop,
+    /// Increments as absolute coordinates.
+    Absolute,
+    /// Absolute coordinates as increments.
+    Incremental,
+    /// Lines that say the modes in front of tool changes.
+    SafeStart,
+    /// The program in these units.
+    Convert(Units),
 }
 
 /// A length as somebody gives it for a program.
@@ -61,7 +69,24 @@ impl Change {
             Self::Renumber => "renumber",
             Self::ExpandCycle => "expand-cycle",
             Self::UnrollLoop => "unroll-loop",
+            Self::Absolute => "absolute",
+            Self::Incremental => "incremental",
+            Self::SafeStart => "safe-start",
+            Self::Convert(Units::Inch) => "inch",
+            Self::Convert(Units::Mm) => "mm",
         }
+    }
+
+    /// Are the moves after it those of before?
+    pub const fn keeps_moves(&self) -> bool {
+        !matches!(
+            self,
+            Self::ScaleFeeds(_)
+                | Self::ScaleSpeeds(_)
+                | Self::Translate(_)
+                | Self::Mirror(..)
+                | Self::Rotate(..)
+        )
     }
 
     /// What it does, in words that follow "cannot".
@@ -75,6 +100,11 @@ impl Change {
             Self::Renumber => "renumber",
             Self::ExpandCycle => "write the cycle as moves",
             Self::UnrollLoop => "unroll the loop",
+            Self::Absolute => "write absolute coordinates",
+            Self::Incremental => "write increments",
+            Self::SafeStart => "insert safe start lines",
+            Self::Convert(Units::Inch) => "write the program in inches",
+            Self::Convert(Units::Mm) => "write the program in millimetres",
         }
     }
 
@@ -89,7 +119,13 @@ impl Change {
             format!("{}{unit}", plain(amount.number))
         };
         match self {
-            Self::Renumber | Self::ExpandCycle | Self::UnrollLoop => "every move is as before".to_owned(),
+            Self::Renumber
+            | Self::ExpandCycle
+            | Self::UnrollLoop
+            | Self::Absolute
+            | Self::Incremental
+            | Self::SafeStart
+            | Self::Convert(_) => "every move is as before".to_owned(),
             Self::ScaleFeeds(factor) => format!("every feed is {} times what it was", plain(*factor)),
             Self::ScaleSpeeds(factor) => {
                 format!("every spindle speed is {} times what it was", plain(*factor))

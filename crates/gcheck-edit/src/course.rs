@@ -134,13 +134,21 @@ impl<'c> Course<'c> {
     fn selected(&mut self, block: &Executed<'_>, read: &Read) {
         match read.class {
             Class::Moves | Class::Operation => self.selected_move(block, read),
-            Class::Machine | Class::Reference => self.to_machine(read),
+            Class::Machine | Class::Reference => self.machine_point(read),
             Class::Origin { by_point } => self.origin(block, by_point),
             Class::Mapping(role) => {
-                self.refuse(block, format!("{} begins here, and words do not say places under it", mapping_name(role)), None);
+                self.refuse(
+                    block,
+                    format!("{} begins here, and words do not say places under it", mapping_name(role)),
+                    None,
+                );
             }
             Class::Computed => {
-                self.refuse(block, "a code of this block is computed, so what its words mean is not certain", None);
+                self.refuse(
+                    block,
+                    "a code of this block is computed, so what its words mean is not certain",
+                    None,
+                );
             }
             Class::Call | Class::Other => {}
         }
@@ -152,13 +160,20 @@ impl<'c> Course<'c> {
         }
         let facts = &block.facts;
         if let Some(role) = facts.mapped {
-            let reason = format!("{} is in effect here, so the words do not say where the axes go", mapping_name(role));
+            let reason = format!(
+                "{} is in effect here, so the words do not say where the axes go",
+                mapping_name(role)
+            );
             return self.refuse(block, reason, Some("select lines outside of it"));
         }
         let Some((rigid, units)) = self.settled(block) else { return };
         if facts.units != Some(units) {
             let reason = "this block is in another unit than the ones before it";
-            return self.refuse(block, reason, Some("give the amounts with their unit, such as 10mm, or select lines of one unit"));
+            return self.refuse(
+                block,
+                reason,
+                Some("give the amounts with their unit, such as 10mm, or select lines of one unit"),
+            );
         }
         if read.class == Class::Operation && !rigid.is_shift() {
             let reason = "the code of this block makes moves of its own, which do not turn with its words";
@@ -166,7 +181,8 @@ impl<'c> Course<'c> {
         }
         for (_, meaning) in &read.words {
             match meaning {
-                Meaning::Place { axis, incremental: false } | Meaning::Height { axis, incremental: false } => {
+                Meaning::Place { axis, incremental: false }
+                | Meaning::Height { axis, incremental: false } => {
                     if let Some(owner) = self.owners.get_mut(*axis) {
                         *owner = Owner::Moved;
                     }
@@ -174,8 +190,15 @@ impl<'c> Course<'c> {
                 Meaning::Place { axis, incremental: true }
                     if !rigid.is_shift() && !rigid.keeps(*axis) && self.owner(*axis) != Owner::Moved =>
                 {
-                    let reason = format!("this block moves {} by an increment from a point that is not in the selection", name(*axis));
-                    return self.refuse(block, reason, Some("begin the selection at a block that gives absolute coordinates"));
+                    let reason = format!(
+                        "this block moves {} by an increment from a point that is not in the selection",
+                        name(*axis)
+                    );
+                    return self.refuse(
+                        block,
+                        reason,
+                        Some("begin the selection at a block that gives absolute coordinates"),
+                    );
                 }
                 Meaning::Direction if !rigid.is_shift() => {
                     return self.refuse(block, "this block gives a direction, which is not turned", None);
@@ -191,7 +214,9 @@ impl<'c> Course<'c> {
         let begin = "begin the selection at the block that gives it, or before";
         if rigid.swaps() && (self.owner(0) == Owner::Moved) != (self.owner(1) == Owner::Moved) {
             let missing = if self.owner(0) == Owner::Moved { 'Y' } else { 'X' };
-            let reason = format!("this block needs X and Y to be rotated, and no block of the selection has given {missing}");
+            let reason = format!(
+                "this block needs X and Y to be rotated, and no block of the selection has given {missing}"
+            );
             return self.refuse(block, reason, Some(begin));
         }
         if !read.cuts {
@@ -200,7 +225,8 @@ impl<'c> Course<'c> {
         let position = block.state.position();
         for (axis, letter) in LINEAR.iter().enumerate() {
             if !rigid.keeps(axis) && self.owner(axis) != Owner::Moved && !position.raw(*letter).is_nan() {
-                let reason = format!("this block cuts, and no block of the selection has given {}", letter.name());
+                let reason =
+                    format!("this block cuts, and no block of the selection has given {}", letter.name());
                 return self.refuse(block, reason, Some(begin));
             }
         }
@@ -229,7 +255,8 @@ impl<'c> Course<'c> {
                 }
                 let mut moves = read.class == Class::Operation || read.cuts;
                 for (_, meaning) in &read.words {
-                    if let Meaning::Place { axis, incremental } | Meaning::Height { axis, incremental } = meaning
+                    if let Meaning::Place { axis, incremental } | Meaning::Height { axis, incremental } =
+                        meaning
                         && let Some(owner) = self.owners.get_mut(*axis)
                     {
                         moves = true;
@@ -244,10 +271,14 @@ impl<'c> Course<'c> {
                         "this block is not in the selection and goes on from a moved point: it does not give {} as a coordinate",
                         name(axis)
                     );
-                    self.refuse(block, reason, Some("end the selection where the next block gives all moved axes, or extend it"));
+                    self.refuse(
+                        block,
+                        reason,
+                        Some("end the selection where the next block gives all moved axes, or extend it"),
+                    );
                 }
             }
-            Class::Machine | Class::Reference => self.to_machine(read),
+            Class::Machine | Class::Reference => self.machine_point(read),
             Class::Origin { by_point } if self.owners.iter().any(|owner| *owner != Owner::Plain) => {
                 self.origin(block, by_point);
             }
@@ -258,20 +289,26 @@ impl<'c> Course<'c> {
     /// Does a block of another file move with the whole program? Only increments do, and only along a shift.
     fn goes_along_with(&mut self, block: &Executed<'_>, read: &Read, rigid: &Rigid) -> bool {
         let stays = read.words.iter().any(|(_, meaning)| match meaning {
-            Meaning::Place { axis, incremental } | Meaning::Height { axis, incremental } | Meaning::Centre { axis, incremental } => {
-                !rigid.keeps(*axis) && !(*incremental && rigid.is_shift())
+            Meaning::Place { axis, incremental }
+            | Meaning::Height { axis, incremental }
+            | Meaning::Centre { axis, incremental } => {
+                !(rigid.keeps(*axis) || *incremental && rigid.is_shift())
             }
             Meaning::Vector { .. } | Meaning::Direction => !rigid.is_shift(),
             Meaning::Feed | Meaning::Speed | Meaning::Other => false,
         });
         if stays {
             let reason = "this block gives places, and it is in another file, which stays as it is";
-            self.refuse(block, reason, Some("change that file as well, or select the lines of this one that go with the change"));
+            self.refuse(
+                block,
+                reason,
+                Some("change that file as well, or select the lines of this one that go with the change"),
+            );
         }
         true
     }
 
-    fn to_machine(&mut self, read: &Read) {
+    fn machine_point(&mut self, read: &Read) {
         for (_, meaning) in &read.words {
             if let Meaning::Place { axis, .. } = meaning
                 && let Some(owner) = self.owners.get_mut(*axis)
@@ -292,7 +329,11 @@ impl<'c> Course<'c> {
             let reason = "this block moves the zero of the program to or from where the tool is, and the tool is somewhere else then";
             self.refuse(block, reason, None);
         } else if !is_shift {
-            self.refuse(block, "this block shifts the zero of the program, and the shift is not turned with it", None);
+            self.refuse(
+                block,
+                "this block shifts the zero of the program, and the shift is not turned with it",
+                None,
+            );
         }
     }
 
@@ -324,13 +365,10 @@ impl<'c> Course<'c> {
                 }
             }
         }
-        let from = place(&rigid, made.from(), &self.last, &self.reached);
-        let to = place(&rigid, &made.to, &owners, &self.reached);
-        let arc = match made.arc() {
-            None => None,
-            Some(arc) if self.goes_along(&rigid, arc.plane(), &owners) => turned(&rigid, arc, &from, &to, &owners),
-            Some(_) => None,
-        };
+        let from = place(&rigid, made.from(), self.last, &self.reached);
+        let to = place(&rigid, &made.to, owners, &self.reached);
+        let along = made.arc().filter(|arc| self.goes_along(&rigid, arc.plane(), owners));
+        let arc = along.and_then(|arc| turned(&rigid, arc, &from, &to, owners));
         if made.arc().is_some() && arc.is_none() && self.refusal.is_none() {
             let range = passed.map_or(0..0, |passed| passed.start..passed.end);
             let reason = "the arc of this block does not move as a whole: its begin and its end are not both in the selection, or its plane becomes another one";
@@ -343,7 +381,7 @@ impl<'c> Course<'c> {
     }
 
     /// Do both ends of an arc move alike?
-    fn goes_along(&self, rigid: &Rigid, plane: Plane, owners: &[Owner; 3]) -> bool {
+    fn goes_along(&self, rigid: &Rigid, plane: Plane, owners: [Owner; 3]) -> bool {
         let (first, second, _) = plane.axes();
         let is_same = |axis: usize| rigid.keeps(axis) || self.last.get(axis) == owners.get(axis);
         let is_moved = |axis: usize| rigid.keeps(axis) || owners.get(axis) == Some(&Owner::Moved);
@@ -354,7 +392,7 @@ impl<'c> Course<'c> {
 }
 
 /// A point whose coordinates are moved or not.
-fn place(rigid: &Rigid, point: &Position, owners: &[Owner; 3], reached: &Position) -> Position {
+fn place(rigid: &Rigid, point: &Position, owners: [Owner; 3], reached: &Position) -> Position {
     let mut placed = *point;
     for (axis, (letter, owner)) in LINEAR.iter().zip(owners).enumerate() {
         match owner {
@@ -367,7 +405,7 @@ fn place(rigid: &Rigid, point: &Position, owners: &[Owner; 3], reached: &Positio
 }
 
 /// An arc between two points that are moved already.
-fn turned(rigid: &Rigid, arc: &Arc, from: &Position, to: &Position, owners: &[Owner; 3]) -> Option<Arc> {
+fn turned(rigid: &Rigid, arc: &Arc, from: &Position, to: &Position, owners: [Owner; 3]) -> Option<Arc> {
     let (first, second, _) = arc.plane().axes();
     let is_moved = [first, second].iter().any(|axis| owners.get(*axis) == Some(&Owner::Moved));
     if is_moved {

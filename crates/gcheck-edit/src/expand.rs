@@ -104,14 +104,19 @@ impl<'c> Cycles<'c> {
                 | Effect::CycleBoreDwell
         );
         if !is_plain {
-            return Err("this cycle is more than moves and dwells: it taps, or stops and turns the spindle".to_owned());
+            return Err("this cycle is more than moves and dwells: it taps, or stops and turns the spindle"
+                .to_owned());
         }
         if facts.mapped.is_some() || facts.incremental.is_none() {
-            return Err("the modes in effect here put the moves elsewhere than their coordinates say".to_owned());
+            return Err(
+                "the modes in effect here put the moves elsewhere than their coordinates say".to_owned()
+            );
         }
         let flags = block.place.block().flags;
         if flags.intersects(BlockFlags::STATEMENT | BlockFlags::BLOCK_DELETE | BlockFlags::ERROR) {
-            return Err("this block has a condition or a `/`, which its moves would need one by one".to_owned());
+            return Err(
+                "this block has a condition or a `/`, which its moves would need one by one".to_owned()
+            );
         }
         let mut strokes = Vec::new();
         for event in &self.events {
@@ -171,7 +176,9 @@ fn lines(sheet: &mut Sheet<'_, '_>, place: &Place, expansion: &Expansion) -> Opt
     let facts = &expansion.facts;
     let (rest, feed) = rest(sheet, place, facts);
     let is_number_alone = rest.starts_with(['N', 'n'])
-        && rest.get(1..).is_some_and(|digits| !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_digit()));
+        && rest
+            .get(1..)
+            .is_some_and(|digits| !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_digit()));
     let mut lines = Vec::new();
     let mut head = String::new();
     match rest.is_empty() {

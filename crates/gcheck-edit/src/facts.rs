@@ -24,6 +24,8 @@ pub(crate) struct Facts {
     /// A code of this role makes other places of the words than they say.
     pub(crate) mapped: Option<Role>,
     pub(crate) feed_mode: Option<FeedMode>,
+    /// Speeds are those of the surface.
+    pub(crate) surface: bool,
     /// The tool in the spindle.
     pub(crate) tool: Option<u32>,
 }
@@ -41,8 +43,26 @@ impl Facts {
             cycle: state.active_cycle(model).unwrap_or(CodeIx::NONE),
             mapped: mapped(state, model),
             feed_mode: state.feed_mode(model),
+            surface: state.effect(Role::SpindleMode, model) == Some(Effect::SurfaceSpeed),
             tool: tool(state),
         }
+    }
+
+    /// Do words mean the same places under both?
+    pub(crate) fn places_alike(&self, other: &Self) -> bool {
+        let of_places = |facts: &Self| {
+            let turns = matches!(facts.motion, Effect::ArcClockwise | Effect::ArcCounterClockwise);
+            Self {
+                motion: if turns { Effect::ArcClockwise } else { Effect::Linear },
+                cycle: CodeIx::NONE,
+                feed_mode: None,
+                surface: false,
+                tool: None,
+                ..*facts
+            }
+        };
+        let is_cycle = |facts: &Self| facts.cycle.is_some();
+        of_places(self) == of_places(other) && is_cycle(self) == is_cycle(other)
     }
 
     /// Is a cut made by a straight line or an arc, and not by a cycle?
@@ -62,7 +82,7 @@ fn tool(state: &State<Concrete>) -> Option<u32> {
 /// The first mode in effect under which the axes go elsewhere than the words say.
 fn mapped(state: &State<Concrete>, model: &Model<'_>) -> Option<Role> {
     let is = |role: Role, effect: Effect| state.effect(role, model) == Some(effect);
-    let modes = [
+    let mappings = [
         (Role::Scaling, Effect::ScalingOn),
         (Role::Rotation, Effect::RotationOn),
         (Role::Mirror, Effect::MirrorOn),
@@ -75,7 +95,7 @@ fn mapped(state: &State<Concrete>, model: &Model<'_>) -> Option<Role> {
         (Role::Length, Effect::ToolCentrePoint),
         (Role::Compensation, Effect::CompensationVector),
     ];
-    if let Some((role, _)) = modes.into_iter().find(|(role, effect)| is(*role, *effect)) {
+    if let Some((role, _)) = mappings.into_iter().find(|(role, effect)| is(*role, *effect)) {
         return Some(role);
     }
     if *state.transform() != Transform::NONE {

@@ -39,13 +39,24 @@ pub(crate) enum Class {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Meaning {
     /// A coordinate of an axis, 0 for X, or a way along it.
-    Place { axis: usize, incremental: bool },
+    Place {
+        axis: usize,
+        incremental: bool,
+    },
     /// The level that a cycle comes out to, on the axis of its depth.
-    Height { axis: usize, incremental: bool },
+    Height {
+        axis: usize,
+        incremental: bool,
+    },
     /// Centre of an arc along an axis.
-    Centre { axis: usize, incremental: bool },
+    Centre {
+        axis: usize,
+        incremental: bool,
+    },
     /// A way along an axis that has a direction.
-    Vector { axis: usize },
+    Vector {
+        axis: usize,
+    },
     /// A word that a turned path would need to have changed in a way that is not known.
     Direction,
     Feed,
@@ -64,6 +75,8 @@ pub(crate) struct Read {
     pub(crate) cuts: bool,
     /// It cuts a thread, or taps.
     pub(crate) threads: bool,
+    /// It taps by a canned cycle, at the feed in effect.
+    pub(crate) taps: bool,
 }
 
 impl Read {
@@ -93,11 +106,7 @@ pub(crate) fn read(place: &Place, facts: &Facts, model: &Model<'_>) -> Read {
     } else {
         class(&codes, words, model)
     };
-    let depth = if model.drills_across(facts.cycle) {
-        0
-    } else {
-        facts.plane.unwrap_or(Plane::Xy).axes().2
-    };
+    let depth = if model.drills_across(facts.cycle) { 0 } else { facts.plane.unwrap_or(Plane::Xy).axes().2 };
     let meanings = words.iter().map(|word| {
         let entry = codes.iter().filter_map(|code| control.code_at(*code)).find_map(|code| {
             code.entry().words.iter().find(|entry| Letter::parse(&entry.letter) == Some(word.letter))
@@ -115,17 +124,15 @@ pub(crate) fn read(place: &Place, facts: &Facts, model: &Model<'_>) -> Read {
     let cuts = match class {
         Class::Operation => true,
         Class::Moves => runs_cycle || moves && facts.motion != Effect::Rapid,
-        Class::Machine => moves && facts.motion != Effect::Rapid && !model.semantics().machine_coordinates_rapid,
+        Class::Machine => {
+            moves && facts.motion != Effect::Rapid && !model.semantics().machine_coordinates_rapid
+        }
         _ => false,
     };
-    let threads = match cycle {
-        _ if !facts.cycle.is_some() => {
-            let here = codes.iter().map(|code| model.effect(*code));
-            is_thread(facts.motion) && class == Class::Moves || here.into_iter().any(is_thread)
-        }
-        cycle => matches!(cycle, Effect::CycleTap | Effect::CycleLeftTap),
-    };
-    Read { class, words: meanings, depth, cuts, threads: threads && cuts }
+    let mut here = codes.iter().map(|code| model.effect(*code));
+    let cuts_thread = here.any(is_thread) || is_thread(facts.motion) && class == Class::Moves && moves;
+    let taps = matches!(cycle, Effect::CycleTap | Effect::CycleLeftTap) && runs_cycle;
+    Read { class, words: meanings, depth, cuts: cuts || cuts_thread, threads: cuts_thread || taps, taps }
 }
 
 fn is_thread(effect: Effect) -> bool {
@@ -226,9 +233,10 @@ fn meaning(
     let cycle = model.effect(facts.cycle);
     let rules = &model.semantics().cycles;
     match (word.letter.ascii(), vector) {
-        (b'R', _) if facts.cycle.is_some() => {
-            Meaning::Height { axis: depth, incremental: incremental && rules.incremental_r || rules.r_is_distance }
-        }
+        (b'R', _) if facts.cycle.is_some() => Meaning::Height {
+            axis: depth,
+            incremental: incremental && rules.incremental_r || rules.r_is_distance,
+        },
         (_, Some(axis)) if facts.is_arc() => Meaning::Centre { axis, incremental: !facts.centre_absolute },
         (_, Some(axis)) if matches!(cycle, Effect::CycleFineBore | Effect::CycleBackBore) => {
             Meaning::Vector { axis }

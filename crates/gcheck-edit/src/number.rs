@@ -42,7 +42,7 @@ impl Hand {
                 }
                 let range = place.base + word.range().start..place.base + word.range().end;
                 let text = loaded.slice(range);
-                hand.pads |= word.shape.decimals > 0 && text.ends_with('0');
+                hand.pads |= word.shape.decimals > 1 && text.ends_with('0');
                 hand.bare |= word.shape.whole_digits == 0 && word.shape.decimals > 0;
                 hand.points_feeds |= word.letter == Letter::of('F');
                 hand.points |= matches!(word.letter.ascii(), b'X' | b'Y' | b'Z' | b'U' | b'V' | b'W');
@@ -93,6 +93,11 @@ impl Hand {
             text.insert(0, '+');
         }
         text
+    }
+
+    /// The form of a number with a point and as many decimals, which are filled where the program does that.
+    pub(crate) fn padded(self, decimals: usize) -> String {
+        format!("1.{}", if self.pads { "0".repeat(decimals) } else { String::new() })
     }
 
     /// A feed or speed that the program has nowhere in this number.

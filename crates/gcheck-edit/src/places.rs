@@ -36,8 +36,9 @@ pub(crate) fn rewrite(
     let mut slots: Vec<Word> = Vec::new();
     for (word, meaning) in &read.words {
         let (axis, is_way, is_centre) = match meaning {
-            Meaning::Place { axis, incremental } => (*axis, *incremental, false),
-            Meaning::Height { axis, incremental } => (*axis, *incremental, false),
+            Meaning::Place { axis, incremental } | Meaning::Height { axis, incremental } => {
+                (*axis, *incremental, false)
+            }
             Meaning::Centre { axis, incremental } => (*axis, *incremental, true),
             Meaning::Vector { axis } => (*axis, true, true),
             _ => continue,
@@ -51,8 +52,12 @@ pub(crate) fn rewrite(
         let offset = if is_way { 0.0 } else { offset };
         let text = sheet.rewritten(place, word, facts.units, turned.sign, offset, decimals)?;
         let letter = match meaning {
-            Meaning::Place { .. } if turned.axis != axis => LINEAR.get(turned.axis).map_or('X', |axis| axis.name()),
-            Meaning::Centre { .. } | Meaning::Vector { .. } => CENTRES.get(turned.axis).copied().unwrap_or('I'),
+            Meaning::Place { .. } if turned.axis != axis => {
+                LINEAR.get(turned.axis).map_or('X', |axis| axis.name())
+            }
+            Meaning::Centre { .. } | Meaning::Vector { .. } => {
+                CENTRES.get(turned.axis).copied().unwrap_or('I')
+            }
             _ => char::from(word.letter.ascii()),
         };
         slots.push(*word);
@@ -84,13 +89,12 @@ fn put(sheet: &mut Sheet<'_, '_>, place: &Place, word: &Word, letter: char, text
 
 /// Codes that turn the other way round.
 fn codes(sheet: &mut Sheet<'_, '_>, place: &Place, seen: &Seen, rigid: &Rigid) -> Result<(), Refusal> {
-    let plane = seen.facts.plane.unwrap_or(Plane::Xy);
     let words: Vec<Word> = place.table.words(place.block()).to_vec();
     for word in words.iter().filter(|word| word.code.is_some()) {
         let effect = sheet.model.effect(word.code);
         let Some(other) = mirrored(effect) else { continue };
         let range = Sheet::range(place, word);
-        let Some(flips) = rigid.flips(plane) else {
+        let Some(flips) = rigid.flips(seen.facts.plane.unwrap_or(Plane::Xy)) else {
             let reason = "the plane of this code would have to become another one";
             return Err(Refusal::at(range, reason).help("rotate by 180°, or select lines in the XY plane"));
         };

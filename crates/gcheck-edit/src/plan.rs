@@ -2,8 +2,10 @@
 //!
 //! Knows: which blocks are rewritten, and when that is not certain. Must not know: whether the proof holds.
 
+use std::collections::BTreeSet;
+
 use gcheck_diagnostics::Edit;
-use gcheck_engine::{FeedMode, Machine, Model, Program, Units};
+use gcheck_engine::{Assumption, FeedMode, Machine, Model, Program, Units};
 use gcheck_program::{Block, BlockFlags, Loaded, Place, Word};
 
 use crate::change::Change;
@@ -47,6 +49,17 @@ pub fn plan(
         match &witness.tracker {
             Tracker::Cycles(cycles) => cycles.write(&mut sheet, number, &place)?,
             Tracker::Loops(loops) => loops.write(&mut sheet, number, &place, program),
+            Tracker::Starts(starts) => {
+                let before =
+                    number.checked_sub(1).and_then(|number| file.loaded.place(number, program.dialect()));
+                starts.write(&mut sheet, number, &place, before.as_ref());
+            }
+            Tracker::Distance(distance) if planner.is_reached(number, &place)? => {
+                distance.write(&mut sheet, number, &place)?;
+            }
+            Tracker::Units(units) if planner.is_reached(number, &place)? => {
+                units.write(&mut sheet, number, &place)?;
+            }
             _ => planner.block(&mut sheet, number, &place)?,
         }
     }
@@ -67,6 +80,20 @@ pub fn plan(
         notes.push(format!("feeds and speeds that {name} gives stay as they are"));
     }
     Ok(Plan { edits, notes })
+}
+
+/// What a run rests on that leaves moves out: passes of a cycle, programs that are not there. A proof would have a gap.
+pub fn gaps(assumptions: &BTreeSet<Assumption>) -> BTreeSet<Assumption> {
+    let is_gap = |assumption: &&Assumption| {
+        matches!(
+            assumption,
+            Assumption::Passes(_)
+                | Assumption::MissingProgram(_)
+                | Assumption::MissingSubroutine(_)
+                | Assumption::Code(_)
+        )
+    };
+    assumptions.iter().filter(is_gap).cloned().collect()
 }
 
 struct Planner<'p> {
@@ -100,7 +127,6 @@ impl Planner<'_> {
                 let Some(rigid) = course.rigid() else { return Ok(()) };
                 places::rewrite(sheet, place, &seen, &read, rigid)
             }
-            Tracker::Cycles(_) | Tracker::Loops(_) | Tracker::Same => Ok(()),
             Tracker::Rates(rates) => {
                 let factors = rates.own(number);
                 let words: Vec<(Word, Meaning)> = read.words.clone();
@@ -116,7 +142,16 @@ impl Planner<'_> {
                 }
                 Ok(())
             }
+            _ => Ok(()),
         }
+    }
+
+    /// Did a run come to a block? The error is that it did not, and has words that the change is about.
+    fn is_reached(&self, number: u32, place: &Place) -> Result<bool, Refusal> {
+        if self.witness.blocks.get(number as usize).copied().flatten().is_some() {
+            return Ok(true);
+        }
+        self.unreached(place).map(|()| false)
     }
 
     /// A block that no run came to.
@@ -141,10 +176,15 @@ impl Planner<'_> {
     fn concerns(&self, block: &Block, place: &Place) -> bool {
         let words = place.table.words(place.block());
         let is_about = |word: &Word| match self.change {
-            Change::Renumber | Change::ExpandCycle | Change::UnrollLoop => false,
+            Change::Renumber | Change::ExpandCycle | Change::UnrollLoop | Change::SafeStart => false,
+            Change::Convert(_) => !matches!(word.letter.ascii(), b'G' | b'M' | b'N' | b'O' | b'T'),
             Change::ScaleFeeds(_) => word.letter.ascii() == b'F',
             Change::ScaleSpeeds(_) => word.letter.ascii() == b'S',
-            Change::Translate(_) | Change::Mirror(..) | Change::Rotate(..) => {
+            Change::Translate(_)
+            | Change::Mirror(..)
+            | Change::Rotate(..)
+            | Change::Absolute
+            | Change::Incremental => {
                 matches!(word.letter.ascii(), b'X' | b'Y' | b'Z' | b'I' | b'J' | b'K')
             }
         };
@@ -193,7 +233,8 @@ fn inserted(
             let text = sheet.hand.rate(letter, value, if letter == 'S' { 0 } else { 4 });
             let written: f64 = text.get(1..).and_then(|digits| digits.parse().ok()).unwrap_or(f64::NAN);
             if ((written - value) / value).abs() > 5e-4 {
-                let reason = format!("this block needs {letter}{value:.4}, which cannot be written as exactly");
+                let reason =
+                    format!("this block needs {letter}{value:.4}, which cannot be written as exactly");
                 return Err(Refusal::at(place.range(), reason).help("choose another factor"));
             }
             words.push(text);

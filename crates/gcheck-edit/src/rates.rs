@@ -7,7 +7,7 @@
 
 use std::collections::BTreeMap;
 
-use gcheck_engine::{Concrete, ConcreteValue, Domain as _, FeedMode, Model};
+use gcheck_engine::{Concrete, ConcreteValue, Domain as _, FeedMode, Model, Spindle};
 use gcheck_toolpath::{Act, Doing, Driven, Feed};
 
 use crate::change::Change;
@@ -37,6 +37,8 @@ pub(crate) struct Rates<'c> {
     /// Blocks that get a number, by their number: the number in effect, and by how much it is scaled there.
     inserted: BTreeMap<u32, (Given, Pair<f64>)>,
     refusal: Option<Refusal>,
+    /// The block under way cuts a thread.
+    threads: bool,
     /// Another file has feeds or speeds of its own, which stay.
     pub(crate) leaves: Option<String>,
 }
@@ -52,6 +54,7 @@ impl<'c> Rates<'c> {
             own: BTreeMap::new(),
             inserted: BTreeMap::new(),
             refusal: None,
+            threads: false,
             leaves: None,
         }
     }
@@ -90,6 +93,7 @@ impl<'c> Rates<'c> {
     pub(crate) fn executed(&mut self, block: &Executed<'_>) {
         let read = read(block.place, &block.facts, self.model);
         let wanted = self.wanted(block.is_selected, &read, &block.facts);
+        self.threads = read.threads && !read.taps;
         let is_limit = matches!(read.class, Class::Origin { .. }) || self.is_limit(block);
         let gives = |sought: Meaning| read.words.iter().any(|(_, meaning)| *meaning == sought);
         let gives = Pair { feed: gives(Meaning::Feed), speed: gives(Meaning::Speed) && !is_limit };
@@ -101,18 +105,22 @@ impl<'c> Rates<'c> {
             self.factors.speed = if gives.speed { 1.0 } else { self.factors.speed };
         } else {
             let (numbers, cuts) = (numbers(block), read.cuts);
-            let mut given = Given { feed: None, speed: None };
-            let (factor, needs) = one(self.factors.feed, wanted.feed, gives.feed, cuts);
+            // A thread has its lead from its own words, or else the proof fails.
+            let feeds = cuts && (!read.threads || read.taps);
+            let turns = cuts && block.state.spindle() != Some(Spindle::Stopped);
+            let turns = turns && Concrete::known(block.state.speed()) != Some(0.0);
+            let mut added = Given { feed: None, speed: None };
+            let (factor, needs) = one(self.factors.feed, wanted.feed, gives.feed, feeds);
             self.factors.feed = factor;
             if needs {
-                given.feed = self.known(block, numbers.feed, "feed");
+                added.feed = self.known(block, numbers.feed, "feed");
             }
-            let (factor, needs) = one(self.factors.speed, wanted.speed, gives.speed, cuts);
+            let (factor, needs) = one(self.factors.speed, wanted.speed, gives.speed, turns);
             self.factors.speed = factor;
             if needs {
-                given.speed = self.known(block, numbers.speed, "speed");
+                added.speed = self.known(block, numbers.speed, "speed");
             }
-            self.note(block, gives, given, cuts);
+            self.note(block, gives, added, cuts);
         }
     }
 
@@ -128,7 +136,8 @@ impl<'c> Rates<'c> {
     /// The number in effect that a block has to repeat, scaled as its moves are.
     fn known(&mut self, block: &Executed<'_>, number: Option<f64>, what: &str) -> Option<f64> {
         if number.is_none() {
-            let reason = format!("this block needs a {what} of its own, and the {what} in effect is not known");
+            let reason =
+                format!("this block needs a {what} of its own, and the {what} in effect is not known");
             self.refuse(block, reason);
         }
         number
@@ -141,7 +150,7 @@ impl<'c> Rates<'c> {
     }
 
     /// Keeps what a block gets; it must be the same each time that it runs.
-    fn note(&mut self, block: &Executed<'_>, gives: Pair<bool>, given: Given, cuts: bool) {
+    fn note(&mut self, block: &Executed<'_>, gives: Pair<bool>, added: Given, cuts: bool) {
         let number = block.at.block;
         if gives.feed || gives.speed {
             let factors = Pair {
@@ -152,17 +161,23 @@ impl<'c> Rates<'c> {
                 self.refuse(block, "this block runs more than once, and its feed or speed is scaled only in some of the turns");
             }
         }
-        if given.feed.is_some() || given.speed.is_some() {
-            let new = (given, self.factors);
+        if added.feed.is_some() || added.speed.is_some() {
+            let new = (added, self.factors);
             if self.inserted.insert(number, new).is_some_and(|before| before != new) {
-                self.refuse(block, "this block runs more than once, each time with another feed or speed in effect");
+                self.refuse(
+                    block,
+                    "this block runs more than once, each time with another feed or speed in effect",
+                );
             }
         } else if cuts && self.inserted.contains_key(&number) {
             let again = numbers(block);
             let same = |old: Option<f64>, new: Option<f64>| old.is_none() || old == new;
             let before = self.inserted.get(&number).map(|(given, _)| *given);
             if before.is_some_and(|old| !same(old.feed, again.feed) || !same(old.speed, again.speed)) {
-                self.refuse(block, "this block runs more than once, each time with another feed or speed in effect");
+                self.refuse(
+                    block,
+                    "this block runs more than once, each time with another feed or speed in effect",
+                );
             }
         }
     }
@@ -172,7 +187,7 @@ impl<'c> Rates<'c> {
     pub(crate) fn act(&self, act: Act) -> Act {
         let Doing::Move(made) = &act.doing else { return act };
         let factors = self.factors;
-        let is_lead = made.driven == Driven::Thread;
+        let is_lead = made.driven == Driven::Thread || self.threads;
         let mut setting = act.setting;
         setting.feed = setting.feed.map(|feed| match feed {
             Feed::PerMinute(feed) if !is_lead => Feed::PerMinute(feed * factors.feed),

@@ -80,7 +80,8 @@ impl Rigid {
 
     /// Do coordinates of an axis stay what they are?
     pub(crate) fn keeps(&self, axis: usize) -> bool {
-        self.turned(axis).is_some_and(|turned| turned.axis == axis && turned.sign > 0.0 && turned.offset == 0.0)
+        self.turned(axis)
+            .is_some_and(|turned| turned.axis == axis && turned.sign > 0.0 && turned.offset == 0.0)
     }
 
     /// Does an axis become another one?
@@ -130,19 +131,24 @@ mod tests {
     use super::Rigid;
     use crate::change::{Amount, Change};
 
-    fn moved(change: &Change, point: [f64; 3]) -> [f64; 3] {
+    /// A point in thousandths.
+    fn moved(change: &Change, point: [i32; 3]) -> [i32; 3] {
         let rigid = Rigid::of(change, Units::Mm, false).unwrap();
-        let [x, y, z] = point;
+        let [x, y, z] = point.map(f64::from);
         let point = Position::new([x, y, z, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
-        [0, 1, 2].map(|axis| rigid.coordinate(&point, axis) + 0.0)
+        whole([0, 1, 2].map(|axis| rigid.coordinate(&point, axis)))
+    }
+
+    fn whole(point: [f64; 3]) -> [i32; 3] {
+        point.map(|value| (value * 1_000.0).round() as i32)
     }
 
     #[test]
     fn quarter_turns_are_counter_clockwise() {
         let about = [Amount::in_program(1.0), Amount::in_program(0.0)];
-        assert_eq!(moved(&Change::Rotate(1, about), [2.0, 0.0, 5.0]), [1.0, 1.0, 5.0]);
-        assert_eq!(moved(&Change::Rotate(2, about), [2.0, 0.0, 5.0]), [0.0, 0.0, 5.0]);
-        assert_eq!(moved(&Change::Rotate(3, about), [2.0, 0.0, 5.0]), [1.0, -1.0, 5.0]);
+        assert_eq!(moved(&Change::Rotate(1, about), [2, 0, 5]), [1_000, 1_000, 5_000]);
+        assert_eq!(moved(&Change::Rotate(2, about), [2, 0, 5]), [0, 0, 5_000]);
+        assert_eq!(moved(&Change::Rotate(3, about), [2, 0, 5]), [1_000, -1_000, 5_000]);
     }
 
     #[test]
@@ -162,6 +168,6 @@ mod tests {
     fn a_shift_along_x_of_a_lathe_is_a_diameter() {
         let by = [Amount::in_program(1.0), Amount::ZERO, Amount { number: 1.0, units: Some(Units::Mm) }];
         let rigid = Rigid::of(&Change::Translate(by), Units::Inch, true).unwrap();
-        assert_eq!([0, 1, 2].map(|axis| rigid.coordinate(&Position::ZERO, axis)), [12.7, 0.0, 1.0]);
+        assert_eq!(whole([0, 1, 2].map(|axis| rigid.coordinate(&Position::ZERO, axis))), [12_700, 0, 1_000]);
     }
 }

@@ -8,8 +8,8 @@
 use std::rc::Rc;
 
 use gcheck_engine::{
-    At, Concrete, Event, Machine, Model, Observer, Options, Origin, Position, Program, RunResult, State,
-    Stop, Units,
+    At, Axis, Concrete, Event, Machine, Model, Observer, Options, Origin, Position, Program, RunResult,
+    State, Stop, Units,
 };
 use gcheck_program::Place;
 use gcheck_toolpath::{Act, Beside, Spot, Step, Trail, WorkCoordinates};
@@ -180,7 +180,11 @@ impl<V: Visitor> Observer<Concrete> for Watcher<'_, '_, V> {
         }
         self.visitor.event(event);
         let (file, line) = self.place(origin);
-        if *event == Event::Unfollowed {
+        // A lathe may stand anywhere in Y when it drills: no move depends on it.
+        let is_lathe = self.model.control().machine() == gcheck_controls::Machine::Lathe;
+        let stands = [Axis::X, Axis::Z].into_iter().all(|axis| !self.before.raw(axis).is_nan());
+        let drills = state.active_cycle(self.model).is_some_and(gcheck_controls::CodeIx::is_some);
+        if *event == Event::Unfollowed && !(is_lathe && stands && drills) {
             self.visitor.unfollowed(origin.start, origin.end, Some(&*file).filter(|name| !name.is_empty()));
         }
         let spot = Spot { file: &file, line, n: origin.n };

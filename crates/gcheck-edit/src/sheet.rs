@@ -52,6 +52,10 @@ impl<'a, 'p> Sheet<'a, 'p> {
         if self.loaded.chunk_text(0).contains("\r\n") { "\r\n" } else { "\n" }
     }
 
+    pub(crate) fn insert(&mut self, at: u32, text: String) {
+        self.edits.push(Edit { range: at..at, text });
+    }
+
     /// Bytes of the file of a word.
     pub(crate) fn range(place: &Place, word: &Word) -> Range<u32> {
         place.base + word.range().start..place.base + word.range().end
@@ -91,6 +95,64 @@ impl<'a, 'p> Sheet<'a, 'p> {
         let letter = if is_small { letter.to_ascii_lowercase() } else { letter.to_owned() };
         let has_zero = old_digits.len() > 1 && old_digits.starts_with('0') && digits.len() == 1;
         Some(format!("{letter}{}{digits}", if has_zero { "0" } else { "" }))
+    }
+
+    /// The name of the first code with an effect.
+    pub(crate) fn name_of(&self, effect: Effect) -> Option<String> {
+        let code = self.model.control().codes().find(|code| code.effect() == effect)?;
+        Some(code.number().to_string())
+    }
+
+    /// The value of a word times `factor` in other units, with as many decimals as these have on the control.
+    ///
+    /// # Errors
+    /// The reason why it cannot be written so.
+    pub(crate) fn converted(
+        &mut self,
+        place: &Place,
+        word: &Word,
+        from: Option<Units>,
+        to: Units,
+        factor: f64,
+    ) -> Result<String, Refusal> {
+        let decimals = self.decimals(Some(to));
+        let count = if word.shape.point { 1.0 } else { self.count(word.letter, from) };
+        match word.value {
+            Value::Number(number) => {
+                let is_counted = (count - 1.0).abs() > 1e-12;
+                let is_rate = matches!(word.letter.ascii(), b'F' | b'S');
+                let has_point = word.shape.point || is_counted;
+                let value = number * count * factor;
+                let form = if has_point && !is_rate {
+                    self.hand.padded(decimals)
+                } else if has_point {
+                    "1.".to_owned()
+                } else {
+                    "1".to_owned()
+                };
+                let decimals = match word.letter.ascii() {
+                    b'S' if !word.shape.point => 0,
+                    b'F' if value.abs() < 1.0 => decimals + 2,
+                    _ => decimals,
+                };
+                Ok(self.hand.write(&form, value, decimals))
+            }
+            Value::Expr(_) => {
+                let (_, text) = self.value(place, word);
+                let is_division = factor < 1.0 && (factor * 25.4 - 1.0).abs() < 1e-9;
+                let text = if is_one_group(text) || is_variable(text) {
+                    text.to_owned()
+                } else {
+                    format!("[{text}]")
+                };
+                Ok(if is_division {
+                    format!("[{text}/25.4]")
+                } else {
+                    format!("[{text}*{}]", self.hand.write("1.", factor, 6))
+                })
+            }
+            Value::Missing => Err(Refusal::at(Self::range(place, word), "this word has no value")),
+        }
     }
 
     /// The value of a word times `factor` and more by `offset`, both in units of the program, in the form that it has.
@@ -164,11 +226,23 @@ impl<'a, 'p> Sheet<'a, 'p> {
             let written: f64 = text.parse().unwrap_or(f64::NAN);
             if wanted != 0.0 && ((written - wanted) / wanted).abs() > ROUNDING {
                 let (range, _) = self.value(place, word);
-                let reason = format!("the new value is {wanted:.4}, and rounded to the digits that can be written it is {written}");
+                let reason = format!(
+                    "the new value is {wanted:.4}, and rounded to the digits that can be written it is {written}"
+                );
                 return Err(Refusal::at(range, reason).help("choose another factor"));
             }
         }
         Ok(text)
+    }
+
+    /// Writes a code in front of the words of a block, after its number.
+    pub(crate) fn prepend(&mut self, place: &Place, text: &str) {
+        let words = place.table.words(place.block());
+        let Some(first) = words.iter().find(|word| !matches!(word.letter.ascii(), b'N' | b'O')) else {
+            return;
+        };
+        let at = place.base + first.range().start;
+        self.edits.push(Edit { range: at..at, text: format!("{text}{}", self.hand.gap()) });
     }
 
     /// Writes words after the last word of a block.

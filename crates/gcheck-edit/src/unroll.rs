@@ -25,7 +25,7 @@ pub(crate) struct Loops<'c> {
     model: &'c Model<'c>,
     hand: Option<Hand>,
     /// Outermost loops: their first and last block.
-    loops: Vec<[u32; 2]>,
+    outermost: Vec<[u32; 2]>,
     under_way: Option<Turns>,
     done: BTreeMap<u32, Done>,
     refusal: Option<Refusal>,
@@ -54,7 +54,7 @@ impl<'c> Loops<'c> {
             scope: scope.clone(),
             model,
             hand: None,
-            loops: Vec::new(),
+            outermost: Vec::new(),
             under_way: None,
             done: BTreeMap::new(),
             refusal: None,
@@ -95,7 +95,7 @@ impl<'c> Loops<'c> {
         }
         let starts = place.range().start;
         if self.under_way.is_none()
-            && let Some(blocks) = self.loops.iter().find(|[first, _]| *first == at.block)
+            && let Some(blocks) = self.outermost.iter().find(|[first, _]| *first == at.block)
             && self.scope.selects(starts, tool(state))
         {
             self.under_way = Some(Turns { blocks: *blocks, depth, lines: Vec::new() });
@@ -140,7 +140,7 @@ impl<'c> Loops<'c> {
                 } else if let Some(first) = open.pop()
                     && open.is_empty()
                 {
-                    self.loops.push([first, number]);
+                    self.outermost.push([first, number]);
                 }
             }
         }
@@ -157,9 +157,14 @@ impl<'c> Loops<'c> {
     ) {
         let words = place.table.words(place.block());
         let flags = place.block().flags;
-        let kinds: Vec<&StatementKind> = place.table.statements(place.ix).map(|statement| &statement.kind).collect();
+        let kinds: Vec<&StatementKind> =
+            place.table.statements(place.ix).map(|statement| &statement.kind).collect();
         if kinds.iter().any(|kind| matches!(kind, StatementKind::Print | StatementKind::Command)) {
-            return self.refuse(place.range(), "this block prints or commands something in each turn", "select lines without it");
+            return self.refuse(
+                place.range(),
+                "this block prints or commands something in each turn",
+                "select lines without it",
+            );
         }
         let is_conditional =
             kinds.iter().any(|kind| matches!(kind, StatementKind::If { .. } | StatementKind::Guard { .. }));
@@ -176,7 +181,11 @@ impl<'c> Loops<'c> {
             return;
         }
         let Some(line) = self.line(program, machine, at, place, state, !kinds.is_empty()) else {
-            return self.refuse(place.range(), "a word of this block has no value that is known", "give values with --set");
+            return self.refuse(
+                place.range(),
+                "a word of this block has no value that is known",
+                "give values with --set",
+            );
         };
         let Some(turns) = &mut self.under_way else { return };
         turns.lines.push(line);
@@ -201,7 +210,7 @@ impl<'c> Loops<'c> {
         let mut values = Vec::new();
         if place.block().flags.contains(BlockFlags::EXPRESSION) {
             let mut look = Look::new(program, self.model, machine);
-            values = look.words(place, at, &state.as_abstract());
+            values = look.expressions(at, &state.as_abstract());
         }
         let block = place.range();
         let words = place.table.words(place.block());
@@ -218,10 +227,17 @@ impl<'c> Loops<'c> {
                 continue;
             }
             match word.value {
-                Value::Expr(_) => {
-                    let value = values.iter().find(|(other, _)| other.range() == word.range());
+                Value::Expr(expr) => {
+                    let expr = place.table.expr(expr).range.clone();
+                    let expr = place.base + expr.start..place.base + expr.end;
+                    let value = values.iter().find(|(other, _)| *other == expr);
                     let Some((_, AbstractValue::Number(number))) = value else { return None };
-                    out.push_str(&self.word(file.loaded.slice(range), word, *number, state.units(self.model))?);
+                    out.push_str(&self.word(
+                        file.loaded.slice(range),
+                        word,
+                        *number,
+                        state.units(self.model),
+                    )?);
                 }
                 _ => out.push_str(file.loaded.slice(range)),
             }
@@ -236,7 +252,8 @@ impl<'c> Loops<'c> {
     fn word(&self, old: &str, word: &Word, number: f64, units: Option<Units>) -> Option<String> {
         let control = self.model.control();
         let kind = control.letter(word.letter).map(|entry| entry.kind);
-        let has_point = matches!(kind, Some(WordKind::Length | WordKind::Angle | WordKind::Feed | WordKind::Real));
+        let has_point =
+            matches!(kind, Some(WordKind::Length | WordKind::Angle | WordKind::Feed | WordKind::Real));
         let hand = self.hand?;
         let as_written = control.numbers().unpointed == Unpointed::AsWritten;
         let form = if has_point && (hand.points() || !as_written) { "1." } else { "1" };
@@ -261,7 +278,11 @@ impl<'c> Loops<'c> {
         if self.done.get(&first).is_some_and(|old| *old != new) {
             let place = program.file(0).and_then(|file| file.loaded.place(first, program.dialect()));
             let range = place.map_or(0..0, |place| place.range());
-            return self.refuse(range, "this loop runs more than once, each time in another way", "select another loop");
+            return self.refuse(
+                range,
+                "this loop runs more than once, each time in another way",
+                "select another loop",
+            );
         }
         self.done.insert(first, new);
     }
@@ -285,16 +306,25 @@ fn tool(state: &State<Concrete>) -> Option<u32> {
 }
 
 /// The values that a loop leaves to blocks outside of it.
-fn left(program: &Program<'_>, [first, last]: [u32; 2], state: &State<Concrete>) -> Result<Vec<(u32, f64)>, String> {
+fn left(
+    program: &Program<'_>,
+    [first, last]: [u32; 2],
+    state: &State<Concrete>,
+) -> Result<Vec<(u32, f64)>, String> {
     let Some(file) = program.file(0) else { return Ok(Vec::new()) };
     let (mut assigned, mut read): (Vec<u32>, Vec<u32>) = (Vec::new(), Vec::new());
     let (mut reads_any, mut names) = (false, false);
-    for (number, place) in file.loaded.blocks_with(BlockFlags::STATEMENT | BlockFlags::EXPRESSION | BlockFlags::CODE, program.dialect()) {
+    for (number, place) in file
+        .loaded
+        .blocks_with(BlockFlags::STATEMENT | BlockFlags::EXPRESSION | BlockFlags::CODE, program.dialect())
+    {
         let is_inside = (first..=last).contains(&number);
         if is_inside {
             for statement in place.table.statements(place.ix) {
                 match &statement.kind {
-                    StatementKind::Assign { target: Target::Variable(variable), .. } => assigned.push(*variable),
+                    StatementKind::Assign { target: Target::Variable(variable), .. } => {
+                        assigned.push(*variable);
+                    }
                     StatementKind::Assign { .. } => names = true,
                     _ => {}
                 }
@@ -318,7 +348,7 @@ fn left(program: &Program<'_>, [first, last]: [u32; 2], state: &State<Concrete>)
     assigned.dedup();
     assigned.retain(|variable| reads_any || read.contains(variable));
     let value = |variable: u32| {
-        let value = state.local(variable).cloned().unwrap_or_else(|| state.variables().get(variable));
+        let value = state.local(variable).copied().unwrap_or_else(|| state.variables().get(variable));
         match value {
             ConcreteValue::Number(number) => Ok((variable, number)),
             ConcreteValue::Vacant | ConcreteValue::Unknown => {

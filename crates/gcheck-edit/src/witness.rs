@@ -4,18 +4,23 @@
 
 use std::collections::BTreeSet;
 
-use gcheck_engine::{Assumption, At, Concrete, Event, Machine, Model, Options, Program, RunResult, State, Units};
+use gcheck_engine::{
+    Assumption, At, Concrete, Event, Machine, Model, Options, Program, RunResult, State, Units,
+};
 use gcheck_program::Place;
 use gcheck_toolpath::Act;
 
 use crate::change::Change;
 use crate::course::Course;
+use crate::distance::Distance;
 use crate::expand::Cycles;
 use crate::facts::Facts;
 use crate::rates::Rates;
 use crate::refusal::Refusal;
 use crate::run::{Executed, Visitor, run};
+use crate::safe_start::Starts;
 use crate::scope::Scope;
+use crate::units::Conversion;
 use crate::unroll::Loops;
 
 /// What runs of a program have shown.
@@ -43,6 +48,9 @@ pub(crate) enum Tracker<'c> {
     Rates(Box<Rates<'c>>),
     Cycles(Box<Cycles<'c>>),
     Loops(Box<Loops<'c>>),
+    Distance(Box<Distance<'c>>),
+    Starts(Box<Starts<'c>>),
+    Units(Box<Conversion<'c>>),
     /// Every act is as before.
     Same,
 }
@@ -51,12 +59,18 @@ impl<'c> Tracker<'c> {
     pub(crate) fn new(change: &'c Change, scope: &Scope, model: &'c Model<'c>) -> Self {
         let is_whole = *scope == Scope::All;
         match change {
-            Change::ScaleFeeds(_) | Change::ScaleSpeeds(_) => Self::Rates(Box::new(Rates::new(change, model))),
+            Change::ScaleFeeds(_) | Change::ScaleSpeeds(_) => {
+                Self::Rates(Box::new(Rates::new(change, model)))
+            }
             Change::Translate(_) | Change::Mirror(..) | Change::Rotate(..) => {
                 Self::Course(Box::new(Course::new(change, is_whole, model)))
             }
             Change::ExpandCycle => Self::Cycles(Box::new(Cycles::new(model))),
             Change::UnrollLoop => Self::Loops(Box::new(Loops::new(scope, model))),
+            Change::SafeStart => Self::Starts(Box::new(Starts::new(scope, model))),
+            Change::Absolute => Self::Distance(Box::new(Distance::new(false, model))),
+            Change::Incremental => Self::Distance(Box::new(Distance::new(true, model))),
+            Change::Convert(to) => Self::Units(Box::new(Conversion::new(*to, model))),
             Change::Renumber => Self::Same,
         }
     }
@@ -65,7 +79,9 @@ impl<'c> Tracker<'c> {
         match self {
             Self::Course(course) => course.begin(),
             Self::Rates(rates) => rates.begin(),
-            Self::Cycles(_) | Self::Loops(_) | Self::Same => {}
+            Self::Distance(distance) => distance.begin(),
+            Self::Units(units) => units.begin(),
+            Self::Cycles(_) | Self::Loops(_) | Self::Starts(_) | Self::Same => {}
         }
     }
 
@@ -74,7 +90,9 @@ impl<'c> Tracker<'c> {
             Self::Course(course) => course.executed(block),
             Self::Rates(rates) => rates.executed(block),
             Self::Cycles(cycles) => cycles.executed(block),
-            Self::Loops(_) | Self::Same => {}
+            Self::Distance(distance) => distance.executed(block),
+            Self::Units(units) => units.executed(block),
+            Self::Loops(_) | Self::Starts(_) | Self::Same => {}
         }
     }
 
@@ -82,7 +100,12 @@ impl<'c> Tracker<'c> {
         match self {
             Self::Course(course) => course.act(at, is_expanded, act),
             Self::Rates(rates) => rates.act(act),
-            Self::Cycles(_) | Self::Loops(_) | Self::Same => act,
+            Self::Cycles(_)
+            | Self::Loops(_)
+            | Self::Distance(_)
+            | Self::Starts(_)
+            | Self::Units(_)
+            | Self::Same => act,
         }
     }
 
@@ -92,6 +115,9 @@ impl<'c> Tracker<'c> {
             Self::Rates(rates) => rates.refusal(),
             Self::Cycles(cycles) => cycles.refusal(),
             Self::Loops(loops) => loops.refusal(),
+            Self::Starts(starts) => starts.refusal(),
+            Self::Distance(distance) => distance.refusal(),
+            Self::Units(units) => units.refusal(),
             Self::Same => None,
         }
     }
@@ -162,13 +188,16 @@ impl Visitor for Watching<'_, '_, '_> {
         match &mut self.witness.tracker {
             Tracker::Cycles(cycles) => cycles.before(),
             Tracker::Loops(loops) => loops.before(self.program, self.machine, at, place, state),
+            Tracker::Starts(starts) => starts.before(at, place, state),
             _ => {}
         }
     }
 
     fn event(&mut self, event: &Event) {
-        if let Tracker::Cycles(cycles) = &mut self.witness.tracker {
-            cycles.event(event);
+        match &mut self.witness.tracker {
+            Tracker::Cycles(cycles) => cycles.event(event),
+            Tracker::Starts(starts) => starts.event(event),
+            _ => {}
         }
     }
 
@@ -182,7 +211,8 @@ impl Visitor for Watching<'_, '_, '_> {
 
     fn unfollowed(&mut self, start: u32, end: u32, file: Option<&str>) {
         if self.witness.unfollowed.is_none() {
-            let reason = "this block moves the axes in a way that is not followed, so nothing is proved of it";
+            let reason =
+                "this block moves the axes in a way that is not followed, so nothing is proved of it";
             self.witness.unfollowed = Some(Refusal::at(start..end, reason).in_file(file));
         }
     }
@@ -203,9 +233,7 @@ impl Witness<'_> {
         *slot = Some(match slot {
             None => new,
             Some(old) => {
-                // Which tool is in the spindle changes the meaning of no word.
-                let tool = old.facts.tool;
-                let is_same = Facts { tool, ..new.facts } == old.facts && old.is_selected == new.is_selected;
+                let is_same = new.facts.places_alike(&old.facts) && old.is_selected == new.is_selected;
                 Seen {
                     is_certain: old.is_certain && is_same,
                     is_selected: old.is_selected || new.is_selected,

@@ -98,6 +98,44 @@ pub enum EditCommand {
         #[command(flatten)]
         target: EditTarget,
     },
+    /// Write increments (`G91`) as absolute coordinates (`G90`)
+    Absolute {
+        /// The program and the part of it that changes.
+        #[command(flatten)]
+        target: EditTarget,
+    },
+    /// Write absolute coordinates (`G90`) as increments (`G91`)
+    Incremental {
+        /// The program and the part of it that changes.
+        #[command(flatten)]
+        target: EditTarget,
+    },
+    /// Write a program in inches as one in millimetres
+    ///
+    /// Lengths, feeds and surface speeds change, with the digits that the control resolves.
+    Mm {
+        /// The program and the part of it that changes.
+        #[command(flatten)]
+        target: EditTarget,
+    },
+    /// Write a program in millimetres as one in inches
+    ///
+    /// Lengths, feeds and surface speeds change, with the digits that the control resolves. A ten-thousandth of an inch is
+    /// more than a thousandth of a millimetre, so most programs need `--tolerance 0.002`.
+    Inch {
+        /// The program and the part of it that changes.
+        #[command(flatten)]
+        target: EditTarget,
+    },
+    /// Say the modes in a line in front of each tool change, so that an operator can start there
+    ///
+    /// The line says only what is in effect there anyway: units, plane, `G90`, the feed mode, and that cutter compensation,
+    /// tool length and cycles are off. A tool change with such a line gets no other.
+    SafeStart {
+        /// The program and the part of it that changes.
+        #[command(flatten)]
+        target: EditTarget,
+    },
     /// Number the blocks anew, with every word that names one
     Renumber {
         /// The first number and the step: `10:10`
@@ -196,6 +234,11 @@ impl EditCommand {
             | Self::Rotate { target, .. }
             | Self::ExpandCycle { target }
             | Self::UnrollLoop { target }
+            | Self::Absolute { target }
+            | Self::Incremental { target }
+            | Self::SafeStart { target }
+            | Self::Mm { target }
+            | Self::Inch { target }
             | Self::Renumber { target, .. } => target,
         }
     }

@@ -14,9 +14,7 @@ use gcheck_engine::{Assumption, Axis, Nobody, Options, Units};
 use gcheck_program::BlockFlags;
 use gcheck_syntax::SourceText;
 
-use crate::args::{
-    BlockSkip, EditCommand, EditTarget, ExecutionOptions, Global, MirrorAxis, QuarterTurns,
-};
+use crate::args::{BlockSkip, EditCommand, EditTarget, ExecutionOptions, Global, MirrorAxis, QuarterTurns};
 use crate::console::{finish, say};
 use crate::execution::{self, Prepared, Rests, Session};
 use crate::{Problem, output, reading, rewriting};
@@ -27,6 +25,10 @@ pub(crate) fn run(global: &Global, command: &EditCommand) -> Result<u8, Problem>
     let change = change(command)?;
     let mut prepared = execution::prepare(global, &execution(target))?;
     let scope = scope(target, &prepared)?;
+    if matches!(change, Change::Convert(_)) && scope != Scope::All {
+        return Err(Problem::new("a program is converted as a whole, as the feed and other words stay in effect from block to block")
+            .help("leave out --lines and --tool"));
+    }
     let runs = prepared.session(|session| runs(session, target));
     let cutters = assume_cutters(&mut prepared, &runs);
     let planned = match prepared.session(|session| planned(session, command, &change, &scope, &runs)) {
@@ -46,7 +48,8 @@ pub(crate) fn run(global: &Global, command: &EditCommand) -> Result<u8, Problem>
         }
         return Ok(0);
     }
-    let asked = proof::Asked { change: &change, scope: &scope, tolerance: target.tolerance, units: planned.units };
+    let asked =
+        proof::Asked { change: &change, scope: &scope, tolerance: target.tolerance, units: planned.units };
     let proof = match proof::prove(&prepared, &after, &asked, &runs) {
         Ok(proof) => proof,
         Err(problem) => return Ok(refused(&prepared, problem)),
@@ -119,6 +122,11 @@ fn change(command: &EditCommand) -> Result<Change, Problem> {
         }
         EditCommand::ExpandCycle { .. } => Change::ExpandCycle,
         EditCommand::UnrollLoop { .. } => Change::UnrollLoop,
+        EditCommand::Absolute { .. } => Change::Absolute,
+        EditCommand::Incremental { .. } => Change::Incremental,
+        EditCommand::SafeStart { .. } => Change::SafeStart,
+        EditCommand::Mm { .. } => Change::Convert(Units::Mm),
+        EditCommand::Inch { .. } => Change::Convert(Units::Inch),
         EditCommand::Renumber { .. } => Change::Renumber,
     })
 }
@@ -128,7 +136,10 @@ fn scope(target: &EditTarget, prepared: &Prepared) -> Result<Scope, Problem> {
     let Some(lines) = target.lines else { return Ok(target.tool.map_or(Scope::All, Scope::Tool)) };
     let count = text.lines().count();
     if lines.first as usize > count {
-        return Err(Problem::with_file(&prepared.path, format!("has {count} lines, so there is no line {}", lines.first)));
+        return Err(Problem::with_file(
+            &prepared.path,
+            format!("has {count} lines, so there is no line {}", lines.first),
+        ));
     }
     Ok(Scope::lines(text, lines.first, lines.last))
 }
@@ -156,10 +167,14 @@ fn planned(
     let mut seen = Witness::new(change, scope, session.model);
     let mut rests = String::new();
     for options in runs {
-        let ran = witness(&mut seen, session.program, session.model, machine, *options, prepared.fuel(), scope);
+        let ran =
+            witness(&mut seen, session.program, session.model, machine, *options, prepared.fuel(), scope);
         if let Some(fault) = execution::fault_of(session, &ran) {
             let problem = execution::problem_of(&fault);
-            return Err(problem.note(format!("nothing is proved of a run that ends early, so gcheck cannot {}", change.verb())));
+            return Err(problem.note(format!(
+                "nothing is proved of a run that ends early, so gcheck cannot {}",
+                change.verb()
+            )));
         }
         if let Some(gap) = gap(session, &ran.assumptions) {
             return Err(Problem::with_file(&prepared.path, format!("cannot {}: {gap}", change.verb())));
@@ -173,10 +188,12 @@ fn planned(
                 .help("leave out --lines and --tool"));
         }
         let edits = gcheck_format::renumber(prepared.source.text(), session.program.dialect(), numbering);
-        let edits = edits.map_err(|refused| refusal(&Refusal::at(refused.range.clone(), refused.to_string())))?;
+        let edits =
+            edits.map_err(|refused| refusal(&Refusal::at(refused.range.clone(), refused.to_string())))?;
         (edits, Vec::new())
     } else {
-        let plan = plan(change, scope, &seen, session.program, session.model, machine).map_err(|error| refusal(&error))?;
+        let plan = plan(change, scope, &seen, session.program, session.model, machine)
+            .map_err(|error| refusal(&error))?;
         (plan.edits, plan.notes)
     };
     let units = seen.units().unwrap_or(prepared.equipment.units);
@@ -204,7 +221,8 @@ fn assume_cutters(prepared: &mut Prepared, runs: &[Options]) -> Option<String> {
     for options in runs {
         let unknown = prepared.session(|session| {
             let machine = &prepared.equipment.machine;
-            gcheck_engine::run(session.program, session.model, machine, *options, prepared.fuel(), Nobody).assumptions
+            gcheck_engine::run(session.program, session.model, machine, *options, prepared.fuel(), Nobody)
+                .assumptions
         });
         assumed.extend(gcheck_edit::assume_cutters(&mut prepared.equipment.machine, &unknown));
     }
@@ -220,16 +238,7 @@ fn assume_cutters(prepared: &mut Prepared, runs: &[Options]) -> Option<String> {
 
 /// A part of the program's work that a run does not show.
 fn gap(session: &Session<'_>, assumptions: &BTreeSet<Assumption>) -> Option<String> {
-    let is_gap = |assumption: &&Assumption| {
-        matches!(
-            assumption,
-            Assumption::Passes(_)
-                | Assumption::MissingProgram(_)
-                | Assumption::MissingSubroutine(_)
-                | Assumption::Code(_)
-        )
-    };
-    let gaps = assumptions.iter().filter(is_gap).cloned().collect();
+    let gaps = gcheck_edit::gaps(assumptions);
     let first = gcheck_lint::describe_all(&gaps, session.model).into_iter().next()?;
     Some(format!("the proof would have a gap, as {}", first.text))
 }
@@ -261,6 +270,7 @@ fn closing(
     is_dry: bool,
 ) -> String {
     let part = match (target.lines, target.tool) {
+        _ if change.keeps_moves() => String::new(),
         (Some(lines), _) if lines.first == lines.last => format!("in line {} ", lines.first),
         (Some(lines), _) => format!("in lines {} to {} ", lines.first, lines.last),
         (None, Some(tool)) => format!("with T{tool} "),

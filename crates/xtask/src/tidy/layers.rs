@@ -91,6 +91,7 @@ const OWN: &[(&str, &[&str])] = &[
             "gcheck-lint",
             "gcheck-format",
             "gcheck-toolpath",
+            "gcheck-edit",
             "gcheck-db",
         ],
     ),

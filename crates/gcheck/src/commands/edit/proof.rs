@@ -58,13 +58,17 @@ pub(super) fn prove(
             return Err(problem(before, change, &refusal));
         }
         // A run that was cut off because the paths had parted before ended nowhere of its own.
-        let goes_on = differences.parting.as_ref().map_or([false; 2], |parting| parting.to.map(|to| to.is_some()));
+        let goes_on =
+            differences.parting.as_ref().map_or([false; 2], |parting| parting.to.map(|to| to.is_some()));
         let fault = faults.into_iter().zip(goes_on).find_map(|(fault, goes_on)| fault.filter(|_| !goes_on));
         if fault.is_none() && !differences.is_same() {
             return Err(different(before, &after, asked, &differences));
         }
         if let Some(fault) = fault {
-            return Err(fault.note(format!("nothing is proved of a run that ends early, so gcheck cannot {}", change.verb())));
+            return Err(fault.note(format!(
+                "nothing is proved of a run that ends early, so gcheck cannot {}",
+                change.verb()
+            )));
         }
         if differences.unknown {
             let message = format!(
@@ -80,12 +84,7 @@ pub(super) fn prove(
 }
 
 /// The proof failed: the first differences, each with its lines.
-fn different(
-    before: &Prepared,
-    after: &Prepared,
-    asked: &Asked<'_>,
-    differences: &Differences,
-) -> Problem {
+fn different(before: &Prepared, after: &Prepared, asked: &Asked<'_>, differences: &Differences) -> Problem {
     let (units, tolerance) = (asked.units, asked.tolerance);
     let sides = Sides { prepared: [before, after], units, tolerance, faults: &[None, None] };
     let text = sides.text(differences);
@@ -93,7 +92,14 @@ fn different(
     // The verdict is ours to say.
     lines.retain(|line| line.starts_with(' ') || !line.contains(" (changed) "));
     let message = format!("cannot {}: the proof failed\n{}", asked.change.verb(), lines.join("\n"));
-    Problem::with_file(&before.path, message).note("`-` is what the change promises, `+` is what the changed program does")
+    let problem = Problem::with_file(&before.path, message);
+    let problem = match asked.change {
+        Change::Convert(Units::Inch) => {
+            problem.help("the last digit of an inch is 0.00254 mm: `--tolerance 0.002` allows the rounding of single words")
+        }
+        _ => problem,
+    };
+    problem.note("`-` is what the change promises, `+` is what the changed program does")
 }
 
 /// Runs both and compares what they do while they do it.
