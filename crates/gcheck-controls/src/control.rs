@@ -146,6 +146,23 @@ impl<'c> Code<'c> {
         self.facts.reads
     }
 
+    /// Addresses that some sources of the code list and others do not.
+    pub fn disputed(self) -> LetterSet {
+        self.entry().disputed.iter().filter_map(|row| Letter::parse(&row.letter)).collect()
+    }
+
+    /// Addresses of which one is enough where `missing` is missing and `present` are in the block: itself, and those that the
+    /// data list as its alternatives. Where one of these is in the block already, none takes the place of `missing`.
+    pub fn would_do_for(self, missing: Letter, present: LetterSet) -> LetterSet {
+        let own = LetterSet::from_iter([missing]);
+        let entry = self.entry();
+        let lists = entry.one_of.iter().chain(&entry.not_together);
+        let lists = lists.map(|items| items.iter().map(|item| LetterSet::of_item(item)).collect::<Vec<_>>());
+        let alternatives = lists.filter(|sets| sets.iter().any(|set| set.contains(missing)));
+        let all = alternatives.flatten().fold(own, LetterSet::or);
+        if all.intersects(present) { own } else { all }
+    }
+
     /// The program that a code of the user calls, `O9010`.
     pub fn alias(self) -> Option<&'c str> {
         self.facts.alias.as_deref()

@@ -685,8 +685,18 @@ pub struct ArcRules {
     /// straight on.
     #[serde(default)]
     pub corner_needs_lines: bool,
+    /// How sure it is that a full circle by `R` is refused; without it, as sure as the tolerances are.
+    #[serde(default)]
+    pub full_circle_confidence: Option<Confidence>,
     /// How sure the tolerances are.
     pub confidence: Confidence,
+}
+
+impl ArcRules {
+    /// How sure it is that a full circle by `R` is refused.
+    pub fn full_circle_confidence(&self) -> Confidence {
+        self.full_circle_confidence.unwrap_or(self.confidence)
+    }
 }
 
 /// Arcs that leave their plane.

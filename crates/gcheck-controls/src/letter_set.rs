@@ -129,6 +129,11 @@ impl LetterSet {
         Self(set)
     }
 
+    /// The addresses of an item of `one-of` or `not-together`: `R`, `,C`, `@` or several letters as `IJK`.
+    pub fn of_item(item: &str) -> Self {
+        Letter::parse(item).map_or_else(|| Self::of(item), |letter| Self::from_iter([letter]))
+    }
+
     /// Adds an address; false if it was there already.
     pub const fn insert(&mut self, letter: Letter) -> bool {
         let bit = 1 << letter.0;

@@ -65,6 +65,8 @@ pub enum Assumption {
     UprightTool,
     /// No earlier program gave cylinders on a rotary axis a diameter that still counts.
     CylinderDiameter(Axis),
+    /// A rotary axis carries cylinders that not all manuals of the control list for it.
+    CylinderCarrier(Axis),
     /// A drawing is wrapped from the angle at which the rotary axis stands when it begins.
     CylinderStart(Axis),
     /// The tool stands over the start hole of a pocket, at the rapid level, when the control has cleared it.

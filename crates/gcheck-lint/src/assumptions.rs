@@ -93,6 +93,9 @@ pub fn describe(assumption: &Assumption, model: &Model<'_>) -> StatedAssumption 
             "no program before this one gave cylinders on {} a diameter",
             axis.name()
         )),
+        Assumption::CylinderCarrier(axis) => {
+            StatedAssumption::new(format!("{} can carry a cylinder: the manuals differ in that", axis.name()))
+        }
         Assumption::CylinderStart(axis) => StatedAssumption::new(format!(
             "a contour on {} begins at the present angle of the axis",
             axis.name()
@@ -216,6 +219,7 @@ fn weight(assumption: &Assumption) -> u8 {
         | Assumption::HeadKinematics
         | Assumption::UprightTool
         | Assumption::CylinderDiameter(_)
+        | Assumption::CylinderCarrier(_)
         | Assumption::CylinderStart(_)
         | Assumption::PocketEnd
         | Assumption::BarLength

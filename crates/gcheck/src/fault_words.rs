@@ -155,20 +155,16 @@ fn missing(letter: Letter, block: &Written<'_>) -> Words {
         return Words::new(format!("`{letter}` is missing in this block"))
             .why(format!("a code of the block needs a `{letter}` word"));
     };
-    let entry = code.entry();
-    let lists = entry.one_of.iter().chain(&entry.not_together);
-    let choices = lists.map(|items| items.iter().map(|item| letters_of(item)).collect::<Vec<_>>());
-    let alternatives = choices.filter(|sets| sets.iter().any(|set| set.contains(letter)));
-    let all = alternatives.flatten().fold(LetterSet::from_iter([letter]), LetterSet::or);
-    let names = names(all, "or");
-    Words::new(format!("{names} is missing in this block")).why(format!("`{}` needs {names}", entry.code))
+    let names = names(code.would_do_for(letter, block.letters), "or");
+    Words::new(format!("{names} is missing in this block"))
+        .why(format!("`{}` needs {names}", code.entry().code))
 }
 
 /// Two words of a code that exclude each other; else two codes.
 fn conflict(block: &Written<'_>) -> Words {
     for code in &block.codes {
         for items in &code.entry().not_together {
-            let present = |item: &String| block.letters.and(letters_of(item));
+            let present = |item: &String| block.letters.and(LetterSet::of_item(item));
             let found: Vec<LetterSet> = items.iter().map(present).filter(|set| !set.is_empty()).collect();
             if found.len() > 1 {
                 let both = found.into_iter().fold(LetterSet::EMPTY, LetterSet::or);
@@ -185,11 +181,6 @@ fn conflict(block: &Written<'_>) -> Words {
     Words::new("the codes and words of this block do not go together")
         .why("two of them exclude each other, or one of them does not go with a mode in effect")
         .help("`gcheck check` names them")
-}
-
-/// The addresses of an item of `one-of` or `not-together`.
-fn letters_of(item: &str) -> LetterSet {
-    Letter::parse(item).map_or_else(|| LetterSet::of(item), |letter| LetterSet::from_iter([letter]))
 }
 
 /// Addresses for people: "`A` or `B`".

@@ -26,13 +26,20 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             self.cylinder_by_radius(ix, state);
             return Ok(());
         };
-        let reads = self.model.control().code_at(ix).map_or(LetterSet::EMPTY, gcheck_controls::Code::reads);
-        let given = |axes: &[Axis]| -> Vec<Axis> {
+        let code = self.model.control().code_at(ix);
+        let reads = code.map_or(LetterSet::EMPTY, gcheck_controls::Code::reads);
+        let given = |axes: &[Axis], reads: LetterSet| -> Vec<Axis> {
             let is_given = |letter: Letter| reads.contains(letter) && self.words.has(letter);
             axes.iter().copied().filter(|axis| is_given(axis.letter())).collect()
         };
-        let linear = given(&[Axis::X, Axis::Y, Axis::Z]);
-        let rotary = given(&[Axis::A, Axis::B, Axis::C]);
+        let linear = given(&[Axis::X, Axis::Y, Axis::Z], reads);
+        let mut rotary = given(&[Axis::A, Axis::B, Axis::C], reads);
+        if rotary.is_empty() {
+            // Some manuals of the control list another axis: nothing speaks for a stop there.
+            let disputed = code.map_or(LetterSet::EMPTY, gcheck_controls::Code::disputed);
+            rotary = given(&[Axis::A, Axis::B, Axis::C], disputed);
+            self.assumptions.extend(rotary.iter().map(|axis| Assumption::CylinderCarrier(*axis)));
+        }
         let (q, r) = (self.length(Letter::of('Q'), state), self.length(Letter::of('R'), state));
         let [two_linear, two_rotary] = [&linear, &rotary].map(|axes| axes.len() > 1);
         let two_sizes = q.is_some() && r.is_some();

@@ -29,7 +29,11 @@ pub(crate) fn counts_least_increments(cx: &PathCx<'_>) -> bool {
 /// The finding, no more severe than the facts of the arc's geometry allow: the control's tolerance, and modes that the
 /// program does not set.
 pub(crate) fn limited_by_arc_facts(cx: &PathCx<'_>, finding: Finding) -> Finding {
-    let finding = finding.at_most(limit(cx.model.semantics().arcs.confidence));
+    limited_by_modes(cx, finding.at_most(limit(cx.model.semantics().arcs.confidence)))
+}
+
+/// The finding, no more severe than modes of the arc allow that the program does not set.
+pub(crate) fn limited_by_modes(cx: &PathCx<'_>, finding: Finding) -> Finding {
     [(Role::Plane, "the plane"), (Role::Distance, "absolute or incremental")].into_iter().fold(
         finding,
         |finding, (role, what)| {

@@ -4,14 +4,6 @@
 
 use gcheck_controls::{Code, Control, GroupIx, Handling, Letter, LetterSet, Motion};
 
-/// The addresses of an item of `one-of` or `not-together`: `R`, `,C`, `@` or several letters as `IJK`.
-pub(crate) fn letters_of(item: &str) -> LetterSet {
-    match Letter::parse(item) {
-        Some(letter) => LetterSet::from_iter([letter]),
-        None => LetterSet::of(item),
-    }
-}
-
 /// Addresses for people: "`I`, `J` or `R`".
 pub(crate) fn choice(letters: LetterSet) -> String {
     let names: Vec<String> = letters.iter().map(|letter| format!("`{letter}`")).collect();

@@ -256,11 +256,11 @@ impl Maker<'_, '_> {
     /// What the data say of the block without the word.
     fn without(&self, letter: Letter) -> Asked {
         let is_only = |items: &Vec<String>| {
-            let here = |item: &&String| letters_of(item).intersects(self.subject.letters);
+            let here = |item: &&String| LetterSet::of_item(item).intersects(self.subject.letters);
             let standing: Vec<_> = items.iter().filter(here).collect();
             standing.len() == 1
-                && letters_of(standing[0]).contains(letter)
-                && letters_of(standing[0]).and(self.subject.letters).iter().count() == 1
+                && LetterSet::of_item(standing[0]).contains(letter)
+                && LetterSet::of_item(standing[0]).and(self.subject.letters).iter().count() == 1
         };
         if self.subject.codes.iter().any(|code| code.entry().one_of.iter().any(is_only)) {
             return Asked::Finding;
@@ -363,10 +363,6 @@ impl Maker<'_, '_> {
         }
         Asked::Finding
     }
-}
-
-fn letters_of(item: &str) -> LetterSet {
-    Letter::parse(item).map_or_else(|| LetterSet::of(item), |letter| LetterSet::from_iter([letter]))
 }
 
 pub(crate) fn all_letters() -> impl Iterator<Item = Letter> {

@@ -3,8 +3,8 @@
 use gcheck_engine::{ArcFault, Fault};
 
 use crate::declare::declare_rule;
-use crate::facts::arcs::{counts_least_increments, limited_by_arc_facts};
-use crate::{PathCx, PathRule, Report, Run, Watch};
+use crate::facts::arcs::{counts_least_increments, limited_by_modes};
+use crate::{PathCx, PathRule, Report, Run, Watch, limit};
 
 declare_rule! {
     /// An arc given by its radius ends where it starts.
@@ -47,8 +47,9 @@ impl PathRule for FullCircleByRadius {
         let finding = cx
             .finding(&META, cx.letter_range('R'), "arc by radius (`R`) ends where it starts")
             .label("the radius does not say where the centre is")
-            .help("give the centre of a full circle (`I`, `J`, `K`), or cut it as two half circles");
-        report.add(limited_by_arc_facts(cx, finding));
+            .help("give the centre of a full circle (`I`, `J`, `K`), or cut it as two half circles")
+            .at_most(limit(cx.model.semantics().arcs.full_circle_confidence()));
+        report.add(limited_by_modes(cx, finding));
     }
 }
 
@@ -71,6 +72,29 @@ mod tests {
                 3 | G91 G3 X0 Y0 Z-1 R5
                   |                  ^^ error[full-circle-by-radius] arc by radius (`R`) ends where it starts
             "#]],
+        );
+    }
+
+    #[test]
+    fn a_manual_that_asks_for_a_centre_makes_it_an_error() {
+        let program = "G17 G21 G90 G0 X10. Y0.\nG2 X10. Y0. R10. F100.\nM30\n";
+        check_rule(
+            &RULE,
+            "haas-mill",
+            program,
+            &expect![[r#"
+            2 | G2 X10. Y0. R10. F100.
+              |             ^^^^ error[full-circle-by-radius] arc by radius (`R`) ends where it starts
+        "#]],
+        );
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            program,
+            &expect![[r#"
+            2 | G2 X10. Y0. R10. F100.
+              |             ^^^^ warning[full-circle-by-radius] arc by radius (`R`) ends where it starts
+        "#]],
         );
     }
 

@@ -1,6 +1,7 @@
 //! A computed variable number that is not a whole number.
 
 use gcheck_engine::{Fault, FrameKind};
+use gcheck_program::{Op, StatementKind, Target};
 
 use crate::declare::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Watch};
@@ -45,6 +46,10 @@ impl PathRule for VariableNumberNotWhole {
         if *fault != Fault::VariableNumber {
             return;
         }
+        // A number that is written is reported as a variable that does not exist.
+        if !computes_a_number(cx) {
+            return;
+        }
         let is_main = cx.state().frames().iter().all(|frame| frame.kind == FrameKind::Main);
         if is_main && cx.survey.is_called_from_elsewhere() {
             return;
@@ -55,6 +60,18 @@ impl PathRule for VariableNumberNotWhole {
             .help("check the expression of the number, or round it with `FIX` or `ROUND`");
         report.add(finding);
     }
+}
+
+/// Does the block compute the number of a variable?
+fn computes_a_number(cx: &PathCx<'_>) -> bool {
+    let target = cx.place().is_some_and(|place| {
+        let mut statements = place.table.statements(place.ix);
+        statements.any(|one| matches!(one.kind, StatementKind::Assign { target: Target::Computed(_), .. }))
+    });
+    target
+        || cx.expressions().is_some_and(|(table, expressions)| {
+            expressions.iter().any(|expr| table.ops(table.expr(*expr)).contains(&Op::Indirect))
+        })
 }
 
 #[cfg(test)]

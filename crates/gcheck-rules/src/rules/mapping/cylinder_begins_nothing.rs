@@ -49,7 +49,7 @@ fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
     if letters.intersects(LINEAR.or(SIZES)) {
         return;
     }
-    let rotary = code.reads().and(ROTARY);
+    let rotary = code.reads().or(code.disputed()).and(ROTARY);
     let Some(word) = cx.words().iter().find(|word| rotary.contains(word.letter)) else { return };
     let (name, entry) = (cx.written(code), code.entry());
     report.add(
@@ -76,11 +76,13 @@ mod tests {
         check_rule(
             &RULE,
             "haas-mill",
-            "G107 A0.\nG107 B#1\nG107 A0. R2.\nG107 A0. X0.\nG107\n",
+            "G107 A0.\nG107 B#1\nG107 A0. R2.\nG107 A0. X0.\nG107\nG107 C0.\n",
             &expect![[r#"
                 1 | G107 A0.
                   |      ^^^ warning[cylinder-begins-nothing] this block does not begin a cylinder (`G107`)
                 2 | G107 B#1
+                  |      ^^^ warning[cylinder-begins-nothing] this block does not begin a cylinder (`G107`)
+                6 | G107 C0.
                   |      ^^^ warning[cylinder-begins-nothing] this block does not begin a cylinder (`G107`)
             "#]],
         );

@@ -219,6 +219,8 @@ impl PathRule for SpindleStoppedWhileCutting {
         if *fault != Fault::SpindleStopped {
             return;
         }
+        // The cut of the block, as if it were corrected, comes after.
+        self.told.push(cx.trace().set_by(Fact::Spindle));
         let finding = cx
             .finding(&META, cx.range(), "feed per turn while the spindle is stopped (`M5`)")
             .label("waits for the spindle, which does not turn")

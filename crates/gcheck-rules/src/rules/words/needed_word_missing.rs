@@ -1,10 +1,10 @@
 //! A word that a block needs, and that neither the block nor an earlier one gives.
 
-use gcheck_controls::{Code, Letter, LetterSet, Need, WordKind};
+use gcheck_controls::{Code, Effect, Letter, LetterSet, Need, WordKind};
 use gcheck_engine::{Fault, FrameKind, Role};
 
 use crate::declare::declare_rule;
-use crate::facts::word_sets::letters_of;
+use crate::facts::word_sets::choice;
 use crate::{PathCx, PathRule, Report, Run, Severity, Watch, limit};
 
 declare_rule! {
@@ -54,7 +54,10 @@ impl PathRule for NeededWordMissing {
         let active = cx.state().mode(Role::Motion).only().filter(|_| codes.is_empty());
         let mut candidates = own.chain(active.and_then(|ix| cx.control().code_at(ix)));
         let Some(code) = candidates.find(|code| code.reads().contains(letter)) else { return };
-        if is_told_by_text(code, letter, cx.origin().letters) {
+        if is_told_by_text(code, letter, cx.origin().letters)
+            || code.effect() == Effect::CylinderMapping
+                && "XYZQR".chars().any(|own| cx.known_number(own).is_some())
+        {
             return;
         }
         let entry = code.entry();
@@ -63,15 +66,16 @@ impl PathRule for NeededWordMissing {
         if word.kind == WordKind::Program && has_comment(cx) {
             return;
         }
+        let names = choice(code.would_do_for(letter, cx.origin().letters));
         let range = cx.word_range(|own| {
             cx.control().code_at(own.code).is_some_and(|own| own.number() == code.number())
         });
         let confidence = word.confidence.unwrap_or(entry.confidence);
         let finding = cx
-            .finding(&META, range, format!("`{}` without `{letter}`", entry.code))
-            .label(format!("needs `{letter}`: {}", word.is))
-            .note(format!("`{}` ({}) needs `{letter}` here  [{}]", entry.code, entry.title, entry.source))
-            .help(format!("add `{letter}` to the block"))
+            .finding(&META, range, format!("`{}` without {names}", entry.code))
+            .label(format!("needs {names}: {}", word.is))
+            .note(format!("`{}` ({}) needs {names} here  [{}]", entry.code, entry.title, entry.source))
+            .help(format!("add {names} to the block"))
             .at_most(limit(confidence));
         // Where the data do not say that the word is ever needed, the engine alone does.
         let is_stated = word.need != Need::Optional;
@@ -91,7 +95,7 @@ fn has_comment(cx: &PathCx<'_>) -> bool {
 fn is_told_by_text(code: Code<'_>, letter: Letter, present: LetterSet) -> bool {
     let entry = code.entry();
     let is_own = |items: &Vec<String>| {
-        let letters = items.iter().fold(LetterSet::EMPTY, |set, item| set.or(letters_of(item)));
+        let letters = items.iter().fold(LetterSet::EMPTY, |set, item| set.or(LetterSet::of_item(item)));
         letters.contains(letter) && !letters.intersects(present)
     };
     let is_required = |word: &gcheck_controls::WordEntry| {
@@ -117,6 +121,29 @@ mod tests {
                 3 | G5 X2 Y2 J4 P0 Q-4
                   | ^^ error[needed-word-missing] `G5` without `I`
             "#]],
+        );
+    }
+
+    #[test]
+    fn words_of_which_one_would_do_are_named_together() {
+        // Written, it is reported from the block alone (`cylinder-without-rotary-axis`).
+        check_rule(
+            &RULE,
+            "haas-lathe",
+            "G107 Z0. Q2.\nG107 Z[#500+1.] Q[#501+1.]\nM30\n",
+            &expect![[r#"
+                2 | G107 Z[#500+1.] Q[#501+1.]
+                  | ^^^^ error[needed-word-missing] `G107` without `A`, `B` or `C`
+            "#]],
+        );
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "G21 G90 F100 G90.1\nG0 X0 Y0\nG2 X2 Y0 I1\nM2\n",
+            &expect![[r#"
+            3 | G2 X2 Y0 I1
+              | ^^ error[needed-word-missing] `G2` without `J`
+        "#]],
         );
     }
 

@@ -1,11 +1,10 @@
 //! A code without a word that it needs.
 
-use gcheck_controls::{Code, Confidence, Letter, Need, WordEntry};
+use gcheck_controls::{Code, Confidence, Letter, LetterSet, Need, WordEntry};
 use gcheck_program::{BlockFlags, Word};
 
 use crate::declare::declare_rule;
 use crate::facts::dwell::time_in_other_word;
-use crate::facts::word_sets::letters_of;
 use crate::{BlockCx, Finding, Reads, Report, Run, limit};
 
 declare_rule! {
@@ -71,9 +70,9 @@ fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
 fn is_excluded(cx: &BlockCx<'_>, code: Code<'_>, needed: &WordEntry) -> bool {
     code.entry().not_together.iter().any(|items| {
         let (own, others): (Vec<_>, Vec<_>) = items.iter().partition(|item| {
-            Letter::parse(&needed.letter).is_some_and(|letter| letters_of(item).contains(letter))
+            Letter::parse(&needed.letter).is_some_and(|letter| LetterSet::of_item(item).contains(letter))
         });
-        !own.is_empty() && others.iter().any(|item| cx.block().letters.intersects(letters_of(item)))
+        !own.is_empty() && others.iter().any(|item| cx.block().letters.intersects(LetterSet::of_item(item)))
     })
 }
 

@@ -4,7 +4,7 @@ use gcheck_controls::{Code, LetterSet, Motion};
 use gcheck_program::{BlockFlags, Word};
 
 use crate::declare::declare_rule;
-use crate::facts::word_sets::{choice, letters_of};
+use crate::facts::word_sets::choice;
 use crate::{BlockCx, Finding, Reads, Report, Run, limit};
 
 declare_rule! {
@@ -36,7 +36,7 @@ declare_rule! {
 fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
     for (word, code) in cx.codes() {
         for items in &code.entry().one_of {
-            let letters = items.iter().fold(LetterSet::EMPTY, |set, item| set.or(letters_of(item)));
+            let letters = items.iter().fold(LetterSet::EMPTY, |set, item| set.or(LetterSet::of_item(item)));
             // Another rule reports arcs without a centre.
             if code.motion() == Motion::Arc && !letters.without(cx.control().axes()).is_empty() {
                 continue;

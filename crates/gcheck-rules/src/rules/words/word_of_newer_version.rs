@@ -4,7 +4,6 @@ use gcheck_controls::{Letter, LetterSet};
 use gcheck_program::BlockFlags;
 
 use crate::declare::declare_rule;
-use crate::facts::word_sets::letters_of;
 use crate::{BlockCx, Finding, Report, Run};
 
 declare_rule! {
@@ -38,7 +37,7 @@ fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
     if newer.is_empty() || !cx.words_are_plain() {
         return;
     }
-    let letters = |code: &str| newer.get(code).map_or(LetterSet::EMPTY, |text| letters_of(text));
+    let letters = |code: &str| newer.get(code).map_or(LetterSet::EMPTY, |text| LetterSet::of_item(text));
     for (_, code) in cx.codes() {
         let own = letters(&code.entry().code);
         // Another code of the block may read the word in every version.

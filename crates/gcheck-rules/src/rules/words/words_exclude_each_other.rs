@@ -4,7 +4,6 @@ use gcheck_controls::{Code, Confidence, LetterSet};
 use gcheck_program::{BlockFlags, Word};
 
 use crate::declare::declare_rule;
-use crate::facts::word_sets::letters_of;
 use crate::{BlockCx, Finding, Reads, Report, Run, limit};
 
 declare_rule! {
@@ -33,7 +32,7 @@ declare_rule! {
 fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
     for (_, code) in cx.codes() {
         for items in &code.entry().not_together {
-            let mut given = items.iter().filter_map(|item| first_given(cx, letters_of(item)));
+            let mut given = items.iter().filter_map(|item| first_given(cx, LetterSet::of_item(item)));
             if let Some(one) = given.next()
                 && let Some(other) = given.next()
                 && cx.words_are_plain()
