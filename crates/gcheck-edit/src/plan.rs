@@ -165,7 +165,7 @@ impl Planner<'_> {
         }
         let reason = "the run does not come to this block, so what its words do is not proved";
         let help = if place.block().flags.contains(BlockFlags::BLOCK_DELETE) {
-            "say how block delete stands with --block-skip, or select other lines"
+            "set block delete with --block-skip, or select other lines"
         } else {
             "select lines that run, or set the variables that lead here with --set"
         };

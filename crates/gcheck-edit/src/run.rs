@@ -39,7 +39,7 @@ pub(crate) struct Executed<'a> {
 
 /// Takes what happens in a run.
 pub(crate) trait Visitor {
-    /// It wants to be told of blocks before they are executed.
+    /// It wants to see blocks before they are executed.
     const LOOKS_BEFORE: bool = false;
 
     /// A block is about to be executed in a state.
@@ -180,7 +180,7 @@ impl<V: Visitor> Observer<Concrete> for Watcher<'_, '_, V> {
         }
         self.visitor.event(event);
         let (file, line) = self.place(origin);
-        // A lathe may stand anywhere in Y when it drills: no move depends on it.
+        // A lathe may be anywhere in Y when it drills: no move depends on it.
         let is_lathe = self.model.control().machine() == gcheck_controls::Machine::Lathe;
         let stands = [Axis::X, Axis::Z].into_iter().all(|axis| !self.before.raw(axis).is_nan());
         let drills = state.active_cycle(self.model).is_some_and(gcheck_controls::CodeIx::is_some);

@@ -3,9 +3,11 @@
 //! Knows: which modes a start needs, and which of them are in effect at each tool change of a run. Must not know: text beside
 //! these lines.
 //!
-//! A line says only what is in effect anyway: a mode that is off is said to be off, and one that is on is not touched.
+//! A line says what is in effect anyway: a mode that is off gets its code, and one that is on gets none. Only `G90` is in
+//! every line.
 
 use std::collections::BTreeMap;
+use std::ops::Range;
 
 use gcheck_controls::Effect;
 use gcheck_engine::{At, Concrete, Event, Model, Role, State};
@@ -21,12 +23,12 @@ const ROLES: [Role; 7] =
 /// A block with as many codes of these modes is such a line already.
 const ENOUGH: usize = 3;
 
-/// The tool changes of a run. Has to be told of every block before it is executed, and of every event.
+/// The tool changes of a run. Has to see every block before it is executed, and every event.
 pub(crate) struct Starts<'c> {
     scope: Scope,
     model: &'c Model<'c>,
     /// The block under way, with its codes.
-    block: Option<(u32, u32, Vec<String>)>,
+    block: Option<(u32, Range<u32>, Vec<String>)>,
     found: BTreeMap<u32, Vec<String>>,
     refusal: Option<Refusal>,
 }
@@ -41,7 +43,7 @@ impl<'c> Starts<'c> {
     }
 
     pub(crate) fn before(&mut self, at: At, place: &Place, state: &State<Concrete>) {
-        self.block = (at.file == 0).then(|| (at.block, place.range().start, self.codes(state)));
+        self.block = (at.file == 0).then(|| (at.block, place.range(), self.codes(state)));
     }
 
     /// The codes in effect that a start needs.
@@ -54,20 +56,26 @@ impl<'c> Starts<'c> {
                 Role::Cycle => self.model.effect(code) == Effect::CycleCancel,
                 _ => true,
             };
-            is_off.then(|| self.model.control().code_at(code).map(|code| code.number().to_string()))?
+            let control = self.model.control();
+            // An operator starts with absolute coordinates; whether the program does too, the proof tells.
+            if self.model.effect(code) == Effect::Incremental {
+                let absolute = control.codes().find(|code| code.effect() == Effect::Absolute)?;
+                return Some(absolute.number().to_string());
+            }
+            is_off.then(|| control.code_at(code).map(|code| code.number().to_string()))?
         };
         ROLES.into_iter().filter_map(code).collect()
     }
 
     pub(crate) fn event(&mut self, event: &Event) {
         let Event::ToolChange(tool) = event else { return };
-        let Some((block, start, codes)) = self.block.take() else { return };
-        if !self.scope.selects(start, *tool) || codes.is_empty() {
+        let Some((block, range, codes)) = self.block.take() else { return };
+        if !self.scope.selects(range.start, *tool) || codes.is_empty() {
             return;
         }
         if self.found.get(&block).is_some_and(|other| *other != codes) && self.refusal.is_none() {
             let reason = "this tool change runs more than once, under different modes";
-            self.refusal = Some(Refusal::at(start..start, reason));
+            self.refusal = Some(Refusal::at(range, reason));
         }
         self.found.insert(block, codes);
     }

@@ -19,7 +19,7 @@ use crate::sheet::Sheet;
 /// Lines that a loop may become.
 const MOST_LINES: usize = 20_000;
 
-/// The loops of a run. Has to be told of every block before it is executed.
+/// The loops of a run. Has to see every block before it is executed.
 pub(crate) struct Loops<'c> {
     scope: Scope,
     model: &'c Model<'c>,

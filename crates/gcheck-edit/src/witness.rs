@@ -140,7 +140,7 @@ impl<'c> Witness<'c> {
         }
     }
 
-    /// What the runs rest on that nobody told.
+    /// What the runs rest on that is not configured.
     pub fn assumptions(&self) -> &BTreeSet<Assumption> {
         &self.assumptions
     }

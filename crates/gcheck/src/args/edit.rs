@@ -9,7 +9,7 @@ use gcheck_edit::Amount;
 use gcheck_engine::Units;
 use gcheck_format::Numbering;
 
-use super::{Assignment, BlockSkip, FUEL, Switch, assignment, block_skip, numbering, tolerance};
+use super::values::{Assignment, BlockSkip, FUEL, Switch, assignment, block_skip, numbering, tolerance};
 
 /// The changes of `gcheck edit`.
 #[derive(Debug, Subcommand)]
@@ -129,14 +129,14 @@ pub enum EditCommand {
     },
     /// Say the modes in a line in front of each tool change, so that an operator can start there
     ///
-    /// The line says only what is in effect there anyway: units, plane, `G90`, the feed mode, and that cutter compensation,
-    /// tool length and cycles are off. A tool change with such a line gets no other.
+    /// The line says what is in effect there anyway: units, plane, the feed mode, and that cutter compensation, tool length and
+    /// cycles are off if they are; and `G90`, if the program goes on with it. A tool change with such a line gets no other.
     SafeStart {
         /// The program and the part of it that changes.
         #[command(flatten)]
         target: EditTarget,
     },
-    /// Number the blocks anew, with every word that names one
+    /// Number the blocks again, with every word that names one
     Renumber {
         /// The first number and the step: `10:10`
         #[arg(value_name = "START:STEP", value_parser = numbering)]

@@ -4,20 +4,19 @@
 //! the same.
 
 mod proof;
+mod refusing;
 
 use std::collections::BTreeSet;
-use std::path::Path;
 
 use gcheck_diagnostics::{Edit, apply_to_bytes};
 use gcheck_edit::{Amount, Change, Refusal, Scope, Witness, plan, witness};
 use gcheck_engine::{Assumption, Axis, Nobody, Options, Units};
 use gcheck_program::BlockFlags;
-use gcheck_syntax::SourceText;
 
 use crate::args::{BlockSkip, EditCommand, EditTarget, ExecutionOptions, Global, MirrorAxis, QuarterTurns};
 use crate::console::{finish, say};
 use crate::execution::{self, Prepared, Rests, Session};
-use crate::{Problem, output, reading, rewriting};
+use crate::{Problem, output, rewriting};
 
 /// Runs the command; the exit code is its result.
 pub(crate) fn run(global: &Global, command: &EditCommand) -> Result<u8, Problem> {
@@ -181,7 +180,7 @@ fn planned(
         }
         rests = Rests::new(session, &ran).text();
     }
-    let refusal = |refusal: &Refusal| problem(prepared, change, refusal);
+    let refusal = |refusal: &Refusal| refusing::problem(prepared, change, refusal);
     let (edits, notes) = if let EditCommand::Renumber { numbering, .. } = command {
         if *scope != Scope::All {
             return Err(Problem::new("blocks are renumbered in the whole file, as jumps lead everywhere")
@@ -243,24 +242,6 @@ fn gap(session: &Session<'_>, assumptions: &BTreeSet<Assumption>) -> Option<Stri
     Some(format!("the proof would have a gap, as {}", first.text))
 }
 
-/// A refusal at its place.
-fn problem(prepared: &Prepared, change: &Change, refusal: &Refusal) -> Problem {
-    let message = format!("cannot {}: {refusal}", change.verb());
-    let range = refusal.range.start as usize..refusal.range.end as usize;
-    let problem = match &refusal.file {
-        Some(name) => match reading::file(Path::new(name)) {
-            Ok(source) => Problem::at(name, source.text(), &range, message),
-            Err(_) => Problem::with_file(Path::new(name), message),
-        },
-        None if range.is_empty() => Problem::with_file(&prepared.path, message),
-        None => Problem::at(&prepared.shown, prepared.source.text(), &range, message),
-    };
-    match &refusal.help {
-        Some(help) => problem.help(help.clone()),
-        None => problem,
-    }
-}
-
 /// What was done and what is proved, in one line.
 fn closing(
     prepared: &Prepared,
@@ -287,10 +268,4 @@ fn closing(
         target.tolerance,
         if proof.moves == 1 { "1 move".to_owned() } else { format!("{} moves", proof.moves) },
     )
-}
-
-/// The changed program as text.
-fn text(prepared: &Prepared, bytes: Vec<u8>) -> Result<SourceText, Problem> {
-    SourceText::from_bytes(bytes)
-        .map_err(|_| Problem::with_file(&prepared.path, "would become larger than 4 GiB"))
 }

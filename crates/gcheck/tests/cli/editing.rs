@@ -1340,17 +1340,26 @@ fn millimetres_become_inches_within_what_an_inch_resolves() {
 #[test]
 fn a_thread_that_has_its_lead_in_a_word_of_its_own() {
     let program = "G21 G18 G40 G49 G54 G80 G90 G95 G7\nT1 M6 G43\nG97 S600 M3\nG0 X32 Z2\nG1 X30 F0.2\nG0 X28 Z4\nG76 P1.5 Z-16 I-2 J0.3 R1.5 K1.84 Q29.5 H2\nG0 X60 Z50\nM2\n";
-    changes(program, "linuxcnc", "scale-feeds 0.8", &expect![[r#"
+    changes(
+        program,
+        "linuxcnc",
+        "scale-feeds 0.8",
+        &expect![[r#"
          5 G1 X30 F0.16
         ! part.nc: changed for linuxcnc: every feed is 0.8 times what it was, within 0.001 mm (76 moves compared)
         exit 0
-    "#]]);
+    "#]],
+    );
 }
 
 #[test]
 fn a_pattern_that_several_cycles_use_is_one_pattern() {
     let program = "%\nO1\nG21 G17 G90 G94 G54 G40 G80\nG0 X0. Y0. Z5.\nG99 G81 X1. Y1. Z-2. R2. F80. L0\nM97 P50\nG80\nG99 G83 X1. Y1. Z-9. R2. Q3. F90. L0\nM97 P50\nG80\nM30\nN50 X5. Y5.\nX10.\nM99\n%\n";
-    changes(program, "haas-mill", "translate --x 1", &expect![[r#"
+    changes(
+        program,
+        "haas-mill",
+        "translate --x 1",
+        &expect![[r#"
          4 G0 X1. Y0. Z5.
          5 G99 G81 X2. Y1. Z-2. R2. F80. L0
          8 G99 G83 X2. Y1. Z-9. R2. Q3. F90. L0
@@ -1358,52 +1367,82 @@ fn a_pattern_that_several_cycles_use_is_one_pattern() {
         13 X11.
         ! part.nc: changed for haas-mill: every move is shifted by X1, within 0.001 mm (34 moves compared)
         exit 0
-    "#]]);
+    "#]],
+    );
 }
 
 #[test]
 fn a_spindle_that_stands_needs_no_speed() {
     let program = "%\nO1\nG21 G17 G90 G54 G40 G80\nG0 X0. Y0. Z5.\nG1 Z1. F100.\nS500 M3\nG1 Z-1.\nM30\n%\n";
-    changes(program, "haas-mill", "scale-speeds 2", &expect![[r#"
+    changes(
+        program,
+        "haas-mill",
+        "scale-speeds 2",
+        &expect![[r#"
          6 S1000 M3
         ! part.nc: changed for haas-mill: every spindle speed is 2 times what it was, within 0.001 mm (3 moves compared)
         exit 0
-    "#]]);
+    "#]],
+    );
 }
 
 #[test]
 fn safe_start_lines_say_what_is_in_effect() {
-    changes(PART, "haas-mill", "safe-start", &expect![[r#"
-        18 G21 G17 G91 G94 G40 G80
-        19 G90 T2 M6
-        20 S2000 M3
-        21 G0 X10. Y10.
-        22 G43 H2 Z10.
-        23 G99 G83 X10. Y10. Z-12. R2. Q4. F120.
-        24 X50.
-        25 G80
-        26 G91 G28 Z0. M5
-        27 M30
-        28 %
-        ! part.nc: changed for haas-mill: every move is as before, within 0.001 mm (37 moves compared)
-        ! note: the size of cutter 1 is not known; the proof takes a radius of 0.01 mm
-        exit 0
-    "#]]);
-    changes(PART, "haas-mill", "safe-start --tool 1", &expect![[r#"
+    changes(
+        PART,
+        "haas-mill",
+        "safe-start",
+        &expect![[r#"
+            18 G21 G17 G90 G94 G40 G80
+            19 G90 T2 M6
+            20 S2000 M3
+            21 G0 X10. Y10.
+            22 G43 H2 Z10.
+            23 G99 G83 X10. Y10. Z-12. R2. Q4. F120.
+            24 X50.
+            25 G80
+            26 G91 G28 Z0. M5
+            27 M30
+            28 %
+            ! part.nc: changed for haas-mill: every move is as before, within 0.001 mm (37 moves compared)
+            ! note: the size of cutter 1 is not known; the proof takes a radius of 0.01 mm
+            exit 0
+        "#]],
+    );
+    changes(
+        PART,
+        "haas-mill",
+        "safe-start --tool 1",
+        &expect![[r#"
         ! part.nc: there is nothing to change
         exit 0
-    "#]]);
-    let program = PART
-        .replace("T1 M6\n", "M97 P50\n")
-        .replace("M30\n", "M30\nN50 T1 M6\nM99\n")
-        .replace("G90 T2 M6", "M97 P50");
-    refuses(&program, "haas-mill", "safe-start", &expect![[r#"
-        error: part.nc:22:1: cannot insert safe start lines: this block moves the axes in a way that is not followed, so nothing is proved of it
-           |
-        22 | G99 G83 X10. Y10. Z-12. R2. Q4. F120.
-           | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
+    "#]],
+    );
+    let program = "%\nO1\nG21 G17 G90 G54 G40 G80\nM97 P50\nG18\nM97 P50\nM30\nN50 T1 M6\nM99\n%\n";
+    refuses(
+        program,
+        "haas-mill",
+        "safe-start",
+        &expect![[r#"
+        error: part.nc: cannot insert safe start lines: this tool change runs more than once, under different modes
         part.nc: nothing is changed
-    "#]]);
+    "#]],
+    );
+    // A program that goes on with increments.
+    let program = "%\nO1\nG21 G17 G90 G54 G40 G80\nG0 X1. Y0. Z5.\nG91\nT1 M6\nX5.\nM30\n%\n";
+    refuses(
+        program,
+        "haas-mill",
+        "safe-start",
+        &expect![[r#"
+        error: part.nc: cannot insert safe start lines: the proof failed
+        the paths part at X5 Y0
+          - part.nc:7  to X6 Y0   | X5.
+          + part.nc (changed):8  has no moves left   | X5.
+          note: `-` is what the change promises, `+` is what the changed program does
+        part.nc: nothing is changed
+    "#]],
+    );
 }
 
 /// A program that changes without a change of its moves does the same for `gcheck diff`, which knows nothing of the change.

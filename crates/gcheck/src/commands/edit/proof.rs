@@ -9,9 +9,10 @@ use std::thread;
 
 use gcheck_edit::{Change, Refusal, Scope, expected, plainly};
 use gcheck_engine::{Options, RunResult, Units};
+use gcheck_syntax::SourceText;
 use gcheck_toolpath::{Act, Differences, compare};
 
-use super::{problem, text};
+use super::refusing::problem;
 use crate::Problem;
 use crate::commands::diff::words::Sides;
 use crate::execution::{self, Prepared, Session};
@@ -196,4 +197,10 @@ impl Sending {
         let batch = mem::replace(&mut self.batch, Vec::with_capacity(BATCH));
         self.to.send(batch).is_ok()
     }
+}
+
+/// The changed program as text.
+fn text(prepared: &Prepared, bytes: Vec<u8>) -> Result<SourceText, Problem> {
+    SourceText::from_bytes(bytes)
+        .map_err(|_| Problem::with_file(&prepared.path, "would become larger than 4 GiB"))
 }
