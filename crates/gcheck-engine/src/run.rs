@@ -61,7 +61,10 @@ pub const MOST_ALARMS: usize = 1_000;
 /// The observer is asked so often, in blocks, whether it wants to see more.
 const ASKED_EVERY: u64 = 4096;
 
-/// Executes a program until it ends, faults, has executed `fuel` blocks, or the observer wants no more. With
+/// So many strokes of cycles cost a run as much fuel as a block: one block may give many.
+const STROKES_A_BLOCK: u64 = 16;
+
+/// Executes a program until it ends, faults, has executed `fuel` blocks (or strokes of cycles that cost as much), or the observer wants no more. With
 /// [`Options::past_alarms`] a fault does not end it: the observer is told ([`Observer::fault`]), and the run goes on.
 pub fn run<O: Observer<Concrete>>(
     program: &Program<'_>,
@@ -88,12 +91,13 @@ pub fn run<O: Observer<Concrete>>(
             ask_at = blocks + ASKED_EVERY;
         }
         if let Some(moves) = executor.plain_moves(at, &state) {
-            while blocks < fuel.min(ask_at) && executor.plain_move(&moves, at, &mut state) {
+            let most = fuel.saturating_sub(executor.strokes_given / STROKES_A_BLOCK);
+            while blocks < most.min(ask_at) && executor.plain_move(&moves, at, &mut state) {
                 blocks += 1;
                 at = at.next();
             }
         }
-        if blocks >= fuel {
+        if blocks + executor.strokes_given / STROKES_A_BLOCK >= fuel {
             break Stopped::OutOfFuel;
         }
         blocks += 1;

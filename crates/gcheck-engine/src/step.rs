@@ -161,6 +161,10 @@ pub(crate) struct Executor<'a, 'p, D: Domain, O: Observer<D>> {
     writable: FxHashMap<u32, bool>,
     /// Bar feeds so far.
     pub(crate) bar_feeds: u64,
+    /// Strokes of cycles that were given out so far.
+    pub(crate) strokes_given: u64,
+    /// Those that were given out before the block under way.
+    strokes_before: u64,
 }
 
 /// What an assignment writes to.
@@ -244,6 +248,8 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
             looks_ahead: false,
             writable: FxHashMap::default(),
             bar_feeds: 0,
+            strokes_given: 0,
+            strokes_before: 0,
         }
     }
 
@@ -257,6 +263,7 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
         let Some(place) = self.place(at) else { return self.end_of_text(at, state) };
         let table = &*place.table;
         let block = table.block(place.ix);
+        self.strokes_before = self.strokes_given;
         self.origin = Origin {
             at,
             start: place.base + block.range.start,

@@ -546,10 +546,10 @@ impl<'t, 'd> LowerSink<'t, 'd> {
         // `X 1.`, `X 1. 5`, `X - 1.`: a number after all, spread over tokens.
         // `X--1.` is an expression: its signs are taken one after the other.
         let literal = !rest.is_empty()
-            && rest.iter().all(|b| matches!(b, b'0'..=b'9' | b'.' | b'-' | b'+' | b' ' | b'\t'))
+            && rest.iter().all(|b| matches!(b, b'0'..=b'9' | b'.' | b'-' | b'+') || is_blank(*b))
             && rest.iter().filter(|b| matches!(b, b'-' | b'+')).count() < 2;
         let (value, shape) = if literal {
-            let is_digit = |b: &u8| !matches!(b, b' ' | b'\t' | b'-' | b'+');
+            let is_digit = |b: &u8| !matches!(b, b'-' | b'+') && !is_blank(*b);
             let digits =
                 rest.iter().position(is_digit).and_then(|first| rest.get(first..)).unwrap_or_default();
             if digits.iter().any(|b| !is_digit(b)) {
@@ -728,6 +728,11 @@ fn is_transmission(text: &str, error: &SyntaxError) -> bool {
         (before.is_empty() || before.ends_with(['\n', '\r'])) && after.trim().is_empty()
     };
     signs.chars().all(|c| matches!(c, '\0' | '\x11'..='\x14' | '\x7F')) || (signs == "\x1A" && is_alone())
+}
+
+/// The bytes of blanks between words.
+const fn is_blank(byte: u8) -> bool {
+    matches!(byte, b' ' | b'\t' | b'\x0B' | b'\x0C')
 }
 
 /// A name as it is compared: lower case, without blanks and brackets.

@@ -270,10 +270,13 @@ fn blanks_do_not_count_in_numbers_and_arguments() {
     );
     check(
         "haas-mill",
-        "X1 . 5\n",
+        "X1 . 5\nX\u{b}8 Y\u{c}8\n",
         &expect![[r#"
             "X1 . 5" BlockFlags(DIVIDED_NUMBER)
               X = 1.5 (1 decimals)
+            "X\u{b}8 Y\u{c}8" BlockFlags(UNPOINTED)
+              X = 8
+              Y = 8
         "#]],
     );
 }

@@ -50,6 +50,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let upward = self.along_tool(1.0, &start);
         let facts = self.hole_along_tool(stroke, state);
         for _ in 0..repeats.min(crate::cycles::MAX_STROKES) {
+            if self.gives_too_many() {
+                self.leave_strokes_out(start, state);
+                break;
+            }
             self.stroke_along_tool(stroke, &facts, &start, upward, state)?;
         }
         checked

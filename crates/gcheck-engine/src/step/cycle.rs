@@ -7,6 +7,7 @@ use gcheck_geometry::{Mm, Plane, Seconds};
 
 use super::arc::plane_axes;
 use super::{Count, Executor, Step};
+use crate::assumption::Assumption;
 use crate::cycles::{CycleError, Hole, Overrides, Stroke, hole};
 use crate::event::{ArcMove, Event, FeedMode, Override, PathMode, Spindle, Stop, TravelKind, Units};
 use crate::fault::{CycleFault, Fault};
@@ -326,6 +327,14 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             return self.drill(effect, plane, points, state);
         }
         for (index, at) in points.enumerate() {
+            if self.gives_too_many() {
+                let mut end = *state.position();
+                for axis in turned.iter().map(|(axis, _)| *axis).chain([first, second, depth]) {
+                    end.set(axis, f64::NAN);
+                }
+                self.leave_strokes_out(end, state);
+                break;
+            }
             let mut to = *state.position();
             to.set(first, at.0);
             to.set(second, at.1);
@@ -400,7 +409,18 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let facts = self.facts_of_hole(effect, state);
         // Without a point the cycle is kept for a pattern that follows; the tool goes nowhere.
         let mut result = Ok(());
-        for (turn, at) in points.enumerate() {
+        let mut points = points.enumerate();
+        while let Some((turn, at)) = points.next() {
+            if self.gives_too_many() {
+                let (_, last) = points.last().unwrap_or((turn, at));
+                let ([first, second, depth], _) = plane_axes(plane);
+                let mut end = *state.position();
+                for (axis, number) in [(first, last.0), (second, last.1), (depth, f64::NAN)] {
+                    end.set(axis, number);
+                }
+                self.leave_strokes_out(end, state);
+                break;
+            }
             let facts = Hole { plane, at: (Mm(at.0), Mm(at.1)), first_of_block: turn == 0, ..facts };
             result = self.hole(effect, &facts, plane, rules, state);
             if result.is_err() {
@@ -571,6 +591,19 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         }
     }
 
+    /// Has the block given out as many strokes as one may?
+    pub(super) fn gives_too_many(&self) -> bool {
+        self.strokes_given - self.strokes_before >= u64::from(crate::cycles::MAX_STROKES)
+    }
+
+    /// The other strokes of the cycle are not computed: it ends at a point.
+    pub(super) fn leave_strokes_out(&mut self, end: Position, state: &mut State<D>) {
+        if let Some(cycle) = state.mode(Role::Cycle).only().filter(|code| code.is_some()) {
+            self.assumptions.insert(Assumption::Passes(cycle));
+        }
+        self.end_unfollowed(end, state);
+    }
+
     /// What a block does on the way is not followed: it ends at a point.
     pub(super) fn end_unfollowed(&mut self, end: Position, state: &mut State<D>) {
         if !state.compensation.left.is_no() {
@@ -619,6 +652,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let spindle = state.spindle();
         let is_direct = Self::goes_direct(state);
         let programmed = (state.feed().clone(), state.speed().clone());
+        self.strokes_given += strokes.len() as u64;
         for stroke in strokes {
             match *stroke {
                 Stroke::Rapid(to) | Stroke::Feed(to) => {

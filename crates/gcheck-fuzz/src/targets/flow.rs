@@ -43,7 +43,13 @@ pub(crate) fn run(bytes: &[u8]) {
         && fault != Fault::Undecidable
         && !outcome.out_of_fuel
         && outcome.suppressed == 0
+        // `M99 P…` names a block of the program that calls this one.
+        && !(matches!(fault, Fault::NoSuchLabel(_)) && case.text.contains("M99"))
     {
-        assert!(!outcome.findings.is_empty(), "a run stops ({fault:?}), and a check says nothing");
+        assert!(
+            !outcome.findings.is_empty(),
+            "a run stops ({fault:?}), and a check says nothing of\n{}",
+            case.text
+        );
     }
 }

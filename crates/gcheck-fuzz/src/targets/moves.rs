@@ -40,9 +40,13 @@ struct Seen(Vec<String>);
 
 impl Observer<Concrete> for Seen {
     fn event(&mut self, _: Origin, _: &State<Concrete>, event: &Event) {
-        // A code that is given twice says nothing more, and a message is not a move.
-        if self.0.len() < MOST && !matches!(event, Event::Message(_) | Event::Modal(_)) {
-            self.0.push(format!("{event:?}"));
+        // A message is not a move, and a mode that is given twice says nothing more.
+        if self.0.len() >= MOST || matches!(event, Event::Message(_) | Event::Modal(_)) {
+            return;
+        }
+        let words = format!("{event:?}");
+        if !matches!(event, Event::PathMode(_)) || self.0.last() != Some(&words) {
+            self.0.push(words);
         }
     }
 

@@ -37,7 +37,7 @@ pub(crate) struct Scheme {
     /// The offset that the tool would have.
     pub(crate) expected: i64,
     /// The tool that the offset belongs to.
-    owner: i64,
+    pub(crate) owner: i64,
     /// How many tools follow it.
     followers: usize,
     /// The program has that tool.

@@ -73,7 +73,11 @@ fn only_comments(text: &str) -> String {
 
 /// The entry of the tool in the spindle in a list at the head of the program.
 fn in_list(cx: &PathCx<'_>) -> Option<(At, String)> {
-    let tool = Abstract::known(cx.state().tool()).and_then(whole)?;
+    listed(cx, Abstract::known(cx.state().tool()).and_then(whole)?)
+}
+
+/// The entry of a tool in a list at the head of the program.
+pub(crate) fn listed(cx: &PathCx<'_>, tool: u32) -> Option<(At, String)> {
     (0..HEAD).map(|block| At { file: 0, block }).find_map(|at| {
         let place = cx.place_of(at)?;
         // A list is in comments alone.

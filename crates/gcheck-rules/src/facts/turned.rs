@@ -11,7 +11,7 @@ use gcheck_geometry::Plane;
 
 use crate::facts::parting::Parting;
 use crate::facts::tool_words::ToolWords;
-use crate::facts::turning::is_roughing;
+use crate::facts::turning::{is_roughing, turns};
 use crate::{PathCx, remembers};
 
 /// X as a radius, and Z: millimetres.
@@ -79,6 +79,7 @@ impl Turned {
     /// Is everything known that was cut up to here, and does the part turn under a tool that does not?
     pub(crate) fn knows(&self, cx: &PathCx<'_>) -> bool {
         !self.blind
+            && turns(cx)
             && self.frame.is_some()
             && self.frame == frame(cx)
             && cx.state().plane(cx.model) == Some(Plane::Zx)
@@ -161,6 +162,12 @@ impl Turned {
     fn cut(&mut self, cx: &PathCx<'_>, from: Spot, to: Spot, is_expanded: bool) {
         if from.iter().chain(&to).any(|coordinate| coordinate.is_nan()) {
             *self = Self { blind: true, ..Self::default() };
+            return;
+        }
+        // A tool that is fed to its diameter before the face comes there as one that goes there at rapid.
+        let is_empty = self.chain.as_ref().is_none_or(|chain| chain.first == self.cuts.len());
+        if is_empty && !is_expanded && is_level(from, to) && to[1] > SLACK {
+            self.rapid(from, to);
             return;
         }
         // A shoulder of a bore goes on where the bore ends.

@@ -5,10 +5,10 @@
 
 use std::ops::Range;
 
-use crate::PathCx;
 use crate::facts::offset_schemes::whole;
-use gcheck_controls::{Effect, LetterSet};
-use gcheck_engine::{At, Axis, Role};
+use crate::{PathCx, Uses};
+use gcheck_controls::{Effect, LetterSet, Machine};
+use gcheck_engine::{At, Axis, Fact, Role};
 use gcheck_program::{BlockFlags, Place};
 
 /// A profile that can be read.
@@ -55,6 +55,17 @@ const SLACK: f64 = 0.01;
 
 /// Blocks that are read; a longer profile is not judged.
 const MAX_BLOCKS: u32 = 500;
+
+/// May the program turn: the control is a lathe's, or the program says what X counts (`G7`, `G8` of a control for both)?
+pub(crate) fn is_turned(program: &Uses<'_>) -> bool {
+    program.environment.control().machine() == Machine::Lathe
+        || program.may(|effect| matches!(effect, Effect::DiameterOn | Effect::DiameterOff))
+}
+
+/// Does the program turn: the control is a lathe's, or the program has said what X counts?
+pub(crate) fn turns(cx: &PathCx<'_>) -> bool {
+    cx.control().machine() == Machine::Lathe || cx.trace().set_by(Fact::Mode(Role::Diameter)).is_some()
+}
 
 /// Does the code remove material layer by layer down to a profile?
 pub(crate) fn is_roughing(effect: Effect) -> bool {

@@ -2,7 +2,7 @@
 //!
 //! Knows: how they are written, what lasting codes read. Must not know: any rule.
 
-use gcheck_controls::{Code, Control, GroupIx, Handling, Letter, LetterSet, Motion};
+use gcheck_controls::{Code, Control, GroupIx, Handling, LetterSet, Motion};
 
 /// Addresses for people: "`I`, `J` or `R`".
 pub(crate) fn choice(letters: LetterSet) -> String {

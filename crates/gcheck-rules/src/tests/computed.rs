@@ -65,7 +65,7 @@ fn a_mistake_is_found_whether_its_words_are_written_or_computed() {
     };
     let shown: String = silent.into_iter().map(line).collect();
     expect![[r#"
-        4765 words
+        4932 words
         allowance-into-contour: F G X Z
         blank-inside-number: G Y
         block-number-not-first: G
@@ -73,6 +73,7 @@ fn a_mistake_is_found_whether_its_words_are_written_or_computed() {
         coolant-locked: M
         corner-before-rapid: G Z
         corner-does-not-fit: Y
+        cycle-ended-in-subprogram: X
         decimal-point-on-integer: H
         dwell-unit-unsure: P
         dwell-very-short: P
@@ -94,6 +95,7 @@ fn a_mistake_is_found_whether_its_words_are_written_or_computed() {
         maybe-spindle-stopped-while-cutting: G M
         number-out-of-range: P Q
         offset-words-beside-motion: G
+        peck-longer-than-hole: Q
         pocket-arc-below-tool: G M
         pocket-on-wrong-side: G M
         pocket-outline-open: G M

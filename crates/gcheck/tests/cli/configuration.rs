@@ -327,7 +327,7 @@ fn the_machine_in_force_can_be_looked_at() {
           feed: at most 12700 mm/min
           work offsets known: 1
           tools known: 2
-          rules (8): arc-centre-and-radius, arc-end-off-circle, arc-mode-left-on, arc-radius-too-small, arc-turns-not-whole, arc-wrong-plane-word, full-circle-by-radius, zero-radius-arc
+          rules (9): arc-breaks-contour, arc-centre-and-radius, arc-end-off-circle, arc-mode-left-on, arc-radius-too-small, arc-turns-not-whole, arc-wrong-plane-word, full-circle-by-radius, zero-radius-arc
 
         exit 0
     "#]].assert_eq(&shop.gcheck("check --show-settings --select arcs").to_string());

@@ -39,6 +39,11 @@ const SHAPES: &[Shape] = &[
     ("variables", 3_000, variables),
     ("programs", 1_000, |n| (1..=n).map(|p| format!("O{p}\nG0 X1.\nM98 P{}\nM99\n", p % n + 1)).collect()),
     ("comments that open comments", 50_000, |n| format!("O1\n{}\nM30\n", "(".repeat(n))),
+    // One control repeats a cycle by `K`, another one by `L`.
+    ("holes of one block", 4, |n| {
+        let holes = "X1. K99999\nX1. L99999\n".repeat(n);
+        format!("O1\nG21 G90 G0 X0. Y0. Z5.\nM3 S900\nG91 G83 X1. R-2. Z-20. Q0.01 F100.\n{holes}G80\nM30\n")
+    }),
     ("moves", 10_000, |n| {
         let moves: String = (0..n).map(|x| format!("G1 X{}. Y{}. F100.\n", x % 97, x % 31)).collect();
         format!("O1\nG21 G90\n{moves}M30\n")

@@ -48,6 +48,7 @@ fn the_tour_shows_its_mistakes() {
         fixtures/tour/plate.nc:3:1: info[program-number-missing] program has no number
         fixtures/tour/plate.nc:8:5: error[malformed-number] number `-2.5.0` has two decimal points
         fixtures/tour/plate.nc:9:4: error[number-out-of-range] value too large for `G4`: `X100000.`
+        fixtures/tour/plate.nc:11:1: warning[arc-breaks-contour] the arc breaks the contour: corners before and after it
         fixtures/tour/probe-grid.ngc:6:1: error[assignment-to-read-only-variable] variable `#5420` can only be read
         fixtures/tour/probe-grid.ngc:11:1: error[o-word-unmatched] O-word `o100 while` has no `endwhile`
         fixtures/tour/probe-grid.ngc:14:3: error[required-word-missing] `G4` without `P`

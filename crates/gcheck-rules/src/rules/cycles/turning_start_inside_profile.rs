@@ -90,7 +90,6 @@ fn is_below_outside(cx: &PathCx<'_>, profile: &Profile) -> bool {
     let allowance = cx.known_number('U').unwrap_or(0.0);
     let start = profile.start.x;
     allowance > 0.0
-        && start > 0.0
         && profile.grows_to_chuck() == Some(true)
         && profile.points.iter().all(|point| point.x > start - SLACK)
 }
@@ -127,6 +126,19 @@ mod tests {
 
     use super::RULE;
     use crate::testing::check_rule;
+
+    #[test]
+    fn a_start_where_the_facing_ended() {
+        check_rule(
+            &RULE,
+            "fanuc-lathe",
+            "G21 G99 T0101\nG97 S500 M3\nG0 X64. Z0.\nG1 X-1.6 F.2\nG0 Z2.\nG71 U2. R1.\nG71 P10 Q20 U.4 W.1 F.3\nN10 G0 X26.\nG1 Z-30. F.15\nN20 X62.\nM30\n",
+            &expect![[r#"
+                7 | G71 P10 Q20 U.4 W.1 F.3
+                  | ^^^^^^^^^^^^^^^^^^^^^^^ warning[turning-start-inside-profile] the turning cycle starts inside the stock (`X-1.6`)
+            "#]],
+        );
+    }
 
     #[test]
     fn facing_counts_along_the_part() {

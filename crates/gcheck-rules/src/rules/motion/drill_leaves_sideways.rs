@@ -1,12 +1,12 @@
 //! A drill that moves in X while it is in its hole.
 
-use gcheck_controls::Machine;
 use gcheck_engine::{At, Event, Fact, Spindle, TravelKind};
 use gcheck_geometry::Mm;
 
 use crate::declare::declare_rule;
 use crate::facts::tool_words::ToolWords;
 use crate::facts::turned::{SLACK, Spot, Turned, UNDER, end, goes_home, is_other_part};
+use crate::facts::turning::is_turned;
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 use crate::{Remembers, remembers};
 
@@ -88,7 +88,7 @@ impl PathRule for DrillLeavesSideways {
     }
 
     fn concerns(&self, program: &Uses<'_>) -> bool {
-        program.environment.control().machine() == Machine::Lathe
+        is_turned(program)
     }
 
     fn changed(&mut self, _: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {

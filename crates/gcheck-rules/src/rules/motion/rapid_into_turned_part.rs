@@ -1,12 +1,13 @@
 //! A rapid move of a lathe through an outside surface that the program has turned.
 
-use gcheck_controls::{LetterSet, Machine};
+use gcheck_controls::LetterSet;
 use gcheck_engine::{At, Event, TravelKind};
 use gcheck_geometry::Mm;
 
 use crate::declare::declare_rule;
 use crate::facts::tool_words::ToolWords;
 use crate::facts::turned::{SLACK, Spot, Turned, end, is_level, is_other_part};
+use crate::facts::turning::is_turned;
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 use crate::{Remembers, remembers};
 
@@ -83,7 +84,7 @@ impl PathRule for RapidIntoTurnedPart {
     }
 
     fn concerns(&self, program: &Uses<'_>) -> bool {
-        program.environment.control().machine() == Machine::Lathe
+        is_turned(program)
     }
 
     fn changed(&mut self, _: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
@@ -153,6 +154,19 @@ mod tests {
     }
 
     const TURNED: &str = "G0 X52. Z2.\nX48.\nG1 Z-30. F.2\nX52.\nG0 Z2.\n";
+
+    #[test]
+    fn a_control_for_mills_and_lathes() {
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "G21 G18 G90 G95 G7\nT1 M6\nG97 S600 M3\nG0 X32 Z2\nG1 X30 F0.2\nZ-40\nX32\nG0 Z-2\nX26\nG0 X60 Z50\nM2\n",
+            &expect![[r#"
+                9 | X26
+                  | ^^^ warning[rapid-into-turned-part] rapid move into the part, through a surface that was turned
+            "#]],
+        );
+    }
 
     #[test]
     fn a_bore_is_left_inwards() {

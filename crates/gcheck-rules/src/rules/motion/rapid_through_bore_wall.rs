@@ -1,11 +1,11 @@
 //! A rapid move of a lathe out of a bore through its wall.
 
-use gcheck_controls::Machine;
 use gcheck_engine::{At, Event, TravelKind};
 use gcheck_geometry::Mm;
 
 use crate::declare::declare_rule;
 use crate::facts::turned::{SLACK, Spot, Turned, UNDER, end, goes_home, is_other_part};
+use crate::facts::turning::is_turned;
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 use crate::{Remembers, remembers};
 
@@ -79,7 +79,7 @@ impl PathRule for RapidThroughBoreWall {
     }
 
     fn concerns(&self, program: &Uses<'_>) -> bool {
-        program.environment.control().machine() == Machine::Lathe
+        is_turned(program)
     }
 
     fn changed(&mut self, _: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {

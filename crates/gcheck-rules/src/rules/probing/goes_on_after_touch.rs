@@ -105,7 +105,9 @@ impl PathRule for GoesOnAfterTouch {
                     self.touched = Some(Touched { ways, end, is_elsewhere: false, bytes });
                 }
             }
-            TravelKind::Rapid | TravelKind::Feed if !travel.expanded && !is_in_machine_coordinates(cx) => {
+            TravelKind::Rapid | TravelKind::Feed | TravelKind::Probe { toward: false, .. }
+                if !travel.expanded && !is_in_machine_coordinates(cx) =>
+            {
                 if let Some(touched) = touched {
                     tell(cx, &touched, travel, report);
                 }
@@ -174,6 +176,22 @@ mod tests {
 
     fn program(after: &str) -> String {
         format!("G21 G17 G90 G54 G0 X20 Y20\nZ10\nG38.2 Z-5 F60\n{after}\nM2\n")
+    }
+
+    #[test]
+    fn a_move_off_the_touch_that_goes_on() {
+        let program =
+            |z: &str| format!("G21 G90 G94 G54 G17\nG0 Z10\nG38.2 Z-20 F100\nG38.4 Z{z} F20\nG0 Z30\nM2\n");
+        check_rule(
+            &RULE,
+            "grbl",
+            &program("-25"),
+            &expect![[r#"
+            4 | G38.4 Z-25 F20
+              |       ^^^^ warning[goes-on-after-touch] the move goes on in the direction of the touch
+        "#]],
+        );
+        check_rule(&RULE, "grbl", &program("10"), &expect![[""]]);
     }
 
     #[test]

@@ -203,8 +203,11 @@ impl PathRule for SpindleStoppedWhileCutting {
             })
             .help(help(cx, live, needs_turns))
             .at_most(Severity::Warning);
-        // `S` may be a laser's power if no tool is changed.
-        let is_mill = is_ever_started || has_length || cx.file_uses(|effect| effect == Effect::ToolChange);
+        // A speed, or the power of a laser, that nothing switches on is forgotten; a number for an M code of the shop is not.
+        let is_for_code = |at| cx.find_word(at, |word| word.letter.ascii() == b'M').is_some();
+        let has_speed = cx.trace().set_by(Fact::Speed).is_some_and(|at| !is_for_code(at));
+        let is_mill =
+            is_ever_started || has_length || has_speed || cx.file_uses(|effect| effect == Effect::ToolChange);
         // Held at an angle, a tool may broach.
         if !is_mill && !needs_turns || self.is_oriented || cx.file_uses(probes) {
             finding = finding.at_most(Severity::Info);
@@ -354,6 +357,29 @@ mod tests {
 
     use super::RULE;
     use crate::testing::{World, check_rule, findings, only, words};
+
+    #[test]
+    fn a_power_that_nothing_switches_on() {
+        let program = |power: &str| format!("G21 G90 G94 G17\nG0 X0 Y0\n{power}\nG1 X10 F500\nX20\nM2\n");
+        check_rule(
+            &RULE,
+            "grbl",
+            &program("S800"),
+            &expect![[r#"
+            4 | G1 X10 F500
+              | ^^^^^^^^^^^ warning[spindle-stopped-while-cutting] cut, and the spindle was not started (no `M3`)
+        "#]],
+        );
+        check_rule(
+            &RULE,
+            "grbl",
+            &program("M300 S30"),
+            &expect![[r#"
+            4 | G1 X10 F500
+              | ^^^^^^^^^^^ info[spindle-stopped-while-cutting] cut, and the spindle was not started (no `M3`)
+        "#]],
+        );
+    }
 
     #[test]
     fn a_boring_cycle_that_stops_the_spindle_needs_one_that_turns() {

@@ -33,18 +33,21 @@ declare_rule! {
     }
 }
 
+/// Blanks between words.
+const BLANKS: [char; 4] = [' ', '\t', '\u{b}', '\u{c}'];
+
 fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
     for word in cx.words().iter().filter(|word| matches!(word.value, Value::Number(_))) {
         let text = cx.text(word);
         let number = text.trim_start_matches(|c: char| !c.is_ascii_digit() && c != '.');
-        if let Some((_, second)) = number.rsplit_once([' ', '\t']) {
+        if let Some((_, second)) = number.rsplit_once(BLANKS) {
             report.add(finding(cx, word, text, second));
         }
     }
 }
 
 fn finding(cx: &BlockCx<'_>, word: &Word, text: &str, second: &str) -> Finding {
-    let read: String = text.chars().filter(|c| !matches!(c, ' ' | '\t')).collect();
+    let read: String = text.chars().filter(|c| !BLANKS.contains(c)).collect();
     Finding::new(&META, cx.range(word), format!("number with a blank inside (`{text}`)"))
         .label(format!("read as `{read}`"))
         .note("this control ignores blanks: the digits on both sides are one number")

@@ -58,8 +58,7 @@ impl PathRule for LengthCancelledBeforeMove {
     }
 
     fn concerns(&self, program: &Uses<'_>) -> bool {
-        program.may(|effect| effect == Effect::LengthPlus)
-            && program.may(|effect| effect == Effect::LengthOff)
+        program.may(gives_length) && program.may(|effect| effect == Effect::LengthOff)
     }
 
     fn block(&mut self, cx: &PathCx<'_>, _: &mut Report<'_>) {
@@ -68,13 +67,14 @@ impl PathRule for LengthCancelledBeforeMove {
                 effect,
                 Effect::ToolChange
                     | Effect::LengthPlus
+                    | Effect::LengthFiveAxis
                     | Effect::MachineCoordinates
                     | Effect::ReturnReference(_)
                     | Effect::WorkOffset(_)
                     | Effect::WorkOffsetByP(_)
             )
         };
-        let is_on = cx.state().effect(Role::Length, cx.model) == Some(Effect::LengthPlus);
+        let is_on = cx.state().effect(Role::Length, cx.model).is_some_and(gives_length);
         if cx.has_effect(elsewhere) {
             self.cancelled = None;
         } else if is_on && cx.has_effect(|effect| effect == Effect::LengthOff) {
@@ -125,12 +125,30 @@ impl PathRule for LengthCancelledBeforeMove {
     }
 }
 
+/// Does the code add the length of the tool to Z?
+fn gives_length(effect: Effect) -> bool {
+    matches!(effect, Effect::LengthPlus | Effect::LengthFiveAxis)
+}
+
 #[cfg(test)]
 mod tests {
     use expect_test::expect;
 
     use super::RULE;
     use crate::testing::check_rule;
+
+    #[test]
+    fn the_length_of_a_tilting_tool() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G20 G90 G94 G54 G0 X1.25 Y-.4\nG143 H1 X1.25 Y-.4 Z3. A0. B0.\nG0 X1.15 Y-.31 Z3. A-12.7 B9.7\nG49 M9\nG0 X1.15 Y-.31 Z3. A0. B0.\nG53 Z0.\nM30\n",
+            &expect![[r#"
+                5 | G0 X1.15 Y-.31 Z3. A0. B0.
+                  |                ^^^ warning[length-cancelled-before-move] the tool comes down: its length was cancelled before this move (`G49`)
+            "#]],
+        );
+    }
 
     #[test]
     fn a_feed_in_the_block_that_cancels_goes_down_too() {

@@ -1,11 +1,14 @@
 //! A tool length offset that does not follow the scheme of the program's other tools.
 
+use std::collections::BTreeSet;
+
 use gcheck_controls::Effect;
 use gcheck_engine::{Abstract, Domain, Event, Fact, Role};
 
 use crate::declare::declare_rule;
 use crate::facts::boundary::is_before;
 use crate::facts::offset_schemes::{Pairs, whole};
+use crate::facts::tool_comment::listed;
 use crate::{FollowedCx, PathCx, PathRule, Report, Run, Severity, Watch};
 use crate::{Remembers, remembers};
 
@@ -63,7 +66,7 @@ declare_rule! {
         since: "0.1.0",
         run: Run::Path {
             watch: Watch::CUTS.union(Watch::CHANGES).union(Watch::FOLLOWED),
-            make: || Box::new(LengthOffsetOfAnotherTool { pairs: Pairs::new() }),
+            make: || Box::new(LengthOffsetOfAnotherTool { pairs: Pairs::new(), listed: BTreeSet::new() }),
         },
     }
 }
@@ -71,6 +74,8 @@ declare_rule! {
 #[derive(Clone, PartialEq)]
 struct LengthOffsetOfAnotherTool {
     pairs: Pairs,
+    /// Offsets of the pairs that are the numbers of tools which comments at the head of the program list.
+    listed: BTreeSet<u32>,
 }
 
 remembers!(LengthOffsetOfAnotherTool: pairs);
@@ -91,6 +96,9 @@ impl PathRule for LengthOffsetOfAnotherTool {
         let (tool, offset) = (Abstract::known(state.tool()), Abstract::known(state.h()));
         let (Some(tool), Some(offset)) = (tool.and_then(whole), offset.and_then(whole)) else { return };
         let letter = if by_t { 'T' } else { 'H' };
+        if tool != offset && !self.listed.contains(&offset) && listed(cx, offset).is_some() {
+            self.listed.insert(offset);
+        }
         self.pairs.add(tool, offset, cx.trace().set_by(Fact::Tool), || {
             let (given, changed) = (cx.trace().set_by(Fact::Length), cx.trace().set_by(Fact::Tool));
             let given = given
@@ -130,7 +138,10 @@ impl PathRule for LengthOffsetOfAnotherTool {
     fn followed(&mut self, cx: &FollowedCx<'_>, report: &mut Report<'_>) {
         let by_t = cx.model.semantics().tools.offset_in_t;
         for (finding, scheme) in self.pairs.take_odd('H', !by_t) {
-            let finding = finding.at_most(if scheme.is_unsure { Severity::Info } else { Severity::Warning });
+            // A tool may have a second offset, but for one that a list at the head gives to another tool.
+            let is_listed = u32::try_from(scheme.owner).is_ok_and(|owner| self.listed.contains(&owner));
+            let is_unsure = scheme.is_unsure && !is_listed;
+            let finding = finding.at_most(if is_unsure { Severity::Info } else { Severity::Warning });
             report.add(
                 finding
                     .label(scheme.label("length offset"))
@@ -189,6 +200,33 @@ mod tests {
 
     use super::RULE;
     use crate::testing::{World, check_rule, findings, only, words};
+
+    #[test]
+    fn the_number_of_a_tool_that_the_head_lists() {
+        let program = |head: &str| {
+            format!(
+                "{head}T1 M6\nG43 H1 Z1.\nG1 Z0. F5.\nT3 M6\nG43 H3 Z1.\nG1 Z0.\nG0 Z1.\nT1 M6\nG43 H1 Z1.\nG1 Z0.\nT3 M6\nG43 H4 Z1.\nG1 Z0.\nM30\n"
+            )
+        };
+        check_rule(
+            &RULE,
+            "haas-mill",
+            &program("(T3 DRILL)\n(T4 TAP)\n"),
+            &expect![[r#"
+            14 | G43 H4 Z1.
+               |     ^^ warning[length-offset-of-another-tool] tool 3 works with length offset 4 (`H4`, `T3`)
+        "#]],
+        );
+        check_rule(
+            &RULE,
+            "haas-mill",
+            &program(""),
+            &expect![[r#"
+            12 | G43 H4 Z1.
+               |     ^^ info[length-offset-of-another-tool] tool 3 works with length offset 4 (`H4`, `T3`)
+        "#]],
+        );
+    }
 
     #[test]
     fn the_offset_that_breaks_the_scheme_is_marked() {

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use gcheck_engine::{Axis, Event, Travel, TravelKind};
-use gcheck_geometry::Plane;
+use gcheck_geometry::{Mm, Plane};
 
 use crate::declare::declare_rule;
 use crate::facts::boundary::{Boundary, boundary, boundary_range};
@@ -16,7 +16,8 @@ declare_rule! {
     /// no return to a reference position between them. The rule is for controls that change the tool in place.
     ///
     /// ## Why it matters
-    /// The tool is still beside the part. The turret swings its longer tools into the part or into the chuck.
+    /// The tool is still beside the part. The turret swings its longer tools into the part or into the chuck. The same holds
+    /// for a turret that turns under the zero of the part, deeper than any cut of the tool before.
     ///
     /// ## Reported
     /// ```nc,reported,fanuc-lathe
@@ -48,7 +49,7 @@ declare_rule! {
         since: "0.1.0",
         run: Run::Path {
             watch: Watch::BLOCKS.union(Watch::MOVES),
-            make: || Box::new(ToolChangeAtPart { cut: None }),
+            make: || Box::new(ToolChangeAtPart { cut: None, lowest: f64::INFINITY }),
         },
     }
 }
@@ -57,6 +58,8 @@ declare_rule! {
 struct ToolChangeAtPart {
     /// The last move, if it cuts or belongs to a cycle.
     cut: Option<Range<u32>>,
+    /// The lowest Z of a cut since the last tool change: millimetres.
+    lowest: f64,
 }
 
 remembers!(ToolChangeAtPart: cut);
@@ -74,8 +77,17 @@ impl PathRule for ToolChangeAtPart {
         if boundary(cx) != Some(Boundary::ToolChange) || cx.is_after_unknown_program() {
             return;
         }
-        let Some(cut) = self.cut.take().filter(|_| cx.is_on_every_path()) else { return };
+        let (cut, lowest) = (self.cut.take(), std::mem::replace(&mut self.lowest, f64::INFINITY));
         let turret = cx.model.semantics().tools.change_by_t;
+        if !cx.is_on_every_path() {
+            return;
+        }
+        let Some(cut) = cut else {
+            if turret {
+                tell_deep(cx, lowest, report);
+            }
+            return;
+        };
         let (message, label) = if turret {
             ("the turret turns where the last cut ended", "the turret turns in place, beside the part")
         } else {
@@ -96,8 +108,35 @@ impl PathRule for ToolChangeAtPart {
             _ => false,
         };
         self.cut = is_at_part.then(|| cx.range());
+        let z = match event {
+            Event::Travel(travel) if travel.kind == TravelKind::Feed => {
+                travel.from.raw(Axis::Z).min(travel.to.raw(Axis::Z))
+            }
+            Event::Arc(arc) => arc.to.raw(Axis::Z),
+            _ => f64::NAN,
+        };
+        self.lowest = self.lowest.min(z);
     }
 }
+
+/// The turret turns closer to the chuck than any cut of its last tool went, and under the zero of the part.
+fn tell_deep(cx: &PathCx<'_>, lowest: f64, report: &mut Report<'_>) {
+    let Some(z) = cx.state().position().get(Axis::Z).filter(|z| *z < -SLACK && *z < lowest - SLACK) else {
+        return;
+    };
+    if !lowest.is_finite() || cx.state().plane(cx.model) != Some(Plane::Zx) {
+        return;
+    }
+    let range = boundary_range(cx, Boundary::ToolChange);
+    report.add(
+        cx.finding(&META, range, "the turret turns beside the part, deeper than any cut of the tool before")
+            .label(format!("at Z {}, and the deepest cut is at Z {}", cx.shown(Mm(z)), cx.shown(Mm(lowest))))
+            .help("check the sign of Z in the retract before it"),
+    );
+}
+
+/// Levels that differ by less are one: millimetres.
+const SLACK: f64 = 1.0;
 
 /// Does the move leave the tool at the part? Drilling cycles of mills end at a level above it.
 fn ends_at_part(cx: &PathCx<'_>, travel: &Travel) -> bool {
@@ -130,6 +169,26 @@ mod tests {
         format!(
             "G21 G18 G99 T0101\nG97 S500 M3\nG0 X50. Z2.\nG76 X28. Z-20. P920 Q300 F1.5\n{after}T0202\nG0 X60.\nM30\n"
         )
+    }
+
+    #[test]
+    fn a_retract_toward_the_chuck() {
+        let program = |z: &str| {
+            format!(
+                "G21 G99 T0101\nG97 S500 M3\nG0 X50. Z2.\nG1 Z-20. F0.2\nG0 X100. Z{z}\nT0202\nG0 X150. Z50.\nM30\n"
+            )
+        };
+        check_rule(
+            &RULE,
+            "fanuc-lathe",
+            &program("-100."),
+            &expect![[r#"
+            6 | T0202
+              | ^^^^^ warning[tool-change-at-part] the turret turns beside the part, deeper than any cut of the tool before
+        "#]],
+        );
+        check_rule(&RULE, "fanuc-lathe", &program("100."), &expect![[""]]);
+        check_rule(&RULE, "fanuc-lathe", &program("-10."), &expect![[""]]);
     }
 
     #[test]

@@ -1,0 +1,316 @@
+//! An arc that bulges to the wrong side of an otherwise smooth contour.
+
+use std::ops::Range;
+
+use gcheck_engine::{ArcMove, Axis, Event, Position, Travel, TravelKind};
+use gcheck_geometry::Plane;
+
+use crate::declare::declare_rule;
+use crate::{PathCx, PathRule, Report, Run, Watch};
+use crate::{Remembers, remembers};
+
+declare_rule! {
+    /// An arc meets the cuts before and after it at an angle, and the same arc the other way round, or with the other sign of
+    /// `R`, would go on smoothly from both.
+    ///
+    /// ## Why it matters
+    /// `G2` and `G3` are mixed up, or `R` has a wrong sign: the tool cuts into the part where the corner should be rounded, or
+    /// goes around the outside of it.
+    ///
+    /// ## Reported
+    /// ```nc,reported,fanuc-mill
+    /// G21 G17 G90 G54 S3000 M3
+    /// G0 X0. Y0. Z-2.
+    /// G1 X40. F300.
+    /// G2 X50. Y10. R10.
+    /// G1 Y40.
+    /// G0 Z50.
+    /// M30
+    /// ```
+    /// ```nc,reported,linuxcnc
+    /// G21 G17 G90 G54 G94 S3000 M3
+    /// G0 X0 Y0 Z-2
+    /// G1 X40 F300
+    /// G3 X50 Y10 R-10
+    /// G1 Y40
+    /// G0 Z50
+    /// M2
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,fanuc-mill
+    /// G21 G17 G90 G54 S3000 M3
+    /// G0 X0. Y0. Z-2.
+    /// G1 X40. F300.
+    /// G3 X50. Y10. R10.
+    /// G1 Y40.
+    /// G0 Z50.
+    /// M30
+    /// ```
+    /// A notch has corners both ways.
+    /// ```nc,quiet,fanuc-mill
+    /// G21 G17 G90 G54 S3000 M3
+    /// G0 X0. Y0. Z-2.
+    /// G1 X40. F300.
+    /// G2 X60. Y0. R10.
+    /// G1 X100.
+    /// G0 Z50.
+    /// M30
+    /// ```
+    rule "arc-breaks-contour" in "arcs" {
+        summary: "arc to the wrong side of an otherwise smooth contour",
+        severity: Warning,
+        tier: Path,
+        since: "0.1.0",
+        run: Run::Path { watch: Watch::MOVES, make: || Box::new(ArcBreaksContour::default()) },
+    }
+}
+
+/// Directions that differ by less are one: 3 degrees.
+const SMOOTH: f64 = 0.052;
+/// Directions that differ by more make a corner: 20 degrees.
+const CORNER: f64 = 0.349;
+/// A shorter way has no direction: millimetres.
+const NOTHING: f64 = 1e-4;
+/// A shorter cut beside an arc is a step on the way: parts of the arc's chord.
+const STEP: f64 = 0.5;
+
+/// A direction in the plane, in radians; or a point in it, millimetres.
+type Vector = [f64; 2];
+
+#[derive(Default, Clone, PartialEq)]
+struct ArcBreaksContour {
+    /// The plane of the last cut, and the cut as it ends.
+    last: Option<(Plane, Way)>,
+    /// An arc with a corner before it, which the next cut decides.
+    pending: Option<Pending>,
+}
+
+remembers!(ArcBreaksContour: pending);
+
+/// A cut, at one of its ends.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Way {
+    /// Its direction there, radians.
+    direction: f64,
+    /// From its start to its end: millimetres.
+    length: f64,
+}
+
+/// An arc that would go on smoothly from the cut before it in another form.
+#[derive(Clone, PartialEq)]
+struct Pending {
+    /// The block of the arc.
+    bytes: Range<u32>,
+    /// The arc as it ends.
+    end: Way,
+    /// The forms that begin smoothly, with their directions where they end.
+    others: Vec<(Other, f64)>,
+}
+
+remembers!(Pending: bytes);
+
+/// How else the arc may be meant.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Other {
+    /// The other way round.
+    Way,
+    /// The other sign of `R`.
+    Sign,
+}
+
+impl PathRule for ArcBreaksContour {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
+    fn moved(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
+        let (last, pending) = (self.last.take(), self.pending.take());
+        // Of several paths, this move may follow another one.
+        if !cx.is_on_every_path() || cx.is_called_only() {
+            return;
+        }
+        match event {
+            Event::Travel(travel) if travel.kind == TravelKind::Feed && !travel.expanded => {
+                let plane = last.map(|(plane, _)| plane).or_else(|| cx.state().plane(cx.model));
+                let Some((plane, way)) = plane.and_then(|plane| Some((plane, straight(travel, plane)?)))
+                else {
+                    return;
+                };
+                self.last = Some((plane, way));
+                tell(cx, pending, way, report);
+            }
+            Event::Arc(arc) if !arc.expanded => {
+                let Some(Forms { own: [start, end], others, chord }) = Forms::of(cx, arc) else { return };
+                let way = |direction| Way { direction, length: chord };
+                self.last = Some((arc.plane, way(end)));
+                let Some((_, before)) = last.filter(|(plane, _)| *plane == arc.plane) else { return };
+                tell(cx, pending, way(start), report);
+                if turn(before.direction, start) > CORNER && before.length > chord * STEP {
+                    let is_smooth =
+                        |(_, [start, _]): &(Other, [f64; 2])| turn(before.direction, *start) < SMOOTH;
+                    let others = others.into_iter().filter(is_smooth);
+                    let others: Vec<_> = others.map(|(other, [_, end])| (other, end)).collect();
+                    self.pending =
+                        (!others.is_empty()).then(|| Pending { bytes: cx.range(), end: way(end), others });
+                }
+            }
+            _ => {}
+        }
+    }
+}
+
+/// The arc, as it is and as it may be meant: its direction at its start and at its end.
+struct Forms {
+    own: [f64; 2],
+    others: Vec<(Other, [f64; 2])>,
+    /// From its start to its end: millimetres.
+    chord: f64,
+}
+
+impl Forms {
+    fn of(cx: &PathCx<'_>, arc: &ArcMove) -> Option<Self> {
+        let (start, end) = (point(&arc.from, arc.plane)?, point(&arc.to, arc.plane)?);
+        let centre = [arc.centre.0.0, arc.centre.1.0];
+        let chord = [end[0] - start[0], end[1] - start[1]];
+        let length = chord[0].hypot(chord[1]);
+        if length < NOTHING || arc.turns.abs() != 1 || centre.iter().any(|number| !number.is_finite()) {
+            return None;
+        }
+        let way = f64::from(arc.turns.signum());
+        let directions = |centre: Vector, way: f64| [start, end].map(|at| tangent(at, centre, way));
+        let others = if cx.word('R').is_some() {
+            // The centre on the other side of the chord.
+            let mirrored = mirror(centre, start, chord);
+            vec![(Other::Way, directions(mirrored, -way)), (Other::Sign, directions(mirrored, way))]
+        } else {
+            vec![(Other::Way, directions(centre, -way))]
+        };
+        Some(Self { own: directions(centre, way), others, chord: length })
+    }
+}
+
+/// The arc is reported when one of its other forms goes on smoothly to the next cut, and the arc itself does not.
+fn tell(cx: &PathCx<'_>, pending: Option<Pending>, next: Way, report: &mut Report<'_>) {
+    let Some(Pending { bytes, end, others }) = pending else { return };
+    if turn(end.direction, next.direction) <= CORNER || next.length <= end.length * STEP {
+        return;
+    }
+    let is_smooth = |(_, end): &(Other, f64)| turn(*end, next.direction) < SMOOTH;
+    let Some((other, _)) = others.into_iter().find(is_smooth) else { return };
+    let (meant, help) = match other {
+        Other::Way => ("the other way round", "check `G2` and `G3` of this arc"),
+        Other::Sign => {
+            ("with the other sign of `R`", "check the sign of `R`: below zero it means the longer arc")
+        }
+    };
+    report.add(
+        cx.finding(&META, bytes, "the arc breaks the contour: corners before and after it")
+            .label(format!("{meant} it goes on smoothly from the cut before, and to the one after"))
+            .help(help),
+    );
+}
+
+/// The angle between two directions, from 0 to half a turn; NaN where one is not known.
+fn turn(from: f64, to: f64) -> f64 {
+    let turn = (to - from).rem_euclid(std::f64::consts::TAU);
+    turn.min(std::f64::consts::TAU - turn)
+}
+
+/// The direction of an arc at one of its points.
+fn tangent(at: Vector, centre: Vector, way: f64) -> f64 {
+    let spoke = [at[0] - centre[0], at[1] - centre[1]];
+    (spoke[0] * way).atan2(-spoke[1] * way)
+}
+
+/// The point mirrored in the line through `start` along `chord`.
+fn mirror(centre: Vector, start: Vector, chord: Vector) -> Vector {
+    let spoke = [centre[0] - start[0], centre[1] - start[1]];
+    let along = (spoke[0] * chord[0] + spoke[1] * chord[1]) / (chord[0] * chord[0] + chord[1] * chord[1]);
+    let across = [spoke[0] - along * chord[0], spoke[1] - along * chord[1]];
+    [centre[0] - 2.0 * across[0], centre[1] - 2.0 * across[1]]
+}
+
+/// A straight cut in the plane; `None` where it does not move in it.
+fn straight(travel: &Travel, plane: Plane) -> Option<Way> {
+    let (from, to) = (point(&travel.from, plane)?, point(&travel.to, plane)?);
+    let step = [to[0] - from[0], to[1] - from[1]];
+    let length = step[0].hypot(step[1]);
+    (length > NOTHING).then(|| Way { direction: step[1].atan2(step[0]), length })
+}
+
+/// A position in the plane.
+fn point(at: &Position, plane: Plane) -> Option<Vector> {
+    let (first, second) = match plane {
+        Plane::Xy => (Axis::X, Axis::Y),
+        Plane::Zx => (Axis::Z, Axis::X),
+        Plane::Yz => (Axis::Y, Axis::Z),
+    };
+    Some([at.get(first)?, at.get(second)?])
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::check_rule;
+
+    fn program(moves: &str) -> String {
+        format!("G21 G17 G90 G54 S3000 M3\nG0 X0. Y0. Z-2.\n{moves}G0 Z50.\nM30\n")
+    }
+
+    #[test]
+    fn by_its_centre_the_arc_comes_back_on_itself() {
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            &program("G1 X40. F300.\nG2 X50. Y10. I0. J10.\nG1 Y40.\n"),
+            &expect![[r#"
+                4 | G2 X50. Y10. I0. J10.
+                  | ^^^^^^^^^^^^^^^^^^^^^ warning[arc-breaks-contour] the arc breaks the contour: corners before and after it
+            "#]],
+        );
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            &program("G1 X40. F300.\nG3 X50. Y10. I0. J10.\nG1 Y40.\n"),
+            &expect![[""]],
+        );
+    }
+
+    #[test]
+    fn between_arcs() {
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            &program("G1 X40. F300.\nG3 X50. Y10. R10.\nG3 X60. Y20. R10.\nG1 X90.\n"),
+            &expect![[r#"
+                5 | G3 X60. Y20. R10.
+                  | ^^^^^^^^^^^^^^^^^ warning[arc-breaks-contour] the arc breaks the contour: corners before and after it
+            "#]],
+        );
+    }
+
+    #[test]
+    fn the_profile_of_a_lathe() {
+        check_rule(
+            &RULE,
+            "fanuc-lathe",
+            "G21 G99 G40\nT0101\nG97 S900 M3\nG0 X20. Z2.\nG1 Z-20. F.2\nG3 X30. Z-25. R5.\nG1 X50.\nG0 X150. Z100.\nM30\n",
+            &expect![[r#"
+                6 | G3 X30. Z-25. R5.
+                  | ^^^^^^^^^^^^^^^^^ warning[arc-breaks-contour] the arc breaks the contour: corners before and after it
+            "#]],
+        );
+    }
+
+    #[test]
+    fn whole_circles_and_arcs_without_a_cut_after_them_are_not_judged() {
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            &program("G1 X40. F300.\nG2 I0. J10.\nG1 X80.\nG2 X90. Y10. R10.\n"),
+            &expect![[""]],
+        );
+    }
+}

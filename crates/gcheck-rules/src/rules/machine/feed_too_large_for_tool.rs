@@ -1,0 +1,119 @@
+//! A feed for each turn that no milling cutter of this diameter bears.
+
+use gcheck_controls::Effect;
+use gcheck_engine::{Abstract, At, Axis, Domain, Event, Fact, FeedMode, Role, TravelKind};
+use gcheck_geometry::Mm;
+
+use crate::declare::declare_rule;
+use crate::facts::cycles::is_cycle;
+use crate::facts::offset_schemes::whole;
+use crate::facts::tool_comment::comment_of_tool;
+use crate::facts::{edge, reach};
+use crate::{PathCx, PathRule, Report, Run, Watch};
+use crate::{Remembers, remembers};
+
+declare_rule! {
+    /// A milling cutter goes sideways by more than 13 % of its diameter at each turn of the spindle.
+    ///
+    /// ## Why it matters
+    /// End mills of two to four teeth bear 1 to 5 % of their diameter for each turn. At more than twice of that they break. A
+    /// zero is missing in the speed, or one too many is in the feed. Tools are known from the tool table or `[tools]`; a tool
+    /// whose comment calls it a high-feed cutter is not judged.
+    ///
+    /// ## Reported
+    /// Tool 1 has a diameter of 10 mm:
+    /// ```nc,reported,fanuc-mill
+    /// G21 G17 G90 G94 G54
+    /// T1 M6
+    /// G0 X0. Y0. Z-5. S3500 M3
+    /// G1 X80. F6000.
+    /// M30
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,fanuc-mill
+    /// G21 G17 G90 G94 G54
+    /// T1 M6
+    /// G0 X0. Y0. Z-5. S3500 M3
+    /// G1 X80. F600.
+    /// M30
+    /// ```
+    rule "feed-too-large-for-tool" in "machine" {
+        summary: "more feed for each turn than the diameter of the cutter bears",
+        severity: Warning,
+        tier: Path,
+        since: "0.1.0",
+        run: Run::Path { watch: Watch::CUTS, make: || Box::new(FeedTooLargeForTool::default()) },
+    }
+}
+
+/// Of the diameter, for each turn: twice of what soft wood allows two teeth.
+const MOST: f64 = 0.13;
+/// Smaller tools are for other materials, or for nothing that this holds for: millimetres.
+const SMALLEST: f64 = 3.0;
+
+#[derive(Default, Clone, PartialEq)]
+struct FeedTooLargeForTool {
+    /// The block that gave feed or speed, whichever is later, where it was reported.
+    told: Option<At>,
+}
+
+remembers!(FeedTooLargeForTool: told);
+
+impl PathRule for FeedTooLargeForTool {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
+    fn cut(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
+        if !cx.is_mill() || !goes_sideways(event) || cx.is_called_only() || cx.has_effect(is_cycle) {
+            return;
+        }
+        let state = cx.state();
+        let Some(tool) = Abstract::known(state.tool()).and_then(whole) else { return };
+        let Some(diameter) = state.tables().tool(tool).map(|tool| tool.size().0) else { return };
+        let (Some(turns), Some((feed, mode))) = (edge::turns(cx), reach::feed(cx)) else { return };
+        let per_turn = match mode {
+            FeedMode::PerMinute => feed / turns,
+            FeedMode::PerRevolution => feed,
+            FeedMode::InverseTime => return,
+        };
+        let is_too_large = diameter >= SMALLEST && per_turn > diameter * MOST && edge::is_one_feed(cx);
+        if !is_too_large || state.effect(Role::SpindleMode, cx.model) == Some(Effect::SurfaceSpeed) {
+            return;
+        }
+        let set_by =
+            [Fact::Feed, Fact::Speed].map(|fact| cx.trace().set_by(fact)).into_iter().max().flatten();
+        if set_by.is_none() || self.told == set_by {
+            return;
+        }
+        let comment = cx.trace().set_by(Fact::Tool).and_then(|at| comment_of_tool(cx, at));
+        if comment
+            .is_some_and(|comment| comment.has(&["HIGH", "HIGHFEED", "HFM", "HPC", "HSM", "TAP", "PROBE"]))
+        {
+            return;
+        }
+        self.told = set_by;
+        let finding = cx
+            .finding(
+                &META,
+                cx.range(),
+                format!("the cutter is fed {} for each turn (T{tool})", edge::fine(cx, per_turn)),
+            )
+            .label(format!("{:.0} % of its diameter, at {turns:.0} rpm", per_turn / diameter * 100.0))
+            .note(format!("the diameter of T{tool} is {}", cx.shown(Mm(diameter))))
+            .help("check `F` and `S` for a zero too many or too few");
+        let finding = cx.resting_on(finding, Fact::Feed, "the feed");
+        report.add(cx.resting_on(finding, Fact::Speed, "the speed"));
+    }
+}
+
+/// Does the tool move at least as far across as along itself?
+fn goes_sideways(event: &Event) -> bool {
+    let Event::Travel(travel) = event else { return matches!(event, Event::Arc(arc) if !arc.expanded) };
+    let way = |axis| match (travel.from.get(axis), travel.to.get(axis)) {
+        (Some(from), Some(to)) => (to - from).abs(),
+        _ => 0.0,
+    };
+    let across = way(Axis::X).hypot(way(Axis::Y));
+    travel.kind == TravelKind::Feed && !travel.expanded && across > 0.0 && across >= way(Axis::Z)
+}

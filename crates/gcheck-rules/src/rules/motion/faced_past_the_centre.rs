@@ -1,0 +1,83 @@
+//! A facing cut that goes far beyond the centre of the part.
+
+use gcheck_engine::{Axis, Event, TravelKind, Truth};
+use gcheck_geometry::{Mm, Plane};
+
+use crate::declare::declare_rule;
+use crate::facts::tool_words::ToolWords;
+use crate::facts::turning::{is_turned, turns};
+use crate::{PathCx, PathRule, Report, Run, Severity, Uses, Watch};
+
+declare_rule! {
+    /// A turning tool is fed across the face and more than 3 mm (0.12 inch) beyond the centre of the part.
+    ///
+    /// ## Why it matters
+    /// Beyond the centre the part turns the other way, against the back of the insert, and breaks it. A tool goes past the
+    /// centre by its nose radius at most. Mostly the decimal point is at the wrong place.
+    ///
+    /// ## Reported
+    /// ```nc,reported,fanuc-lathe
+    /// G21 G99 G40 T0101
+    /// G97 S900 M3
+    /// G0 X64. Z0.
+    /// G1 X-16. F.2
+    /// G0 X150. Z100.
+    /// M30
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,fanuc-lathe
+    /// G21 G99 G40 T0101
+    /// G97 S900 M3
+    /// G0 X64. Z0.
+    /// G1 X-1.6 F.2
+    /// G0 X150. Z100.
+    /// M30
+    /// ```
+    rule "faced-past-the-centre" in "motion" {
+        summary: "facing cut far beyond the centre of the part",
+        severity: Warning,
+        tier: Path,
+        since: "0.1.0",
+        run: Run::Path { watch: Watch::CUTS, make: || Box::new(FacedPastTheCentre) },
+    }
+}
+
+struct FacedPastTheCentre;
+
+/// As a radius, millimetres: more than any nose radius and any parting tool needs.
+const BEYOND: f64 = 3.0;
+/// A cut along X alone: millimetres.
+const LEVEL: f64 = 0.01;
+
+impl PathRule for FacedPastTheCentre {
+    fn concerns(&self, program: &Uses<'_>) -> bool {
+        is_turned(program)
+    }
+
+    fn cut(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
+        let Event::Travel(travel) = event else { return };
+        let state = cx.state();
+        let is_turning = turns(cx)
+            && state.plane(cx.model) == Some(Plane::Zx)
+            && state.live_tool() == Truth::False
+            && !cx.is_called_only();
+        if travel.kind != TravelKind::Feed || travel.expanded || !is_turning {
+            return;
+        }
+        let at = |axis| Some((travel.from.get(axis)?, travel.to.get(axis)?));
+        let (Some((from, to)), Some((start, end))) = (at(Axis::X), at(Axis::Z)) else { return };
+        if from <= 0.0 || to >= -BEYOND || (start - end).abs() > LEVEL || from.min(-to) < BEYOND {
+            return;
+        }
+        let words = ToolWords::of(cx);
+        if words.may_bore() || words.drills() || words.needs_no_spindle() {
+            return;
+        }
+        let is_diameter = state.is_diameter(cx.model) == Some(true);
+        let finding = cx
+            .finding(&META, cx.letter_range('X'), "the cut across the face goes far beyond the centre")
+            .label(format!("{} beyond the centre, measured as a radius", cx.shown(Mm(-to))))
+            .help("check the decimal point of `X`: a tool goes past the centre by its nose radius");
+        report.add(if is_diameter { finding } else { finding.at_most(Severity::Info) });
+    }
+}
