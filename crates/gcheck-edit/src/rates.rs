@@ -104,7 +104,9 @@ impl<'c> Rates<'c> {
             self.factors.feed = if gives.feed { 1.0 } else { self.factors.feed };
             self.factors.speed = if gives.speed { 1.0 } else { self.factors.speed };
         } else {
-            let (numbers, cuts) = (numbers(block), read.cuts);
+            // `G71 U2. R1.` only tells how the cycle after it cuts.
+            let cuts = read.cuts && (read.class != Class::Operation || block.has_cut);
+            let numbers = numbers(block);
             // A thread has its lead from its own words, or else the proof fails.
             let feeds = cuts && (!read.threads || read.taps);
             let turns = cuts && block.state.spindle() != Some(Spindle::Stopped);

@@ -12,7 +12,7 @@ use gcheck_engine::{
     State, Stop, Units,
 };
 use gcheck_program::Place;
-use gcheck_toolpath::{Act, Beside, Spot, Step, Trail, WorkCoordinates};
+use gcheck_toolpath::{Act, Beside, Doing, Driven, Spot, Step, Trail, WorkCoordinates};
 
 use crate::facts::Facts;
 use crate::scope::Scope;
@@ -31,6 +31,8 @@ pub(crate) struct Executed<'a> {
     pub(crate) is_selected: bool,
     /// The modes that its words were read in.
     pub(crate) facts: Facts,
+    /// It made a move that is not at rapid, as far as its moves have shown.
+    pub(crate) has_cut: bool,
     /// The programmed point before it.
     pub(crate) before: Position,
     /// The state after it.
@@ -153,6 +155,11 @@ impl<V: Visitor> Watcher<'_, '_, V> {
     }
 }
 
+/// Is it a move that is not at rapid?
+fn is_cut(act: &Act) -> bool {
+    matches!(&act.doing, Doing::Move(made) if made.driven != Driven::Rapid)
+}
+
 /// Is a move made by a cycle, or by another operation of several moves?
 fn is_expanded(event: &Event) -> bool {
     match event {
@@ -208,6 +215,7 @@ impl<V: Visitor> Observer<Concrete> for Watcher<'_, '_, V> {
                 file: (!is_main).then_some(&*file.name),
                 is_selected: is_main && self.scope.selects(origin.start, facts.tool),
                 facts,
+                has_cut: self.waiting.iter().any(|(at, _, act)| *at == origin.at && is_cut(act)),
                 before: self.before,
                 state,
             });

@@ -1353,6 +1353,22 @@ fn a_thread_that_has_its_lead_in_a_word_of_its_own() {
 }
 
 #[test]
+fn a_block_that_only_tells_how_a_cycle_cuts_gets_no_feed() {
+    let program = "%\nO1\nG21 G18 G40 G80 G99 G54\nT0101\nG97 S800 M3\nG0 X52. Z2.\nG71 U2. R1.\nG71 P80 Q90 U0.5 W0.1 F0.25\nN80 G0 X20.\nG1 Z-15. F0.15\nN90 X52.\nG70 P80 Q90\nG0 X100. Z100.\nM30\n%\n";
+    changes(
+        program,
+        "fanuc-lathe",
+        "scale-feeds 0.8",
+        &expect![[r#"
+         8 G71 P80 Q90 U0.5 W0.1 F0.2
+        10 G1 Z-15. F0.12
+        ! part.nc: changed for fanuc-lathe: every feed is 0.8 times what it was, within 0.001 mm (40 moves compared)
+        exit 0
+    "#]],
+    );
+}
+
+#[test]
 fn a_pattern_that_several_cycles_use_is_one_pattern() {
     let program = "%\nO1\nG21 G17 G90 G94 G54 G40 G80\nG0 X0. Y0. Z5.\nG99 G81 X1. Y1. Z-2. R2. F80. L0\nM97 P50\nG80\nG99 G83 X1. Y1. Z-9. R2. Q3. F90. L0\nM97 P50\nG80\nM30\nN50 X5. Y5.\nX10.\nM99\n%\n";
     changes(
@@ -1424,9 +1440,12 @@ fn safe_start_lines_say_what_is_in_effect() {
         "haas-mill",
         "safe-start",
         &expect![[r#"
-        error: part.nc: cannot insert safe start lines: this tool change runs more than once, under different modes
-        part.nc: nothing is changed
-    "#]],
+            error: part.nc:8:1: cannot insert safe start lines: this tool change runs more than once, under different modes
+              |
+            8 | N50 T1 M6
+              | ^^^^^^^^^
+            part.nc: nothing is changed
+        "#]],
     );
     // A program that goes on with increments.
     let program = "%\nO1\nG21 G17 G90 G54 G40 G80\nG0 X1. Y0. Z5.\nG91\nT1 M6\nX5.\nM30\n%\n";
