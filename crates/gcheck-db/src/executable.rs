@@ -2,6 +2,8 @@
 //!
 //! Knows: how the document and the programs that it calls come together. Must not know: what is made of them.
 
+use std::borrow::Cow;
+
 use gcheck_engine::{Library, Model, Program, SourceFile};
 use gcheck_program::{Dialect, Loaded};
 
@@ -10,11 +12,20 @@ use crate::{Settings, Snapshot};
 impl Snapshot {
     /// Hands on the document with the programs that it may call, and its control, ready to be executed.
     pub fn with_program<R>(&self, with: impl FnOnce(&Program<'_>, &Model<'_>) -> R) -> R {
+        self.with_program_of(self.text(), with)
+    }
+
+    /// As [`Snapshot::with_program`], with another text in the place of the document's.
+    pub fn with_program_of<'t, R>(
+        &self,
+        text: impl Into<Cow<'t, str>>,
+        with: impl FnOnce(&Program<'_>, &Model<'_>) -> R,
+    ) -> R {
         let settings = self.settings();
         let dialect = Dialect::new(&settings.control);
         let model = Model::new(&settings.control);
         let library = Others(settings);
-        let loaded = Loaded::new(self.text(), &dialect, |_, _, _| ());
+        let loaded = Loaded::new(text, &dialect, |_, _, _| ());
         with(&Program::new(loaded, &dialect, &library), &model)
     }
 }

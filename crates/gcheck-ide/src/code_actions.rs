@@ -8,6 +8,7 @@ mod cycles;
 mod fixes;
 mod lines;
 mod points;
+mod proved;
 mod suppress;
 
 use std::ops::Range;
@@ -15,6 +16,7 @@ use std::ops::Range;
 use gcheck_db::{Analysis, Cancelled, Database, DocumentId};
 
 pub use action::{ActionKind, CodeAction};
+pub use proved::{Proved, ProvedChange, proved, proved_changes};
 
 /// Bytes of a file for which changes of the whole file are offered at every place; of a larger one only when all of it is
 /// selected, because editors ask at every move of the cursor.

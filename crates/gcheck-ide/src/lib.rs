@@ -49,7 +49,7 @@ mod workspace;
 mod workspace_symbols;
 
 pub use call_hierarchy::{CallItem, Incoming, Outgoing, call_items, incoming_calls, outgoing_calls};
-pub use code_actions::{ActionKind, CodeAction, code_actions};
+pub use code_actions::{ActionKind, CodeAction, Proved, ProvedChange, code_actions, proved, proved_changes};
 pub use code_lens::{CodeLens, RunFigures, SectionFigures, code_lenses, figures};
 pub use completion::{
     Completion, CompletionKind, TRIGGERS as COMPLETION_TRIGGERS, completion, completion_details,

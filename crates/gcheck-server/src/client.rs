@@ -40,6 +40,8 @@ pub(crate) struct Abilities {
     pub(crate) common_data: bool,
     pub(crate) markdown_hover: bool,
     pub(crate) action_literals: bool,
+    /// An action's edit may come when the action is chosen.
+    pub(crate) resolves_actions: bool,
     pub(crate) versioned_edits: bool,
     pub(crate) shows_documents: bool,
     pub(crate) folds_lines_only: bool,
@@ -86,7 +88,16 @@ impl Abilities {
             common_range: is_common("editRange"),
             common_data: is_common("data"),
             markdown_hover: hover.is_none_or(|formats| formats.contains(&MarkupKind::Markdown)),
-            action_literals: text.code_action.is_some_and(|a| a.code_action_literal_support.is_some()),
+            action_literals: text
+                .code_action
+                .as_ref()
+                .is_some_and(|a| a.code_action_literal_support.is_some()),
+            resolves_actions: text.code_action.is_some_and(|a| {
+                let resolves = |support: &crate::proto::CodeActionCapabilityResolveSupport| {
+                    support.properties.iter().any(|property| property == "edit")
+                };
+                is(a.data_support) && a.resolve_support.as_ref().is_some_and(resolves)
+            }),
             versioned_edits: is(workspace.workspace_edit.and_then(|edit| edit.document_changes)),
             shows_documents: window.show_document.is_some_and(|show| show.support),
             explain_command: own

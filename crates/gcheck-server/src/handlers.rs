@@ -289,6 +289,11 @@ impl LanguageServer for Handlers {
         self.quick("textDocument/codeAction", move |owner, stop| owner.code_actions(&params, stop)).await
     }
 
+    async fn code_action_resolve(&self, action: CodeAction) -> Result<CodeAction> {
+        let work = move |owner: &mut crate::owner::Owner, reply| owner.resolve_action(action, reply);
+        self.mailbox.ask("codeAction/resolve", work).await
+    }
+
     async fn formatting(&self, params: DocumentFormattingParams) -> Result<Option<Vec<TextEdit>>> {
         self.quick("textDocument/formatting", move |owner, _| owner.formatting(&params)).await
     }
@@ -351,6 +356,7 @@ fn capabilities(abilities: &Abilities) -> ServerCapabilities {
         workspace_symbol_provider: Some(OneOf::Left(true)),
         code_action_provider: Some(CodeActionProviderCapability::Options(CodeActionOptions {
             code_action_kinds: Some(action_kinds()),
+            resolve_provider: Some(true),
             ..CodeActionOptions::default()
         })),
         code_lens_provider: Some(CodeLensOptions { resolve_provider: Some(false) }),

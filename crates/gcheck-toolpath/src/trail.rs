@@ -47,6 +47,23 @@ pub struct Move {
     pub(crate) arc: Option<Arc>,
 }
 
+impl Move {
+    /// A movement; an arc has the ends of its own.
+    pub const fn new(driven: Driven, from: Position, to: Position, arc: Option<Arc>) -> Self {
+        Self { driven, from, to, arc }
+    }
+
+    /// Its begin.
+    pub const fn from(&self) -> &Position {
+        &self.from
+    }
+
+    /// The arc that it follows; a straight line without one.
+    pub const fn arc(&self) -> Option<&Arc> {
+        self.arc.as_ref()
+    }
+}
+
 /// How a movement is driven.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Driven {

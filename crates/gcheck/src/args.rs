@@ -2,6 +2,9 @@
 //!
 //! Knows: names, help texts, what excludes what. Must not know: what an argument does.
 
+mod edit;
+mod values;
+
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
@@ -13,8 +16,10 @@ use gcheck_report::Format;
 
 use crate::Problem;
 
-/// Blocks that may be executed when nobody says otherwise.
-pub(crate) const FUEL: u64 = gcheck_lint::Execution::FUEL;
+pub use edit::{About, EditCommand, EditTarget, Lines, MirrorAxis, QuarterTurns};
+pub(crate) use values::FUEL;
+pub use values::{Assignment, BlockSkip, Switch, VariableName};
+use values::{assignment, block_skip, numbering, tolerance};
 
 /// Reads CNC part programs (G-code) the way the control will, before the control does.
 #[derive(Debug, Parser)]
@@ -67,6 +72,16 @@ pub enum Command {
     Check(CheckOptions),
     /// Format programs, and renumber their blocks
     Fmt(FmtOptions),
+    /// Change the path, the feeds or the speeds of a program, and prove what the change does
+    ///
+    /// gcheck executes the program before and after the change and compares all moves. It writes the file only if every move
+    /// is as the change says, within 0.001 mm, and if both runs come to the end of the program. Otherwise the file stays as
+    /// it is, and a message names the reason and its line.
+    ///
+    /// Exit codes: 0 the file is changed, or there is nothing to change; 1 `--check` or `--diff` would change it; 2 the
+    /// change is refused, or its proof failed.
+    #[command(subcommand)]
+    Edit(EditCommand),
     /// Execute a program and print its moves
     Run(RunOptions),
     /// Cycle time, distances, extents, feeds and speeds of a program, by tool and in total
@@ -386,38 +401,6 @@ pub struct PlotOptions {
     pub output_file: PathBuf,
 }
 
-/// A switch of the operator's panel.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
-pub enum Switch {
-    /// It acts.
-    On,
-    /// It does not.
-    #[default]
-    Off,
-}
-
-/// A variable and its value: `#100=2.5`.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Assignment {
-    /// What is set.
-    pub variable: VariableName,
-    /// To what.
-    pub value: f64,
-}
-
-/// A variable as a command line names it.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum VariableName {
-    /// `#100`
-    Number(u32),
-    /// `#<name>`, lower case without blanks.
-    Name(String),
-}
-
-/// Levels of block delete that are switched on: bit 0 is a plain `/` and level 1.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct BlockSkip(pub u16);
-
 /// What is done with the machine in `gcheck.toml`.
 #[derive(Debug, Subcommand)]
 pub enum MachineCommand {
@@ -549,61 +532,4 @@ fn output_file(text: &str) -> Result<OutputFile, String> {
         Some((format, path)) => OutputFile { format: Some(format), path: PathBuf::from(path) },
         None => OutputFile { format: None, path: PathBuf::from(text) },
     })
-}
-
-fn tolerance(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(value) if value.is_finite() && value >= 0.0 => Ok(value),
-        _ => Err("write a length in millimetres, such as 0.001".to_owned()),
-    }
-}
-
-fn assignment(text: &str) -> Result<Assignment, String> {
-    let (name, value) = text.split_once('=').ok_or("write `#100=2.5` or `#<name>=1`")?;
-    let value: f64 = value.trim().parse().map_err(|_| format!("`{}` is not a number", value.trim()))?;
-    if !value.is_finite() {
-        return Err(format!("`{value}` is not a number that a control can hold"));
-    }
-    let variable = VariableName::parse(name)
-        .ok_or_else(|| format!("`{}` is not a variable; write `#100` or `#<name>`", name.trim()))?;
-    Ok(Assignment { variable, value })
-}
-
-impl VariableName {
-    /// Reads `#100` or `#<name>`; the sign may be left out, as shells take it for a comment.
-    pub fn parse(text: &str) -> Option<Self> {
-        let text = text.trim();
-        let inner = text.strip_prefix('#').unwrap_or(text);
-        if let Some(name) = inner.strip_prefix('<').and_then(|rest| rest.strip_suffix('>')) {
-            let name: String =
-                name.chars().filter(|c| !c.is_whitespace()).flat_map(char::to_lowercase).collect();
-            return (!name.is_empty()).then_some(Self::Name(name));
-        }
-        inner.parse().ok().map(Self::Number)
-    }
-}
-
-fn numbering(text: &str) -> Result<Numbering, String> {
-    let numbers = text.split_once(':').and_then(|(start, step)| {
-        Some(Numbering { start: start.trim().parse().ok()?, step: step.trim().parse().ok()? })
-    });
-    numbers
-        .filter(|n| n.start > 0 && n.step > 0)
-        .ok_or_else(|| "write the first number and the step, both whole and from 1, as in `10:10`".to_owned())
-}
-
-fn block_skip(text: &str) -> Result<BlockSkip, String> {
-    match text {
-        "on" => return Ok(BlockSkip(u16::MAX)),
-        "off" => return Ok(BlockSkip(0)),
-        _ => {}
-    }
-    let mut bits = 0;
-    for level in text.split(',') {
-        match level.trim().parse::<u16>() {
-            Ok(level @ 1..=9) => bits |= 1 << (level - 1),
-            _ => return Err("write `on`, `off`, or levels from 1 to 9 such as `1,3`".to_owned()),
-        }
-    }
-    Ok(BlockSkip(bits))
 }

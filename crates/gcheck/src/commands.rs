@@ -6,6 +6,7 @@ pub(crate) mod codes;
 pub(crate) mod completions;
 pub(crate) mod controls;
 pub(crate) mod diff;
+pub(crate) mod edit;
 pub(crate) mod explain;
 pub(crate) mod fmt;
 pub(crate) mod init;

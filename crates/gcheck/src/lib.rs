@@ -78,6 +78,9 @@ fn run(arguments: &Arguments) -> Result<u8, Problem> {
     match &arguments.command {
         Command::Check(options) => check::run(&arguments.global, options),
         Command::Fmt(options) => commands::fmt::run(&arguments.global, options),
+        Command::Edit(change) => {
+            guarded(&change.target().file, || commands::edit::run(&arguments.global, change))
+        }
         Command::Run(options) => {
             guarded(&options.execution.file, || commands::run::run(&arguments.global, options))
         }

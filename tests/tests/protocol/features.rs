@@ -497,3 +497,63 @@ fn long_work_is_shown_where_the_client_agrees() {
     let kind = |kind: &str| told.iter().filter(|m| m["params"]["value"]["kind"] == kind).count();
     assert_eq!(kind("begin"), kind("end"));
 }
+
+/// A client that has an action's edit when the action is chosen.
+fn resolving() -> Value {
+    let mut able = usual();
+    able["textDocument"]["codeAction"]["dataSupport"] = json!(true);
+    able["textDocument"]["codeAction"]["resolveSupport"] = json!({ "properties": ["edit"] });
+    able
+}
+
+const DRILLED: &str = "%\nO1\n(gcheck: control=haas-mill)\nG21 G17 G90 G94 G54 G40 G80\nG0 X1. Y2. Z5.\nG99 G81 X5. Z-3. R2. F80.\nG80\nM30\n%\n";
+
+#[test]
+fn changes_of_the_path_are_proved_when_they_are_chosen() {
+    let mut session = Session::with(&resolving(), &[]);
+    session.open("a.nc", DRILLED);
+    let here = actions(&mut session, [4, 0, 4, 0], None);
+    assert!(!here.iter().any(|action| action["data"].is_object()), "not at every move of the cursor");
+    let all = actions(&mut session, [4, 0, 4, 0], Some("refactor"));
+    let named = |all: &[Value], start: &str| {
+        all.iter().find(|action| action["title"].as_str().unwrap().starts_with(start)).unwrap().clone()
+    };
+    let mirror = named(&all, "Mirror the path at X0");
+    assert!(mirror["edit"].is_null() && mirror["kind"] == "refactor.rewrite", "{mirror}");
+    let chosen = ask(&mut session, "codeAction/resolve", mirror);
+    assert_eq!(
+        chosen["title"],
+        "Mirror the path at X0 (climb milling becomes conventional), with proof: every move is mirrored at X0, within 0.001 mm (5 moves compared)"
+    );
+    let edits = chosen["edit"]["documentChanges"][0]["edits"].as_array().unwrap();
+    assert_eq!(edits.len(), 2, "{edits:?}");
+    // Of a selection, the lines alone.
+    let all = actions(&mut session, [5, 2, 5, 4], None);
+    let feeds =
+        ask(&mut session, "codeAction/resolve", named(&all, "Scale the feeds to 90 % in the selected lines"));
+    assert_eq!(feeds["edit"]["documentChanges"][0]["edits"][0]["newText"], "72.");
+}
+
+#[test]
+fn a_change_that_cannot_be_proved_answers_with_the_reason() {
+    let mut session = Session::with(&resolving(), &[]);
+    session.open("a.nc", &DRILLED.replace("F80.", ""));
+    let all = actions(&mut session, [4, 0, 4, 0], Some("refactor"));
+    let mirror =
+        all.iter().find(|action| action["title"].as_str().unwrap().starts_with("Mirror")).unwrap().clone();
+    let asked = session.client.send_request("codeAction/resolve", mirror.clone());
+    let answer = session.client.answer(asked);
+    assert_eq!(
+        answer["error"]["message"],
+        "cannot mirror the path: the run stops in line 6 before the end of the program, so nothing is proved of it"
+    );
+    // A change of a text that is another one by now.
+    session.edit("a.nc", 2, [4, 0, 4, 0], "G0 Z9.\n");
+    let asked = session.client.send_request("codeAction/resolve", mirror);
+    assert_eq!(session.client.answer(asked)["error"]["code"], CONTENT_MODIFIED);
+    // A client that does not resolve actions is not offered them.
+    let mut session = Session::new(&[]);
+    session.open("a.nc", DRILLED);
+    let all = actions(&mut session, [4, 0, 4, 0], Some("refactor"));
+    assert!(!all.iter().any(|action| action["title"].as_str().unwrap().contains("with proof")), "{all:?}");
+}

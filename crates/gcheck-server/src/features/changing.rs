@@ -2,12 +2,17 @@
 //!
 //! Knows: their forms in the protocol. Must not know: what is changed how.
 
+use std::ops::Range;
+
 use gcheck_db::Snapshot;
 use gcheck_ide::{ActionKind, FileEdits, Style};
 
+use serde::{Deserialize, Serialize};
+
 use super::commands::OPEN_PAGE;
 use super::navigating::workspace_edit;
-use super::{given_up, text_edits};
+use super::{given_up, refused, text_edits};
+use crate::mailbox::Reply;
 use crate::owner::{Addressed, Owner};
 use crate::position::Places;
 use crate::proto::{
@@ -29,6 +34,18 @@ pub(crate) fn action_kinds() -> Vec<CodeActionKind> {
     ]
 }
 
+/// Blocks that each run of a proof may execute.
+const PROOF_FUEL: u64 = 2_000_000;
+
+/// A change that is proved when it is chosen.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+struct Asked {
+    uri: Uri,
+    version: i32,
+    name: String,
+    range: Option<[u32; 2]>,
+}
+
 impl Owner {
     pub(crate) fn code_actions(
         &mut self,
@@ -47,8 +64,9 @@ impl Owner {
         let analysis = self.analyse(uri, stop).map_err(given_up)?;
         let document = self.document(uri)?;
         let (id, version) = (document.id, document.version);
-        let found = gcheck_ide::code_actions(&mut self.database, id, range, analysis.as_deref(), stop)
-            .map_err(given_up)?;
+        let found =
+            gcheck_ide::code_actions(&mut self.database, id, range.clone(), analysis.as_deref(), stop)
+                .map_err(given_up)?;
         let files = Addressed::of(uri, id, version, document_name(self, uri), snapshot.clone());
         let mut out = Vec::new();
         for action in found {
@@ -93,7 +111,75 @@ impl Owner {
                 data: None,
             }));
         }
+        self.offer_proved(params, &snapshot, &range, &mut out);
         Ok(Some(out))
+    }
+
+    /// Changes that are proved when they are chosen: where something is selected, or where somebody asks for refactorings, as a
+    /// proof is not for every move of the cursor.
+    fn offer_proved(
+        &self,
+        params: &CodeActionParams,
+        snapshot: &Snapshot,
+        range: &Range<u32>,
+        out: &mut CodeActionResponse,
+    ) {
+        let kind = CodeActionKind::REFACTOR_REWRITE;
+        let only = params.context.only.as_deref();
+        let is_asked = only.is_some_and(|only| is_wanted(&kind, Some(only)));
+        if !self.abilities.resolves_actions || !(is_asked || only.is_none() && !range.is_empty()) {
+            return;
+        }
+        let uri = &params.text_document.uri;
+        let Ok(document) = self.document(uri) else { return };
+        for change in gcheck_ide::proved_changes(snapshot, range) {
+            let asked = Asked {
+                uri: uri.clone(),
+                version: document.version,
+                name: change.name.to_owned(),
+                range: change.range.map(|range| [range.start, range.end]),
+            };
+            out.push(CodeActionOrCommand::CodeAction(CodeAction {
+                title: change.title,
+                kind: Some(kind.clone()),
+                data: serde_json::to_value(asked).ok(),
+                ..CodeAction::default()
+            }));
+        }
+    }
+
+    /// Proves a change that was chosen, and answers with its edits; the error is the reason why it is not made.
+    pub(crate) fn resolve_action(&mut self, action: CodeAction, reply: Reply<CodeAction>) {
+        let asked = action.data.as_ref().and_then(|data| serde_json::from_value::<Asked>(data.clone()).ok());
+        let Some(asked) = asked else { return reply.send(Ok(action)) };
+        let uri = asked.uri.clone();
+        self.choose_settings(&uri);
+        let found = self.document(&uri).map(|document| (document.id, document.version));
+        let (id, version, snapshot) = match (found, self.snapshot(&uri)) {
+            (Ok((id, version)), Ok(snapshot)) => (id, version, snapshot),
+            (Err(error), _) | (_, Err(error)) => return reply.send(Err(error)),
+        };
+        if version != asked.version {
+            return reply.send(Err(crate::proto::Error::content_modified()));
+        }
+        let files = Addressed::of(&uri, id, version, document_name(self, &uri), snapshot.clone());
+        let (encoding, versioned) = (self.abilities.encoding, self.abilities.versioned_edits);
+        self.answer_elsewhere(&uri, true, reply, move |stop| {
+            let range = asked.range.map(|[start, end]| start..end);
+            let proved =
+                gcheck_ide::proved(&snapshot, &asked.name, range, PROOF_FUEL, stop).map_err(given_up)?;
+            let proved = proved.map_err(refused)?;
+            if proved.edits.is_empty() {
+                return Err(refused(proved.claim));
+            }
+            let edits = vec![FileEdits { file: id, edits: proved.edits }];
+            let edit = workspace_edit(&files, edits, encoding, versioned);
+            Ok(CodeAction {
+                title: format!("{}: {}", action.title, proved.claim),
+                edit: Some(edit),
+                ..action
+            })
+        });
     }
 
     pub(crate) fn formatting(&mut self, params: &DocumentFormattingParams) -> Result<Option<Vec<TextEdit>>> {

@@ -3,7 +3,7 @@
 //! Knows: that both run at once, each in a thread of its own, so that no run is ever kept whole. Must not know: when paths are
 //! the same, how differences are worded.
 
-mod words;
+pub(super) mod words;
 
 use std::io::{self, Write};
 use std::path::Path;

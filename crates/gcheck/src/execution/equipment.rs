@@ -19,7 +19,7 @@ use crate::args::{Assignment, VariableName};
 use crate::config::{self, ByAxis, ExecutionFacts, FileSettings, MachineTable, ToolTable};
 
 /// The machine, and what output needs to know of it besides.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct Equipment {
     pub(crate) machine: Machine,
     /// Units at power-on.

@@ -77,6 +77,33 @@ pub(crate) fn prepare(global: &Global, options: &ExecutionOptions) -> Result<Pre
     })
 }
 
+impl Prepared {
+    /// The switches that it runs under.
+    pub(crate) const fn options(&self) -> Options {
+        self.options
+    }
+
+    /// Blocks that may be executed.
+    pub(crate) const fn fuel(&self) -> u64 {
+        self.fuel
+    }
+
+    /// Another text of the same program, with everything else as it is; `shown` is what messages call it.
+    pub(crate) fn with_text(&self, source: SourceText, shown: String) -> Self {
+        Self {
+            source,
+            shown,
+            choice: self.choice.clone(),
+            control: Arc::clone(&self.control),
+            equipment: self.equipment.clone(),
+            options: self.options,
+            fuel: self.fuel,
+            path: self.path.clone(),
+            search: self.search.clone(),
+        }
+    }
+}
+
 /// A program ready to be executed.
 pub(crate) struct Session<'s> {
     pub(crate) prepared: &'s Prepared,

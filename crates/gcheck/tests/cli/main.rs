@@ -18,6 +18,7 @@ mod configuration;
 mod control;
 mod determinism;
 mod diff;
+mod editing;
 mod exit_codes;
 mod first_minutes;
 mod fixes;

@@ -31,6 +31,17 @@ const OWN: &[(&str, &[&str])] = &[
     ("gcheck-format", &["gcheck-syntax", "gcheck-controls", "gcheck-program", "gcheck-diagnostics"]),
     ("gcheck-planner", &["gcheck-geometry"]),
     ("gcheck-toolpath", &["gcheck-geometry", "gcheck-engine", "gcheck-planner"]),
+    (
+        "gcheck-edit",
+        &[
+            "gcheck-controls",
+            "gcheck-program",
+            "gcheck-geometry",
+            "gcheck-engine",
+            "gcheck-diagnostics",
+            "gcheck-toolpath",
+        ],
+    ),
     ("gcheck-report", &["gcheck-syntax", "gcheck-diagnostics"]),
     (
         "gcheck-lint",
@@ -80,6 +91,7 @@ const OWN: &[(&str, &[&str])] = &[
             "gcheck-lint",
             "gcheck-format",
             "gcheck-toolpath",
+            "gcheck-edit",
             "gcheck-db",
         ],
     ),

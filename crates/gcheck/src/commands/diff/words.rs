@@ -16,9 +16,9 @@ use crate::reading;
 
 /// Why a run did not come to its end.
 #[derive(Debug, Clone)]
-pub(super) struct Stopped {
-    pub(super) message: String,
-    pub(super) problem: Problem,
+pub(in crate::commands) struct Stopped {
+    pub(in crate::commands) message: String,
+    pub(in crate::commands) problem: Problem,
 }
 
 /// Version of the JSON's shape.
@@ -27,17 +27,17 @@ const VERSION: u32 = 1;
 const SHOWN: usize = 100;
 
 /// Both programs.
-pub(super) struct Sides<'s> {
-    pub(super) prepared: [&'s Prepared; 2],
+pub(in crate::commands) struct Sides<'s> {
+    pub(in crate::commands) prepared: [&'s Prepared; 2],
     /// In which lengths are shown.
-    pub(super) units: Units,
+    pub(in crate::commands) units: Units,
     /// Millimetres.
-    pub(super) tolerance: f64,
-    pub(super) faults: &'s [Option<Stopped>; 2],
+    pub(in crate::commands) tolerance: f64,
+    pub(in crate::commands) faults: &'s [Option<Stopped>; 2],
 }
 
 impl Sides<'_> {
-    pub(super) fn text(&self, differences: &Differences) -> String {
+    pub(in crate::commands) fn text(&self, differences: &Differences) -> String {
         let mut out = String::new();
         if let Some(parting) = &differences.parting {
             self.parting(&mut out, parting);
@@ -284,7 +284,7 @@ impl Sides<'_> {
         self.prepared.get(side).map(|prepared| &*prepared.control)
     }
 
-    pub(super) fn json(&self, differences: &Differences) -> Json {
+    pub(in crate::commands) fn json(&self, differences: &Differences) -> Json {
         let place = |side: usize, place: Option<&Place>| {
             place.map(
                 |place| json!({ "file": &*place.file, "line": place.line, "text": self.block(side, place) }),

@@ -1,0 +1,433 @@
+//! Where the path of a program goes when the points of some blocks are moved.
+//!
+//! Knows: which coordinates come from moved blocks, at every block of a run. Must not know: text, how acts are compared.
+//!
+//! A coordinate moves with the block that gave it: after `X10.` of a moved block and `Z5.` of another one X is moved and Z is
+//! not. What a mode of the machine gives (`G53`, `G28`) is where it was.
+
+use std::collections::VecDeque;
+
+use gcheck_controls::Effect;
+use gcheck_engine::{At, Model, Position, Units};
+use gcheck_geometry::{Arc, Plane};
+use gcheck_toolpath::{Act, Doing, Move};
+
+use crate::change::Change;
+use crate::facts::mapping_name;
+use crate::meaning::{Class, Meaning, Read, read};
+use crate::refusal::Refusal;
+use crate::rigid::{LINEAR, Rigid};
+use crate::run::Executed;
+
+/// Blocks that are remembered: under cutter compensation a move comes a few blocks late.
+const REMEMBERED: usize = 64;
+/// Coordinates that differ by less are the same one, millimetres.
+const SAME: f64 = 1e-9;
+
+/// Where a coordinate of the axes comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Owner {
+    /// From a block that is not moved, or from the machine.
+    Plain,
+    /// From a block that is moved.
+    Moved,
+    /// From a moved block, and the other axis that it is turned with is somewhere else by now.
+    Kept,
+}
+
+/// A block and its coordinates.
+#[derive(Debug, Clone, Copy)]
+struct Passed {
+    at: At,
+    start: u32,
+    end: u32,
+    class: Class,
+    depth: usize,
+    before: [Owner; 3],
+    after: [Owner; 3],
+    /// The level before it.
+    level: f64,
+}
+
+/// The path of a run with some of its points moved. Has to see every block and act.
+pub(crate) struct Course<'c> {
+    change: &'c Change,
+    model: &'c Model<'c>,
+    /// The whole program is to be moved, so that no move may stay.
+    is_whole: bool,
+    rigid: Option<(Rigid, Units)>,
+    owners: [Owner; 3],
+    passed: VecDeque<Passed>,
+    /// Of the last move.
+    last: [Owner; 3],
+    reached: Position,
+    refusal: Option<Refusal>,
+}
+
+impl<'c> Course<'c> {
+    pub(crate) fn new(change: &'c Change, is_whole: bool, model: &'c Model<'c>) -> Self {
+        Self {
+            change,
+            model,
+            is_whole,
+            rigid: None,
+            owners: [Owner::Plain; 3],
+            passed: VecDeque::with_capacity(REMEMBERED),
+            last: [Owner::Plain; 3],
+            reached: Position::UNKNOWN,
+            refusal: None,
+        }
+    }
+
+    /// Why the points cannot be moved, as far as the run has shown.
+    pub(crate) fn refusal(&self) -> Option<&Refusal> {
+        self.refusal.as_ref()
+    }
+
+    /// The motion, once the units of the program are known.
+    pub(crate) fn rigid(&self) -> Option<&Rigid> {
+        self.rigid.as_ref().map(|(rigid, _)| rigid)
+    }
+
+    /// Begins a further run.
+    pub(crate) fn begin(&mut self) {
+        self.owners = [Owner::Plain; 3];
+        self.last = [Owner::Plain; 3];
+        self.reached = Position::UNKNOWN;
+        self.passed.clear();
+    }
+
+    fn refuse(&mut self, block: &Executed<'_>, reason: impl Into<String>, help: Option<&str>) {
+        if self.refusal.is_none() {
+            let refusal = Refusal::at(block.start..block.end, reason).in_file(block.file);
+            self.refusal = Some(match help {
+                Some(help) => refusal.help(help),
+                None => refusal,
+            });
+        }
+    }
+
+    pub(crate) fn executed(&mut self, block: &Executed<'_>) {
+        let read = read(block.place, &block.facts, self.model);
+        let before = self.owners;
+        if block.is_selected {
+            self.selected(block, &read);
+        } else {
+            self.other(block, &read);
+        }
+        if self.passed.len() >= REMEMBERED {
+            self.passed.pop_front();
+        }
+        let level = LINEAR.get(read.depth).map_or(f64::NAN, |axis| block.before.raw(*axis));
+        self.passed.push_back(Passed {
+            at: block.at,
+            start: block.start,
+            end: block.end,
+            class: read.class,
+            depth: read.depth,
+            before,
+            after: self.owners,
+            level,
+        });
+    }
+
+    fn selected(&mut self, block: &Executed<'_>, read: &Read) {
+        match read.class {
+            Class::Moves | Class::Operation => self.selected_move(block, read),
+            Class::Machine | Class::Reference => self.machine_point(read),
+            Class::Origin { by_point } => self.origin(block, by_point),
+            Class::Mapping(role) => {
+                self.refuse(
+                    block,
+                    format!("{} begins here, and words do not say places under it", mapping_name(role)),
+                    None,
+                );
+            }
+            Class::Computed => {
+                self.refuse(
+                    block,
+                    "a code of this block is computed, so what its words mean is not certain",
+                    None,
+                );
+            }
+            Class::Call | Class::Other => {}
+        }
+    }
+
+    fn selected_move(&mut self, block: &Executed<'_>, read: &Read) {
+        if !read.has_places() {
+            return;
+        }
+        let facts = &block.facts;
+        if let Some(role) = facts.mapped {
+            let reason = format!(
+                "{} is in effect here, so the words do not say where the axes go",
+                mapping_name(role)
+            );
+            return self.refuse(block, reason, Some("select lines outside of it"));
+        }
+        let Some((rigid, units)) = self.settled(block) else { return };
+        if facts.units != Some(units) {
+            let reason = "this block is in another unit than the ones before it";
+            return self.refuse(
+                block,
+                reason,
+                Some("give the amounts with their unit, such as 10mm, or select lines of one unit"),
+            );
+        }
+        if read.class == Class::Operation && !rigid.is_shift() {
+            let reason = "the code of this block makes moves of its own, which do not turn with its words";
+            return self.refuse(block, reason, None);
+        }
+        for (_, meaning) in &read.words {
+            match meaning {
+                Meaning::Place { axis, incremental: false }
+                | Meaning::Height { axis, incremental: false } => {
+                    if let Some(owner) = self.owners.get_mut(*axis) {
+                        *owner = Owner::Moved;
+                    }
+                }
+                Meaning::Place { axis, incremental: true }
+                    if !rigid.is_shift() && !rigid.keeps(*axis) && self.owner(*axis) != Owner::Moved =>
+                {
+                    let reason = format!(
+                        "this block moves {} by an increment from a point that is not in the selection",
+                        name(*axis)
+                    );
+                    return self.refuse(
+                        block,
+                        reason,
+                        Some("begin the selection at a block that gives absolute coordinates"),
+                    );
+                }
+                Meaning::Direction if !rigid.is_shift() => {
+                    return self.refuse(block, "this block gives a direction, which is not turned", None);
+                }
+                _ => {}
+            }
+        }
+        self.whole(block, read, &rigid);
+    }
+
+    /// Are all coordinates given that the block needs to have moved?
+    fn whole(&mut self, block: &Executed<'_>, read: &Read, rigid: &Rigid) {
+        let begin = "begin the selection at the block that gives it, or before";
+        if rigid.swaps() && (self.owner(0) == Owner::Moved) != (self.owner(1) == Owner::Moved) {
+            let missing = if self.owner(0) == Owner::Moved { 'Y' } else { 'X' };
+            let reason = format!(
+                "this block needs X and Y to be rotated, and no block of the selection has given {missing}"
+            );
+            return self.refuse(block, reason, Some(begin));
+        }
+        if !read.cuts {
+            return;
+        }
+        let position = block.state.position();
+        for (axis, letter) in LINEAR.iter().enumerate() {
+            if !rigid.keeps(axis) && self.owner(axis) != Owner::Moved && !position.raw(*letter).is_nan() {
+                let reason =
+                    format!("this block cuts, and no block of the selection has given {}", letter.name());
+                return self.refuse(block, reason, Some(begin));
+            }
+        }
+    }
+
+    /// The motion in the units of the first block that it is asked for.
+    fn settled(&mut self, block: &Executed<'_>) -> Option<(Rigid, Units)> {
+        if self.rigid.is_none() {
+            let units = block.facts.units;
+            let diameter = block.facts.diameter.unwrap_or(false);
+            let rigid = units.and_then(|units| Some((Rigid::of(self.change, units, diameter)?, units)));
+            if rigid.is_none() {
+                self.refuse(block, "the unit of this block is not known", None);
+            }
+            self.rigid = rigid;
+        }
+        self.rigid
+    }
+
+    fn other(&mut self, block: &Executed<'_>, read: &Read) {
+        let Some((rigid, _)) = self.rigid else { return };
+        match read.class {
+            Class::Moves | Class::Operation if read.has_places() => {
+                if self.is_whole && self.goes_along_with(block, read, &rigid) {
+                    return;
+                }
+                let mut moves = read.class == Class::Operation || read.cuts;
+                for (_, meaning) in &read.words {
+                    if let Meaning::Place { axis, incremental } | Meaning::Height { axis, incremental } =
+                        meaning
+                        && let Some(owner) = self.owners.get_mut(*axis)
+                    {
+                        moves = true;
+                        if !incremental {
+                            *owner = Owner::Plain;
+                        }
+                    }
+                }
+                let left = (0..3).find(|axis| !rigid.keeps(*axis) && self.owner(*axis) != Owner::Plain);
+                if let Some(axis) = left.filter(|_| moves) {
+                    let reason = format!(
+                        "this block is not in the selection and goes on from a moved point: it does not give {} as a coordinate",
+                        name(axis)
+                    );
+                    self.refuse(
+                        block,
+                        reason,
+                        Some("end the selection where the next block gives all moved axes, or extend it"),
+                    );
+                }
+            }
+            Class::Machine | Class::Reference => self.machine_point(read),
+            Class::Origin { by_point } if self.owners.iter().any(|owner| *owner != Owner::Plain) => {
+                self.origin(block, by_point);
+            }
+            _ => {}
+        }
+    }
+
+    /// Does a block of another file move with the whole program? Only increments do, and only along a shift.
+    fn goes_along_with(&mut self, block: &Executed<'_>, read: &Read, rigid: &Rigid) -> bool {
+        let stays = read.words.iter().any(|(_, meaning)| match meaning {
+            Meaning::Place { axis, incremental }
+            | Meaning::Height { axis, incremental }
+            | Meaning::Centre { axis, incremental } => {
+                !(rigid.keeps(*axis) || *incremental && rigid.is_shift())
+            }
+            Meaning::Vector { .. } | Meaning::Direction => !rigid.is_shift(),
+            Meaning::Feed | Meaning::Speed | Meaning::Other => false,
+        });
+        if stays {
+            let reason = "this block gives places, and it is in another file, which stays as it is";
+            self.refuse(
+                block,
+                reason,
+                Some("change that file as well, or select the lines of this one that go with the change"),
+            );
+        }
+        true
+    }
+
+    fn machine_point(&mut self, read: &Read) {
+        for (_, meaning) in &read.words {
+            if let Meaning::Place { axis, .. } = meaning
+                && let Some(owner) = self.owners.get_mut(*axis)
+            {
+                *owner = Owner::Plain;
+            }
+        }
+        if self.rigid.is_some_and(|(rigid, _)| rigid.swaps()) && self.owner(0) != self.owner(1) {
+            for owner in self.owners.iter_mut().take(2).filter(|owner| **owner == Owner::Moved) {
+                *owner = Owner::Kept;
+            }
+        }
+    }
+
+    fn origin(&mut self, block: &Executed<'_>, by_point: bool) {
+        let is_shift = matches!(self.change, Change::Translate(_));
+        if by_point {
+            let reason = "this block moves the zero of the program to or from where the tool is, and the tool is somewhere else then";
+            self.refuse(block, reason, None);
+        } else if !is_shift {
+            self.refuse(
+                block,
+                "this block shifts the zero of the program, and the shift is not turned with it",
+                None,
+            );
+        }
+    }
+
+    fn owner(&self, axis: usize) -> Owner {
+        self.owners.get(axis).copied().unwrap_or(Owner::Plain)
+    }
+
+    /// An act as it is with the points moved.
+    pub(crate) fn act(&mut self, at: At, is_expanded: bool, act: Act) -> Act {
+        let Doing::Move(made) = &act.doing else { return act };
+        let Some((rigid, _)) = self.rigid else { return act };
+        let passed = self.passed.iter().rev().find(|passed| passed.at == at).copied();
+        let mut owners = passed.map_or(self.last, |passed| passed.after);
+        if let Some(passed) = &passed {
+            for (axis, owner) in owners.iter_mut().enumerate() {
+                let Some(letter) = LINEAR.get(axis) else { continue };
+                let (from, to) = (made.from().raw(*letter), made.to.raw(*letter));
+                let last = self.last.get(axis).copied().unwrap_or(Owner::Plain);
+                match passed.class {
+                    // A move of the machine leaves the axes where they are that it does not move.
+                    Class::Machine | Class::Reference => {
+                        *owner = if (to - from).abs() <= SAME { last } else { *owner };
+                    }
+                    // A cycle goes to its place and back to the level where it began.
+                    _ if is_expanded && axis == passed.depth && (to - passed.level).abs() <= SAME => {
+                        *owner = passed.before.get(axis).copied().unwrap_or(*owner);
+                    }
+                    _ => {}
+                }
+            }
+        }
+        let from = place(&rigid, made.from(), self.last, &self.reached);
+        let to = place(&rigid, &made.to, owners, &self.reached);
+        let along = made.arc().filter(|arc| self.goes_along(&rigid, arc.plane(), owners));
+        let arc = along.and_then(|arc| turned(&rigid, arc, &from, &to, owners));
+        if made.arc().is_some() && arc.is_none() && self.refusal.is_none() {
+            let range = passed.map_or(0..0, |passed| passed.start..passed.end);
+            let reason = "the arc of this block does not move as a whole: its begin and its end are not both in the selection, or its plane becomes another one";
+            self.refusal = Some(Refusal::at(range, reason));
+        }
+        self.last = owners;
+        self.reached = to;
+        let doing = Doing::Move(Move::new(made.driven, from, to, arc));
+        Act { doing, ..act }
+    }
+
+    /// Do both ends of an arc move alike?
+    fn goes_along(&self, rigid: &Rigid, plane: Plane, owners: [Owner; 3]) -> bool {
+        let (first, second, _) = plane.axes();
+        let is_same = |axis: usize| rigid.keeps(axis) || self.last.get(axis) == owners.get(axis);
+        let is_moved = |axis: usize| rigid.keeps(axis) || owners.get(axis) == Some(&Owner::Moved);
+        let is_plain = |axis: usize| rigid.keeps(axis) || owners.get(axis) == Some(&Owner::Plain);
+        let both = [first, second];
+        both.into_iter().all(is_same) && (both.into_iter().all(is_moved) || both.into_iter().all(is_plain))
+    }
+}
+
+/// A point whose coordinates are moved or not.
+fn place(rigid: &Rigid, point: &Position, owners: [Owner; 3], reached: &Position) -> Position {
+    let mut placed = *point;
+    for (axis, (letter, owner)) in LINEAR.iter().zip(owners).enumerate() {
+        match owner {
+            Owner::Plain => {}
+            Owner::Moved => placed.set(*letter, rigid.coordinate(point, axis)),
+            Owner::Kept => placed.set(*letter, reached.raw(*letter)),
+        }
+    }
+    placed
+}
+
+/// An arc between two points that are moved already.
+fn turned(rigid: &Rigid, arc: &Arc, from: &Position, to: &Position, owners: [Owner; 3]) -> Option<Arc> {
+    let (first, second, _) = arc.plane().axes();
+    let is_moved = [first, second].iter().any(|axis| owners.get(*axis) == Some(&Owner::Moved));
+    if is_moved {
+        rigid.arc(arc, from, to)
+    } else {
+        Some(Arc::from_parts(arc.plane(), from.xyz(), to.xyz(), arc.centre(), arc.sweep()))
+    }
+}
+
+fn name(axis: usize) -> char {
+    LINEAR.get(axis).map_or('X', |axis| axis.name())
+}
+
+/// Does a code turn the other way round when its plane does?
+pub(crate) const fn mirrored(effect: Effect) -> Option<Effect> {
+    Some(match effect {
+        Effect::ArcClockwise => Effect::ArcCounterClockwise,
+        Effect::ArcCounterClockwise => Effect::ArcClockwise,
+        Effect::CompensationLeft => Effect::CompensationRight,
+        Effect::CompensationRight => Effect::CompensationLeft,
+        Effect::CompensationLeftByDiameter => Effect::CompensationRightByDiameter,
+        Effect::CompensationRightByDiameter => Effect::CompensationLeftByDiameter,
+        _ => return None,
+    })
+}

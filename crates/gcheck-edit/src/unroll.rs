@@ -1,0 +1,360 @@
+//! Loops of macros written out, turn by turn, with the values that their words had.
+//!
+//! Knows: which blocks of a loop a run executed, in which order. Must not know: how expressions are computed (the engine does).
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+use gcheck_controls::{Unpointed, WordKind};
+use gcheck_engine::{
+    AbstractValue, At, Concrete, ConcreteValue, Domain as _, Look, Machine, Model, Program, State, Units,
+};
+use gcheck_program::{BlockFlags, OKeyword, Op, Place, StatementKind, Target, Value, Word};
+
+use crate::number::Hand;
+use crate::refusal::Refusal;
+use crate::scope::Scope;
+use crate::sheet::Sheet;
+
+/// Lines that a loop may become.
+const MOST_LINES: usize = 20_000;
+
+/// The loops of a run. Has to see every block before it is executed.
+pub(crate) struct Loops<'c> {
+    scope: Scope,
+    model: &'c Model<'c>,
+    hand: Option<Hand>,
+    /// Outermost loops: their first and last block.
+    outermost: Vec<[u32; 2]>,
+    under_way: Option<Turns>,
+    done: BTreeMap<u32, Done>,
+    refusal: Option<Refusal>,
+}
+
+/// A loop that runs.
+struct Turns {
+    /// Its first and last block.
+    blocks: [u32; 2],
+    depth: usize,
+    lines: Vec<String>,
+}
+
+/// A loop that has run.
+#[derive(Debug, Clone, PartialEq)]
+struct Done {
+    last: u32,
+    lines: Vec<String>,
+    /// Values that variables have after it.
+    values: Vec<(u32, f64)>,
+}
+
+impl<'c> Loops<'c> {
+    pub(crate) fn new(scope: &Scope, model: &'c Model<'c>) -> Self {
+        Self {
+            scope: scope.clone(),
+            model,
+            hand: None,
+            outermost: Vec::new(),
+            under_way: None,
+            done: BTreeMap::new(),
+            refusal: None,
+        }
+    }
+
+    pub(crate) fn refusal(&self) -> Option<&Refusal> {
+        self.refusal.as_ref()
+    }
+
+    fn refuse(&mut self, range: Range<u32>, reason: impl Into<String>, help: &str) {
+        if self.refusal.is_none() {
+            self.refusal = Some(Refusal::at(range, reason).help(help));
+        }
+    }
+
+    pub(crate) fn before(
+        &mut self,
+        program: &Program<'_>,
+        machine: &Machine,
+        at: At,
+        place: &Place,
+        state: &State<Concrete>,
+    ) {
+        self.prepare(program);
+        let depth = state.call_depth();
+        if let Some(turns) = &self.under_way {
+            let [first, last] = turns.blocks;
+            let is_inside = at.file == 0 && (first..=last).contains(&at.block) && depth >= turns.depth;
+            if depth <= turns.depth && !is_inside {
+                self.finish(program, state);
+            } else if depth > turns.depth {
+                return;
+            }
+        }
+        if at.file != 0 {
+            return;
+        }
+        let starts = place.range().start;
+        if self.under_way.is_none()
+            && let Some(blocks) = self.outermost.iter().find(|[first, _]| *first == at.block)
+            && self.scope.selects(starts, tool(state))
+        {
+            self.under_way = Some(Turns { blocks: *blocks, depth, lines: Vec::new() });
+        }
+        if self.under_way.is_some() {
+            self.turn(program, machine, at, place, state);
+        }
+    }
+
+    /// Looks for loops, once.
+    fn prepare(&mut self, program: &Program<'_>) {
+        if self.hand.is_some() {
+            return;
+        }
+        let Some(file) = program.file(0) else { return };
+        self.hand = Some(Hand::of(&file.loaded, program.dialect()));
+        let mut open: Vec<u32> = Vec::new();
+        let mut dos = 0_u32;
+        for (number, place) in file.loaded.blocks_with(BlockFlags::STATEMENT, program.dialect()) {
+            for statement in place.table.statements(place.ix) {
+                let closes = match &statement.kind {
+                    StatementKind::Do { .. } => false,
+                    StatementKind::End { .. } => true,
+                    StatementKind::OWord { keyword, .. } => match keyword {
+                        OKeyword::Repeat => false,
+                        OKeyword::EndWhile | OKeyword::EndRepeat => true,
+                        OKeyword::Do => {
+                            dos += 1;
+                            false
+                        }
+                        OKeyword::While => {
+                            let closes_do = dos > 0;
+                            dos = dos.saturating_sub(1);
+                            closes_do
+                        }
+                        _ => continue,
+                    },
+                    _ => continue,
+                };
+                if !closes {
+                    open.push(number);
+                } else if let Some(first) = open.pop()
+                    && open.is_empty()
+                {
+                    self.outermost.push([first, number]);
+                }
+            }
+        }
+    }
+
+    /// Writes down a block of a loop with the values that it has in this turn.
+    fn turn(
+        &mut self,
+        program: &Program<'_>,
+        machine: &Machine,
+        at: At,
+        place: &Place,
+        state: &State<Concrete>,
+    ) {
+        let words = place.table.words(place.block());
+        let flags = place.block().flags;
+        let kinds: Vec<&StatementKind> =
+            place.table.statements(place.ix).map(|statement| &statement.kind).collect();
+        if kinds.iter().any(|kind| matches!(kind, StatementKind::Print | StatementKind::Command)) {
+            return self.refuse(
+                place.range(),
+                "this block prints or commands something in each turn",
+                "select lines without it",
+            );
+        }
+        let is_conditional =
+            kinds.iter().any(|kind| matches!(kind, StatementKind::If { .. } | StatementKind::Guard { .. }));
+        let says = words.iter().any(|word| word.letter.ascii() != b'N');
+        if says && (is_conditional || flags.intersects(BlockFlags::BLOCK_DELETE)) {
+            return self.refuse(
+                place.range(),
+                "whether this block acts is decided in each turn by a condition or by block delete",
+                "write the condition as a jump over the block",
+            );
+        }
+        let is_comment = flags.contains(BlockFlags::COMMENT) && words.is_empty() && kinds.is_empty();
+        if !says && !is_comment {
+            return;
+        }
+        let Some(line) = self.line(program, machine, at, place, state, !kinds.is_empty()) else {
+            return self.refuse(
+                place.range(),
+                "a word of this block has no value that is known",
+                "give values with --set",
+            );
+        };
+        let Some(turns) = &mut self.under_way else { return };
+        turns.lines.push(line);
+        if turns.lines.len() > MOST_LINES {
+            let reason = format!("the loop would become more than {MOST_LINES} lines");
+            self.refuse(place.range(), reason, "select another loop");
+            self.under_way = None;
+        }
+    }
+
+    /// A block as a line without variables.
+    fn line(
+        &self,
+        program: &Program<'_>,
+        machine: &Machine,
+        at: At,
+        place: &Place,
+        state: &State<Concrete>,
+        words_alone: bool,
+    ) -> Option<String> {
+        let file = program.file(0)?;
+        let mut values = Vec::new();
+        if place.block().flags.contains(BlockFlags::EXPRESSION) {
+            let mut look = Look::new(program, self.model, machine);
+            values = look.expressions(at, &state.as_abstract());
+        }
+        let block = place.range();
+        let words = place.table.words(place.block());
+        let (mut out, mut from) = (String::new(), block.start);
+        for word in words {
+            let range = Sheet::range(place, word);
+            if !words_alone {
+                out.push_str(file.loaded.slice(from..range.start));
+            } else if !out.is_empty() {
+                out.push_str(self.hand?.gap());
+            }
+            from = range.end;
+            if word.letter.ascii() == b'N' {
+                continue;
+            }
+            match word.value {
+                Value::Expr(expr) => {
+                    let expr = place.table.expr(expr).range.clone();
+                    let expr = place.base + expr.start..place.base + expr.end;
+                    let value = values.iter().find(|(other, _)| *other == expr);
+                    let Some((_, AbstractValue::Number(number))) = value else { return None };
+                    out.push_str(&self.word(
+                        file.loaded.slice(range),
+                        word,
+                        *number,
+                        state.units(self.model),
+                    )?);
+                }
+                _ => out.push_str(file.loaded.slice(range)),
+            }
+        }
+        if !words_alone {
+            out.push_str(file.loaded.slice(from..block.end));
+        }
+        Some(out.trim().to_owned())
+    }
+
+    /// A word with a value.
+    fn word(&self, old: &str, word: &Word, number: f64, units: Option<Units>) -> Option<String> {
+        let control = self.model.control();
+        let kind = control.letter(word.letter).map(|entry| entry.kind);
+        let has_point =
+            matches!(kind, Some(WordKind::Length | WordKind::Angle | WordKind::Feed | WordKind::Real));
+        let hand = self.hand?;
+        let as_written = control.numbers().unpointed == Unpointed::AsWritten;
+        let form = if has_point && (hand.points() || !as_written) { "1." } else { "1" };
+        let least = if units == Some(Units::Inch) { 4 } else { 3 };
+        let head: String = old.chars().take_while(|c| c.is_ascii_alphabetic() || *c == ',').collect();
+        Some(format!("{head}{}", hand.write(form, number, least)))
+    }
+
+    /// Ends the loop that runs.
+    fn finish(&mut self, program: &Program<'_>, state: &State<Concrete>) {
+        let Some(turns) = self.under_way.take() else { return };
+        let [first, last] = turns.blocks;
+        let values = match left(program, turns.blocks, state) {
+            Ok(values) => values,
+            Err(reason) => {
+                let place = program.file(0).and_then(|file| file.loaded.place(first, program.dialect()));
+                let range = place.map_or(0..0, |place| place.range());
+                return self.refuse(range, reason, "unroll only loops whose variables nothing else reads");
+            }
+        };
+        let new = Done { last, lines: turns.lines, values };
+        if self.done.get(&first).is_some_and(|old| *old != new) {
+            let place = program.file(0).and_then(|file| file.loaded.place(first, program.dialect()));
+            let range = place.map_or(0..0, |place| place.range());
+            return self.refuse(
+                range,
+                "this loop runs more than once, each time in another way",
+                "select another loop",
+            );
+        }
+        self.done.insert(first, new);
+    }
+
+    /// Writes the turns in the place of the loops.
+    pub(crate) fn write(&self, sheet: &mut Sheet<'_, '_>, number: u32, place: &Place, program: &Program<'_>) {
+        let Some(done) = self.done.get(&number) else { return };
+        let Some(last) = sheet.loaded.place(done.last, program.dialect()) else { return };
+        let mut lines = done.lines.clone();
+        for (variable, value) in &done.values {
+            lines.push(format!("#{variable}={}", sheet.hand.write("1.", *value, 6)));
+        }
+        let text = lines.join(sheet.line_end());
+        sheet.replace(place.range().start..last.range().end, text);
+    }
+}
+
+#[expect(clippy::cast_sign_loss, reason = "tool numbers are not negative")]
+fn tool(state: &State<Concrete>) -> Option<u32> {
+    Concrete::known(state.tool()).filter(|number| *number >= 0.0).map(|number| number.round() as u32)
+}
+
+/// The values that a loop leaves to blocks outside of it.
+fn left(
+    program: &Program<'_>,
+    [first, last]: [u32; 2],
+    state: &State<Concrete>,
+) -> Result<Vec<(u32, f64)>, String> {
+    let Some(file) = program.file(0) else { return Ok(Vec::new()) };
+    let (mut assigned, mut read): (Vec<u32>, Vec<u32>) = (Vec::new(), Vec::new());
+    let (mut reads_any, mut names) = (false, false);
+    for (number, place) in file
+        .loaded
+        .blocks_with(BlockFlags::STATEMENT | BlockFlags::EXPRESSION | BlockFlags::CODE, program.dialect())
+    {
+        let is_inside = (first..=last).contains(&number);
+        if is_inside {
+            for statement in place.table.statements(place.ix) {
+                match &statement.kind {
+                    StatementKind::Assign { target: Target::Variable(variable), .. } => {
+                        assigned.push(*variable);
+                    }
+                    StatementKind::Assign { .. } => names = true,
+                    _ => {}
+                }
+            }
+            continue;
+        }
+        for expr in place.expressions() {
+            for op in place.table.ops(place.table.expr(expr)) {
+                match op {
+                    Op::Variable(variable) => read.push(*variable),
+                    Op::Indirect | Op::Named { .. } => reads_any = true,
+                    _ => {}
+                }
+            }
+        }
+    }
+    if names && reads_any {
+        return Err("this loop sets a parameter by name or by a computed number, and blocks outside of it may read that".to_owned());
+    }
+    assigned.sort_unstable();
+    assigned.dedup();
+    assigned.retain(|variable| reads_any || read.contains(variable));
+    let value = |variable: u32| {
+        let value = state.local(variable).copied().unwrap_or_else(|| state.variables().get(variable));
+        match value {
+            ConcreteValue::Number(number) => Ok((variable, number)),
+            ConcreteValue::Vacant | ConcreteValue::Unknown => {
+                Err(format!("the value that this loop leaves in #{variable} is not known"))
+            }
+        }
+    };
+    assigned.into_iter().map(value).collect()
+}

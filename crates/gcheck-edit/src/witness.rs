@@ -1,0 +1,245 @@
+//! What a run shows of the blocks of a program, so that their words can be rewritten as they were read.
+//!
+//! Knows: the modes in which each block ran. Must not know: how words are rewritten.
+
+use std::collections::BTreeSet;
+
+use gcheck_engine::{
+    Assumption, At, Concrete, Event, Machine, Model, Options, Program, RunResult, State, Units,
+};
+use gcheck_program::Place;
+use gcheck_toolpath::Act;
+
+use crate::change::Change;
+use crate::course::Course;
+use crate::distance::Distance;
+use crate::expand::Cycles;
+use crate::facts::Facts;
+use crate::rates::Rates;
+use crate::refusal::Refusal;
+use crate::run::{Executed, Visitor, run};
+use crate::safe_start::Starts;
+use crate::scope::Scope;
+use crate::units::Conversion;
+use crate::unroll::Loops;
+
+/// What runs of a program have shown.
+pub struct Witness<'c> {
+    /// By number of the block.
+    pub(crate) blocks: Vec<Option<Seen>>,
+    pub(crate) tracker: Tracker<'c>,
+    unfollowed: Option<Refusal>,
+    /// What the runs rest on.
+    assumptions: BTreeSet<Assumption>,
+}
+
+/// A block that ran.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Seen {
+    pub(crate) facts: Facts,
+    pub(crate) is_selected: bool,
+    /// The modes were the same each time.
+    pub(crate) is_certain: bool,
+}
+
+/// What is followed along a run for a change.
+pub(crate) enum Tracker<'c> {
+    Course(Box<Course<'c>>),
+    Rates(Box<Rates<'c>>),
+    Cycles(Box<Cycles<'c>>),
+    Loops(Box<Loops<'c>>),
+    Distance(Box<Distance<'c>>),
+    Starts(Box<Starts<'c>>),
+    Units(Box<Conversion<'c>>),
+    /// Every act is as before.
+    Same,
+}
+
+impl<'c> Tracker<'c> {
+    pub(crate) fn new(change: &'c Change, scope: &Scope, model: &'c Model<'c>) -> Self {
+        let is_whole = *scope == Scope::All;
+        match change {
+            Change::ScaleFeeds(_) | Change::ScaleSpeeds(_) => {
+                Self::Rates(Box::new(Rates::new(change, model)))
+            }
+            Change::Translate(_) | Change::Mirror(..) | Change::Rotate(..) => {
+                Self::Course(Box::new(Course::new(change, is_whole, model)))
+            }
+            Change::ExpandCycle => Self::Cycles(Box::new(Cycles::new(model))),
+            Change::UnrollLoop => Self::Loops(Box::new(Loops::new(scope, model))),
+            Change::SafeStart => Self::Starts(Box::new(Starts::new(scope, model))),
+            Change::Absolute => Self::Distance(Box::new(Distance::new(false, model))),
+            Change::Incremental => Self::Distance(Box::new(Distance::new(true, model))),
+            Change::Convert(to) => Self::Units(Box::new(Conversion::new(*to, model))),
+            Change::Renumber => Self::Same,
+        }
+    }
+
+    pub(crate) fn begin(&mut self) {
+        match self {
+            Self::Course(course) => course.begin(),
+            Self::Rates(rates) => rates.begin(),
+            Self::Distance(distance) => distance.begin(),
+            Self::Units(units) => units.begin(),
+            Self::Cycles(_) | Self::Loops(_) | Self::Starts(_) | Self::Same => {}
+        }
+    }
+
+    pub(crate) fn executed(&mut self, block: &Executed<'_>) {
+        match self {
+            Self::Course(course) => course.executed(block),
+            Self::Rates(rates) => rates.executed(block),
+            Self::Cycles(cycles) => cycles.executed(block),
+            Self::Distance(distance) => distance.executed(block),
+            Self::Units(units) => units.executed(block),
+            Self::Loops(_) | Self::Starts(_) | Self::Same => {}
+        }
+    }
+
+    pub(crate) fn act(&mut self, at: At, is_expanded: bool, act: Act) -> Act {
+        match self {
+            Self::Course(course) => course.act(at, is_expanded, act),
+            Self::Rates(rates) => rates.act(act),
+            Self::Cycles(_)
+            | Self::Loops(_)
+            | Self::Distance(_)
+            | Self::Starts(_)
+            | Self::Units(_)
+            | Self::Same => act,
+        }
+    }
+
+    pub(crate) fn refusal(&self) -> Option<&Refusal> {
+        match self {
+            Self::Course(course) => course.refusal(),
+            Self::Rates(rates) => rates.refusal(),
+            Self::Cycles(cycles) => cycles.refusal(),
+            Self::Loops(loops) => loops.refusal(),
+            Self::Starts(starts) => starts.refusal(),
+            Self::Distance(distance) => distance.refusal(),
+            Self::Units(units) => units.refusal(),
+            Self::Same => None,
+        }
+    }
+}
+
+impl std::fmt::Debug for Witness<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Witness").field("blocks", &self.blocks.len()).finish_non_exhaustive()
+    }
+}
+
+impl<'c> Witness<'c> {
+    /// Nothing seen yet.
+    pub fn new(change: &'c Change, scope: &Scope, model: &'c Model<'c>) -> Self {
+        Self {
+            blocks: Vec::new(),
+            tracker: Tracker::new(change, scope, model),
+            unfollowed: None,
+            assumptions: BTreeSet::new(),
+        }
+    }
+
+    /// What the runs rest on that is not configured.
+    pub fn assumptions(&self) -> &BTreeSet<Assumption> {
+        &self.assumptions
+    }
+
+    /// The units of the last block that ran.
+    pub fn units(&self) -> Option<Units> {
+        self.blocks.iter().rev().flatten().find_map(|seen| seen.facts.units)
+    }
+
+    /// Why the change cannot be proved, as far as the runs have shown.
+    pub(crate) fn refusal(&self) -> Option<Refusal> {
+        self.unfollowed.as_ref().or_else(|| self.tracker.refusal()).cloned()
+    }
+}
+
+/// Executes a program once more for a witness. The result tells whether it came to its end; where it did not, nothing that
+/// the witness has seen counts.
+pub fn witness(
+    witness: &mut Witness<'_>,
+    program: &Program<'_>,
+    model: &Model<'_>,
+    machine: &Machine,
+    options: Options,
+    fuel: u64,
+    scope: &Scope,
+) -> RunResult {
+    witness.tracker.begin();
+    let mut watching = Watching { witness, program, machine };
+    let result = run(program, model, machine, options, fuel, scope, &mut watching);
+    witness.assumptions.extend(result.assumptions.iter().cloned());
+    result
+}
+
+/// A witness at work.
+struct Watching<'w, 'c, 'p> {
+    witness: &'w mut Witness<'c>,
+    program: &'w Program<'p>,
+    machine: &'w Machine,
+}
+
+impl Visitor for Watching<'_, '_, '_> {
+    const LOOKS_BEFORE: bool = true;
+
+    fn before(&mut self, at: At, place: &Place, state: &State<Concrete>) {
+        match &mut self.witness.tracker {
+            Tracker::Cycles(cycles) => cycles.before(),
+            Tracker::Loops(loops) => loops.before(self.program, self.machine, at, place, state),
+            Tracker::Starts(starts) => starts.before(at, place, state),
+            _ => {}
+        }
+    }
+
+    fn event(&mut self, event: &Event) {
+        match &mut self.witness.tracker {
+            Tracker::Cycles(cycles) => cycles.event(event),
+            Tracker::Starts(starts) => starts.event(event),
+            _ => {}
+        }
+    }
+
+    fn executed(&mut self, block: &Executed<'_>) {
+        self.witness.executed(block);
+    }
+
+    fn act(&mut self, at: At, is_expanded: bool, act: Act) {
+        self.witness.tracker.act(at, is_expanded, act);
+    }
+
+    fn unfollowed(&mut self, start: u32, end: u32, file: Option<&str>) {
+        if self.witness.unfollowed.is_none() {
+            let reason =
+                "this block moves the axes in a way that is not followed, so nothing is proved of it";
+            self.witness.unfollowed = Some(Refusal::at(start..end, reason).in_file(file));
+        }
+    }
+}
+
+impl Witness<'_> {
+    fn executed(&mut self, block: &Executed<'_>) {
+        self.tracker.executed(block);
+        if block.at.file != 0 {
+            return;
+        }
+        let index = block.at.block as usize;
+        if self.blocks.len() <= index {
+            self.blocks.resize(index + 1, None);
+        }
+        let Some(slot) = self.blocks.get_mut(index) else { return };
+        let new = Seen { facts: block.facts, is_selected: block.is_selected, is_certain: true };
+        *slot = Some(match slot {
+            None => new,
+            Some(old) => {
+                let is_same = new.facts.places_alike(&old.facts) && old.is_selected == new.is_selected;
+                Seen {
+                    is_certain: old.is_certain && is_same,
+                    is_selected: old.is_selected || new.is_selected,
+                    ..*old
+                }
+            }
+        });
+    }
+}

@@ -1,0 +1,399 @@
+//! Changes of the path, the feeds and the form of a program, each made only with its proof.
+//!
+//! Knows: which of them fit a place, how a change of a document is proved. Must not know: how words are rewritten, when moves are
+//! the same.
+//!
+//! A proof takes runs of the program, so that a list names the changes only, and the one that a person chooses is proved then.
+
+use std::collections::BTreeSet;
+use std::ops::Range;
+
+use gcheck_controls::{Effect, Machine as MachineKind};
+use gcheck_db::{Cancelled, Snapshot};
+use gcheck_diagnostics::{Edit, apply};
+use gcheck_edit::{
+    Amount, Change, Refusal, Scope, Witness, assume_cutters, expected, gaps, plainly, plan, witness,
+};
+use gcheck_engine::{Axis, Ending, Machine, Options, Role, RunResult, Stopped, Units};
+use gcheck_toolpath::{Act, Aspect, Differences, compare};
+/// The moves are as promised while they stay this close, millimetres.
+const TOLERANCE: f64 = 0.001;
+/// Acts of a run that are kept; of longer programs the command line proves changes.
+const MOST_ACTS: usize = 200_000;
+/// Bytes of a document whose changes are offered.
+const MOST_BYTES: u32 = 4 << 20;
+
+/// A change that is offered, and proved when it is chosen.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ProvedChange {
+    /// What it does, imperative.
+    pub title: String,
+    /// Its name for [`proved`].
+    pub name: &'static str,
+    /// Bytes that it changes; the whole document without them.
+    pub range: Option<Range<u32>>,
+}
+
+/// A change with its proof.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Proved {
+    /// Edits of the document; empty where there is nothing to change.
+    pub edits: Vec<Edit>,
+    /// What is proved, a sentence without a capital and a full stop.
+    pub claim: String,
+}
+
+/// The changes that may fit a selection, or the whole document when nothing is selected.
+pub fn proved_changes(snapshot: &Snapshot, selected: &Range<u32>) -> Vec<ProvedChange> {
+    if snapshot.len() > MOST_BYTES || snapshot.survey().blocks == 0 {
+        return Vec::new();
+    }
+    let range = (!selected.is_empty()).then(|| whole_lines(snapshot, selected));
+    let part = if range.is_some() { " in the selected lines" } else { "" };
+    let control = snapshot.control();
+    let uses = |wanted: &dyn Fn(Effect) -> bool| {
+        snapshot
+            .survey()
+            .codes
+            .iter()
+            .any(|(number, _)| control.code(*number).is_some_and(|code| wanted(code.effect())))
+    };
+    let is = |effect: Effect| uses(&move |other| other == effect);
+    let is_mill = control.machine() != MachineKind::Lathe;
+    let has_cycle = uses(&|effect| Role::of(effect) == Some(Role::Cycle) && effect != Effect::CycleCancel);
+    let has_loop = !snapshot.survey().loops.is_empty() || !snapshot.survey().o_words.is_empty();
+    let is_whole = range.is_none();
+    let offers = [
+        (has_cycle, "expand-cycle", "Write canned cycles as plain moves"),
+        (has_loop, "unroll-loop", "Write loops turn by turn"),
+        (is(Effect::Incremental), "absolute", "Write increments as absolute coordinates"),
+        (is(Effect::Absolute), "incremental", "Write absolute coordinates as increments"),
+        (is_whole && is(Effect::Inch), "mm", "Write the program in millimetres"),
+        (is_whole && is(Effect::Millimetre), "inch", "Write the program in inches"),
+        (is(Effect::ToolChange), "safe-start", "Insert safe start lines in front of tool changes"),
+        (true, "feeds-90", "Scale the feeds to 90 %"),
+        (true, "feeds-110", "Scale the feeds to 110 %"),
+        (true, "speeds-90", "Scale the spindle speeds to 90 %"),
+        (true, "speeds-110", "Scale the spindle speeds to 110 %"),
+        (is_mill, "mirror-x", "Mirror the path at X0 (climb milling becomes conventional)"),
+        (is_mill, "mirror-y", "Mirror the path at Y0 (climb milling becomes conventional)"),
+        (is_mill, "rotate-90", "Rotate the path by 90° about X0 Y0"),
+        (is_mill, "rotate-180", "Rotate the path by 180° about X0 Y0"),
+        (is_mill, "rotate-270", "Rotate the path by 270° about X0 Y0"),
+    ];
+    let fitting = offers.into_iter().filter(|(fits, _, _)| *fits);
+    fitting
+        .map(|(_, name, title)| ProvedChange {
+            title: format!("{title}{part}, with proof"),
+            name,
+            range: range.clone(),
+        })
+        .collect()
+}
+
+/// The lines that a selection touches.
+fn whole_lines(snapshot: &Snapshot, selected: &Range<u32>) -> Range<u32> {
+    let first = snapshot.line_at(selected.start);
+    let last = snapshot.line_at(selected.end);
+    // A selection of whole lines ends at the begin of the next one.
+    let ends_before = last > first && snapshot.line_range(last).start == selected.end;
+    let last = if ends_before { last - 1 } else { last };
+    snapshot.line_range(first).start..snapshot.line_range(last).end
+}
+
+fn change(name: &str) -> Option<Change> {
+    let zero = Amount::ZERO;
+    Some(match name {
+        "expand-cycle" => Change::ExpandCycle,
+        "unroll-loop" => Change::UnrollLoop,
+        "safe-start" => Change::SafeStart,
+        "absolute" => Change::Absolute,
+        "incremental" => Change::Incremental,
+        "mm" => Change::Convert(Units::Mm),
+        "inch" => Change::Convert(Units::Inch),
+        "feeds-90" => Change::ScaleFeeds(0.9),
+        "feeds-110" => Change::ScaleFeeds(1.1),
+        "speeds-90" => Change::ScaleSpeeds(0.9),
+        "speeds-110" => Change::ScaleSpeeds(1.1),
+        "mirror-x" => Change::Mirror(Axis::X, zero),
+        "mirror-y" => Change::Mirror(Axis::Y, zero),
+        "rotate-90" => Change::Rotate(1, [zero; 2]),
+        "rotate-180" => Change::Rotate(2, [zero; 2]),
+        "rotate-270" => Change::Rotate(3, [zero; 2]),
+        _ => return None,
+    })
+}
+
+/// Makes a change of a document and proves it. The inner error is the reason why it is not made, for people.
+///
+/// # Errors
+/// [`Cancelled`] when `stop` said yes, or no change has the name.
+pub fn proved(
+    snapshot: &Snapshot,
+    name: &str,
+    range: Option<Range<u32>>,
+    fuel: u64,
+    stop: &dyn Fn() -> bool,
+) -> Result<Result<Proved, String>, Cancelled> {
+    let change = change(name).ok_or(Cancelled)?;
+    let scope = range.map_or(Scope::All, Scope::Bytes);
+    let mut machine = snapshot.settings().machine.engine.clone();
+    let runs = runs(snapshot);
+    let proving = Proving { snapshot, change: &change, scope: &scope, fuel, stop };
+    proving.assume(&mut machine, &runs)?;
+    let text = snapshot.text();
+    let edits = match proving.plan(&machine, &runs)? {
+        Ok(edits) => edits,
+        Err(reason) => return Ok(Err(format!("cannot {}: {reason}", change.verb()))),
+    };
+    if edits.is_empty() {
+        return Ok(Ok(Proved { edits, claim: "there is nothing to change".to_owned() }));
+    }
+    let after = apply(&text, &edits);
+    let mut moves = 0;
+    for options in &runs {
+        match proving.compare(&machine, *options, &after)? {
+            Ok(compared) => moves = compared.max(moves),
+            Err(reason) => return Ok(Err(format!("cannot {}: {reason}", change.verb()))),
+        }
+    }
+    let claim = format!("{}, within {TOLERANCE} mm ({moves} moves compared)", change.claim());
+    Ok(Ok(Proved { edits, claim }))
+}
+
+/// The switches that a change is proved for: block delete off and, where a block has one, also on.
+fn runs(snapshot: &Snapshot) -> Vec<Options> {
+    let has_slash = snapshot.survey().block_deletes > 0;
+    if has_slash { vec![Options::NONE, Options::SKIP_ALL] } else { vec![Options::NONE] }
+}
+
+struct Proving<'a> {
+    snapshot: &'a Snapshot,
+    change: &'a Change,
+    scope: &'a Scope,
+    fuel: u64,
+    stop: &'a dyn Fn() -> bool,
+}
+
+impl Proving<'_> {
+    /// Gives cutters of unknown size a small one, so that their paths can be compared.
+    fn assume(&self, machine: &mut Machine, runs: &[Options]) -> Result<(), Cancelled> {
+        for options in runs {
+            let unknown = self.snapshot.with_program(|program, model| {
+                let mut none = |_: Act| !(self.stop)();
+                plainly(program, model, machine, *options, self.fuel, &mut none).assumptions
+            });
+            assume_cutters(machine, &unknown);
+            if (self.stop)() {
+                return Err(Cancelled);
+            }
+        }
+        Ok(())
+    }
+
+    fn plan(&self, machine: &Machine, runs: &[Options]) -> Result<Result<Vec<Edit>, String>, Cancelled> {
+        self.snapshot.with_program(|program, model| {
+            let mut seen = Witness::new(self.change, self.scope, model);
+            for options in runs {
+                let ran = witness(&mut seen, program, model, machine, *options, self.fuel, self.scope);
+                if (self.stop)() {
+                    return Err(Cancelled);
+                }
+                if let Some(reason) = self.end(&ran) {
+                    return Ok(Err(reason));
+                }
+                let gaps: BTreeSet<_> = gaps(&ran.assumptions);
+                if let Some(gap) = gcheck_lint::describe_all(&gaps, model).into_iter().next() {
+                    return Ok(Err(format!("the proof would have a gap, as {}", gap.text)));
+                }
+            }
+            let planned = plan(self.change, self.scope, &seen, program, model, machine);
+            Ok(planned.map(|plan| plan.edits).map_err(|refusal| self.reason(&refusal)))
+        })
+    }
+
+    /// Compares both runs; the answer is how many moves are the same.
+    fn compare(
+        &self,
+        machine: &Machine,
+        options: Options,
+        after: &str,
+    ) -> Result<Result<u64, String>, Cancelled> {
+        let mut promised = Kept::default();
+        let ran = self.snapshot.with_program(|program, model| {
+            let mut keep = |act: Act| promised.keep(act) && !(self.stop)();
+            expected(self.change, self.scope, program, model, machine, options, self.fuel, &mut keep)
+        });
+        let mut made = Kept::default();
+        let ended = self.snapshot.with_program_of(after, |program, model| {
+            let mut keep = |act: Act| made.keep(act) && !(self.stop)();
+            plainly(program, model, machine, options, self.fuel, &mut keep)
+        });
+        if (self.stop)() {
+            return Err(Cancelled);
+        }
+        if let Some(refusal) = &ran.refusal {
+            return Ok(Err(self.reason(refusal)));
+        }
+        if promised.is_full || made.is_full {
+            return Ok(Err(format!(
+                "the program makes more than {MOST_ACTS} moves; `gcheck edit` proves such a change"
+            )));
+        }
+        if let Some(reason) = self.end(&ran.result) {
+            return Ok(Err(reason));
+        }
+        let differences = compare(promised.acts, made.acts, TOLERANCE);
+        if let Some(reason) = different(&differences) {
+            return Ok(Err(reason));
+        }
+        if !is_end(&ended.stopped) {
+            return Ok(Err("the changed program does not run to its end".to_owned()));
+        }
+        if differences.unknown {
+            return Ok(Err(
+                "a cut starts or ends at a coordinate that is not known, so nothing is proved of it"
+                    .to_owned(),
+            ));
+        }
+        Ok(Ok(differences.moves))
+    }
+
+    /// Why a run did not come to its end.
+    fn end(&self, ran: &RunResult) -> Option<String> {
+        if is_end(&ran.stopped) {
+            return None;
+        }
+        let place = if ran.origin.at.file == 0 {
+            format!("in line {}", self.line(ran.origin.start))
+        } else {
+            "in a program that it calls".to_owned()
+        };
+        Some(match &ran.stopped {
+            Stopped::Ended(Ending::Text) => "the program has no end, so its run is not complete".to_owned(),
+            Stopped::OutOfFuel => format!("the run had not ended after {} blocks", ran.blocks),
+            _ => format!("the run stops {place} before the end of the program, so nothing is proved of it"),
+        })
+    }
+
+    fn reason(&self, refusal: &Refusal) -> String {
+        match &refusal.file {
+            Some(file) => format!("{file}: {refusal}"),
+            None if refusal.range.is_empty() => refusal.to_string(),
+            None => format!("line {}: {refusal}", self.line(refusal.range.start)),
+        }
+    }
+
+    fn line(&self, offset: u32) -> u32 {
+        self.snapshot.line_at(offset) + 1
+    }
+}
+
+fn is_end(stopped: &Stopped) -> bool {
+    matches!(stopped, Stopped::Ended(Ending::Program | Ending::Restart | Ending::Tape | Ending::BarsUsed))
+}
+
+/// The first difference in a few words; `None` when there is none.
+fn different(differences: &Differences) -> Option<String> {
+    if differences.is_same() {
+        return None;
+    }
+    if let Some(parting) = &differences.parting {
+        let line = parting.a.as_ref().or(parting.b.as_ref()).map_or(0, |place| place.line);
+        return Some(format!("the proof failed, as the path would be another one from line {line} on"));
+    }
+    let first = differences.kept().first()?;
+    let line = first.a.as_ref().or(first.b.as_ref()).map_or(0, |place| place.line);
+    let what = match first.aspect {
+        Aspect::Feed => "the feed",
+        Aspect::Spindle => "the spindle",
+        Aspect::Drive => "how the axes are driven",
+        Aspect::Dwell => "a dwell",
+        _ => "what the machine does",
+    };
+    Some(format!("the proof failed, as {what} would be another one in line {line}"))
+}
+
+/// Acts of a run.
+#[derive(Default)]
+struct Kept {
+    acts: Vec<Act>,
+    is_full: bool,
+}
+
+impl Kept {
+    fn keep(&mut self, act: Act) -> bool {
+        self.is_full = self.acts.len() >= MOST_ACTS;
+        if !self.is_full {
+            self.acts.push(act);
+        }
+        !self.is_full
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::ops::Range;
+
+    use super::{proved, proved_changes};
+    use crate::fixture::{Fixture, applied};
+
+    const PROGRAM: &str = "O1\nG21 G17 G90 G94 G54 G40 G80\nS1000 M3\nG0 X1. Y2. Z5.\nG1 Z-1. F100.\nG2 X3. Y2. I1.\nG0 Z5.\nG81 X5. Z-3. R2. F80.\nG80\nM30\n";
+
+    fn names(control: &str, text: &str, range: Range<u32>) -> Vec<&'static str> {
+        let snapshot = Fixture::new(control, text).snapshot();
+        proved_changes(&snapshot, &range).into_iter().map(|change| change.name).collect()
+    }
+
+    fn answer(text: &str, name: &str, range: Option<Range<u32>>) -> Result<(String, String), String> {
+        let snapshot = Fixture::new("haas-mill", text).snapshot();
+        let proved = proved(&snapshot, name, range, 100_000, &|| false).unwrap()?;
+        Ok((applied(text, &proved.edits), proved.claim))
+    }
+
+    #[test]
+    fn what_fits_a_program_is_offered() {
+        let mill = names("haas-mill", PROGRAM, 0..0);
+        assert!(mill.contains(&"expand-cycle") && mill.contains(&"inch") && mill.contains(&"mirror-x"));
+        assert!(!mill.contains(&"mm") && !mill.contains(&"unroll-loop") && !mill.contains(&"absolute"));
+        let part = names("haas-mill", PROGRAM, 40..60);
+        assert!(!part.contains(&"inch"), "units are those of the whole program");
+        let lathe = names("haas-lathe", "O1\nG20 G18\nG0 X1. Z1.\nM30\n", 0..0);
+        assert!(lathe.contains(&"mm") && !lathe.contains(&"mirror-x"));
+        assert!(names("haas-mill", "", 0..0).is_empty());
+    }
+
+    #[test]
+    fn a_change_comes_with_its_proof() {
+        let (text, claim) = answer(PROGRAM, "mirror-x", None).unwrap();
+        assert!(text.contains("G0 X-1. Y2. Z5.") && text.contains("G3 X-3. Y2. I-1."), "{text}");
+        assert_eq!(claim, "every move is mirrored at X0, within 0.001 mm (8 moves compared)");
+        let (text, _) = answer(PROGRAM, "expand-cycle", None).unwrap();
+        assert!(text.contains("G0 X5.\nG0 Z2.\nG1 Z-3. F80.\nG0 Z5.\nG80"), "{text}");
+        assert_eq!(answer(PROGRAM, "unroll-loop", None).unwrap().1, "there is nothing to change");
+    }
+
+    #[test]
+    fn a_selection_changes_alone() {
+        let start = PROGRAM.find("G1 Z-1.").unwrap() as u32;
+        let (text, _) = answer(PROGRAM, "feeds-90", Some(start..start + 5)).unwrap();
+        assert!(text.contains("G1 Z-1. F90.\nG2 X3. Y2. I1. F100."), "{text}");
+    }
+
+    #[test]
+    fn what_is_refused_says_where_and_why() {
+        let reason = answer(&PROGRAM.replace("F100.", ""), "mirror-x", None).unwrap_err();
+        assert_eq!(
+            reason,
+            "cannot mirror the path: the run stops in line 5 before the end of the program, so nothing is proved of it"
+        );
+        let start = PROGRAM.find("G2 X3.").unwrap() as u32;
+        let reason = answer(PROGRAM, "mirror-x", Some(start..start + 5)).unwrap_err();
+        assert!(
+            reason.starts_with(
+                "cannot mirror the path: line 6: the arc of this block does not move as a whole"
+            ),
+            "{reason}"
+        );
+    }
+}

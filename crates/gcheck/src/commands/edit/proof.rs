@@ -1,0 +1,206 @@
+//! The proof of a change: the moves of two runs, compared while both run.
+//!
+//! Knows: threads, what is said of a proof that failed. Must not know: what a change claims, when moves are the same.
+
+use std::mem;
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
+use std::thread;
+
+use gcheck_edit::{Change, Refusal, Scope, expected, plainly};
+use gcheck_engine::{Options, RunResult, Units};
+use gcheck_syntax::SourceText;
+use gcheck_toolpath::{Act, Differences, compare};
+
+use super::refusing::problem;
+use crate::Problem;
+use crate::commands::diff::words::Sides;
+use crate::execution::{self, Prepared, Session};
+
+/// Acts that are handed over together, and how many such batches may wait.
+const BATCH: usize = 1_024;
+const WAITING: usize = 4;
+
+/// What was proved.
+pub(super) struct Proof {
+    /// Pieces of path that were compared.
+    pub(super) moves: u64,
+    /// How often the program ran.
+    pub(super) runs: usize,
+}
+
+/// What is to be proved.
+pub(super) struct Asked<'a> {
+    pub(super) change: &'a Change,
+    pub(super) scope: &'a Scope,
+    /// Millimetres.
+    pub(super) tolerance: f64,
+    /// In which messages show lengths.
+    pub(super) units: Units,
+}
+
+/// Compares the runs of a program before and after a change.
+///
+/// # Errors
+/// The moves are not as the change says, or a run does not come to its end.
+pub(super) fn prove(
+    before: &Prepared,
+    after: &[u8],
+    asked: &Asked<'_>,
+    runs: &[Options],
+) -> Result<Proof, Problem> {
+    let change = asked.change;
+    let shown = format!("{} (changed)", before.shown);
+    let after = before.with_text(text(before, after.to_vec())?, shown);
+    let mut moves = 0;
+    for options in runs {
+        let (differences, refusal, faults) = both(before, &after, asked, *options)?;
+        if let Some(refusal) = refusal {
+            return Err(problem(before, change, &refusal));
+        }
+        // A run that was cut off because the paths had parted before ended nowhere of its own.
+        let goes_on =
+            differences.parting.as_ref().map_or([false; 2], |parting| parting.to.map(|to| to.is_some()));
+        let fault = faults.into_iter().zip(goes_on).find_map(|(fault, goes_on)| fault.filter(|_| !goes_on));
+        if fault.is_none() && !differences.is_same() {
+            return Err(different(before, &after, asked, &differences));
+        }
+        if let Some(fault) = fault {
+            return Err(fault.note(format!(
+                "nothing is proved of a run that ends early, so gcheck cannot {}",
+                change.verb()
+            )));
+        }
+        if differences.unknown {
+            let message = format!(
+                "cannot {}: a cut starts or ends at a coordinate that is not known, so nothing is proved of it",
+                change.verb()
+            );
+            return Err(Problem::with_file(&before.path, message)
+                .help("let the program give X, Y and Z before it cuts"));
+        }
+        moves = differences.moves.max(moves);
+    }
+    Ok(Proof { moves, runs: runs.len() })
+}
+
+/// The proof failed: the first differences, each with its lines.
+fn different(before: &Prepared, after: &Prepared, asked: &Asked<'_>, differences: &Differences) -> Problem {
+    let (units, tolerance) = (asked.units, asked.tolerance);
+    let sides = Sides { prepared: [before, after], units, tolerance, faults: &[None, None] };
+    let text = sides.text(differences);
+    let mut lines: Vec<&str> = text.lines().collect();
+    // The verdict is ours to say.
+    lines.retain(|line| line.starts_with(' ') || !line.contains(" (changed) "));
+    let message = format!("cannot {}: the proof failed\n{}", asked.change.verb(), lines.join("\n"));
+    let problem = Problem::with_file(&before.path, message);
+    let problem = match asked.change {
+        Change::Convert(Units::Inch) => {
+            problem.help("the last digit of an inch is 0.00254 mm: `--tolerance 0.002` allows the rounding of single words")
+        }
+        _ => problem,
+    };
+    problem.note("`-` is what the change promises, `+` is what the changed program does")
+}
+
+/// Runs both and compares what they do while they do it.
+#[expect(clippy::type_complexity, reason = "the three answers of two runs")]
+fn both(
+    before: &Prepared,
+    after: &Prepared,
+    asked: &Asked<'_>,
+    options: Options,
+) -> Result<(Differences, Option<Refusal>, [Option<Problem>; 2]), Problem> {
+    let Asked { change, scope, tolerance, .. } = *asked;
+    thread::scope(|scope_of_threads| {
+        let (sender, promised) = sync_channel(WAITING);
+        let start = || thread::Builder::new().stack_size(crate::threads::STACK);
+        let failed = |error: std::io::Error| Problem::new(format!("cannot start a thread: {error}"));
+        let first = start()
+            .spawn_scoped(scope_of_threads, move || {
+                before.session(|session| {
+                    let mut sending = Sending::new(&before.shown, sender);
+                    let ran = expected(
+                        change,
+                        scope,
+                        session.program,
+                        session.model,
+                        &before.equipment.machine,
+                        options,
+                        before.fuel(),
+                        &mut |act| sending.send(act),
+                    );
+                    sending.hand_over();
+                    (ran.refusal, fault(session, &ran.result))
+                })
+            })
+            .map_err(failed)?;
+        let (sender, made) = sync_channel(WAITING);
+        let second = start()
+            .spawn_scoped(scope_of_threads, move || {
+                after.session(|session| {
+                    let mut sending = Sending::new(&after.shown, sender);
+                    let ran = plainly(
+                        session.program,
+                        session.model,
+                        &after.equipment.machine,
+                        options,
+                        after.fuel(),
+                        &mut |act| sending.send(act),
+                    );
+                    sending.hand_over();
+                    fault(session, &ran)
+                })
+            })
+            .map_err(failed)?;
+        let differences = compare(acts(promised), acts(made), tolerance);
+        let panicked = |payload: Box<dyn std::any::Any + Send>| {
+            Problem::own_mistake(payload.as_ref()).in_file(&before.path)
+        };
+        let (refusal, first) = first.join().map_err(panicked)?;
+        let second = second.join().map_err(panicked)?;
+        Ok((differences, refusal, [first, second]))
+    })
+}
+
+fn fault(session: &Session<'_>, ran: &RunResult) -> Option<Problem> {
+    execution::fault_of(session, ran).map(|fault| execution::problem_of(&fault))
+}
+
+fn acts(batches: Receiver<Vec<Act>>) -> impl Iterator<Item = Act> {
+    batches.into_iter().flatten()
+}
+
+/// Hands the acts of a run to who compares them.
+struct Sending {
+    /// What messages call the program.
+    shown: Arc<str>,
+    batch: Vec<Act>,
+    to: SyncSender<Vec<Act>>,
+}
+
+impl Sending {
+    fn new(shown: &str, to: SyncSender<Vec<Act>>) -> Self {
+        Self { shown: Arc::from(shown), batch: Vec::with_capacity(BATCH), to }
+    }
+
+    /// Takes an act; `false` when nobody listens any more.
+    fn send(&mut self, mut act: Act) -> bool {
+        if act.file.is_empty() {
+            act.file = Arc::clone(&self.shown);
+        }
+        self.batch.push(act);
+        self.batch.len() < BATCH || self.hand_over()
+    }
+
+    fn hand_over(&mut self) -> bool {
+        let batch = mem::replace(&mut self.batch, Vec::with_capacity(BATCH));
+        self.to.send(batch).is_ok()
+    }
+}
+
+/// The changed program as text.
+fn text(prepared: &Prepared, bytes: Vec<u8>) -> Result<SourceText, Problem> {
+    SourceText::from_bytes(bytes)
+        .map_err(|_| Problem::with_file(&prepared.path, "would become larger than 4 GiB"))
+}
