@@ -67,7 +67,6 @@ fn a_mistake_is_found_whether_its_words_are_written_or_computed() {
     expect![[r#"
         4954 words
         allowance-into-contour: F G X Z
-        bar-fed-before-cutoff: F G I J K M S T X Z
         blank-inside-number: G Y
         block-number-not-first: G
         code-must-come-first: M

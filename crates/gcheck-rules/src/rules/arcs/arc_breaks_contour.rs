@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use gcheck_engine::{ArcMove, Axis, Event, Position, Travel, TravelKind};
+use gcheck_engine::{ArcMove, Axis, Event, Position, TravelKind};
 use gcheck_geometry::Plane;
 
 use crate::declare::declare_rule;
@@ -79,6 +79,8 @@ type Vector = [f64; 2];
 
 #[derive(Default, Clone, PartialEq)]
 struct ArcBreaksContour {
+    /// Where the last move ends as it is programmed, beside a cutter or not: X, Y and Z, if they are known.
+    at: Option<[f64; 3]>,
     /// The plane of the last cut, and the cut as it ends.
     last: Option<(Plane, Way)>,
     /// An arc with a corner before it, which the next cut decides.
@@ -124,7 +126,18 @@ impl PathRule for ArcBreaksContour {
     }
 
     fn moved(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
+        let end = match event {
+            Event::Travel(travel) => known(&travel.programmed),
+            Event::Arc(arc) => known(&arc.programmed),
+            _ => None,
+        };
+        let start = std::mem::replace(&mut self.at, end);
+        // A move around a corner of the contour ends where the one before it ends.
+        if start.is_some() && start == end && !matches!(event, Event::Arc(arc) if arc.turns.abs() > 1) {
+            return;
+        }
         let (last, pending) = (self.last.take(), self.pending.take());
+        let (Some(start), Some(end)) = (start, end) else { return };
         // Of several paths, this move may follow another one.
         if !cx.is_on_every_path() || cx.is_called_only() {
             return;
@@ -132,7 +145,7 @@ impl PathRule for ArcBreaksContour {
         match event {
             Event::Travel(travel) if travel.kind == TravelKind::Feed && !travel.expanded => {
                 let plane = last.map(|(plane, _)| plane).or_else(|| cx.state().plane(cx.model));
-                let Some((plane, way)) = plane.and_then(|plane| Some((plane, straight(travel, plane)?)))
+                let Some((plane, way)) = plane.and_then(|plane| Some((plane, straight(start, end, plane)?)))
                 else {
                     return;
                 };
@@ -140,7 +153,9 @@ impl PathRule for ArcBreaksContour {
                 tell(cx, pending, way, report);
             }
             Event::Arc(arc) if !arc.expanded => {
-                let Some(Forms { own: [start, end], others, chord }) = Forms::of(cx, arc) else { return };
+                let Some(Forms { own: [start, end], others, chord }) = Forms::of(cx, arc, start, end) else {
+                    return;
+                };
                 let way = |direction| Way { direction, length: chord };
                 self.last = Some((arc.plane, way(end)));
                 let Some((_, before)) = last.filter(|(plane, _)| *plane == arc.plane) else { return };
@@ -168,8 +183,8 @@ struct Forms {
 }
 
 impl Forms {
-    fn of(cx: &PathCx<'_>, arc: &ArcMove) -> Option<Self> {
-        let (start, end) = (point(&arc.from, arc.plane)?, point(&arc.to, arc.plane)?);
+    fn of(cx: &PathCx<'_>, arc: &ArcMove, start: [f64; 3], end: [f64; 3]) -> Option<Self> {
+        let (start, end) = (point(start, arc.plane), point(end, arc.plane));
         let centre = [arc.centre.0.0, arc.centre.1.0];
         let chord = [end[0] - start[0], end[1] - start[1]];
         let length = chord[0].hypot(chord[1]);
@@ -231,21 +246,25 @@ fn mirror(centre: Vector, start: Vector, chord: Vector) -> Vector {
 }
 
 /// A straight cut in the plane; `None` where it does not move in it.
-fn straight(travel: &Travel, plane: Plane) -> Option<Way> {
-    let (from, to) = (point(&travel.from, plane)?, point(&travel.to, plane)?);
+fn straight(from: [f64; 3], to: [f64; 3], plane: Plane) -> Option<Way> {
+    let (from, to) = (point(from, plane), point(to, plane));
     let step = [to[0] - from[0], to[1] - from[1]];
     let length = step[0].hypot(step[1]);
     (length > NOTHING).then(|| Way { direction: step[1].atan2(step[0]), length })
 }
 
-/// A position in the plane.
-fn point(at: &Position, plane: Plane) -> Option<Vector> {
-    let (first, second) = match plane {
-        Plane::Xy => (Axis::X, Axis::Y),
-        Plane::Zx => (Axis::Z, Axis::X),
-        Plane::Yz => (Axis::Y, Axis::Z),
-    };
-    Some([at.get(first)?, at.get(second)?])
+/// X, Y and Z; `None` where one is not known.
+fn known(at: &Position) -> Option<[f64; 3]> {
+    Some([at.get(Axis::X)?, at.get(Axis::Y)?, at.get(Axis::Z)?])
+}
+
+/// A point in the plane.
+const fn point([x, y, z]: [f64; 3], plane: Plane) -> Vector {
+    match plane {
+        Plane::Xy => [x, y],
+        Plane::Zx => [z, x],
+        Plane::Yz => [y, z],
+    }
 }
 
 #[cfg(test)]
@@ -253,10 +272,29 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::testing::check_rule;
+    use crate::testing::{World, check_rule, check_rule_in};
 
     fn program(moves: &str) -> String {
         format!("G21 G17 G90 G54 S3000 M3\nG0 X0. Y0. Z-2.\n{moves}G0 Z50.\nM30\n")
+    }
+
+    #[test]
+    fn beside_a_cutter() {
+        for (radius, expected) in [
+            (
+                "R-10.",
+                expect![[r#"
+            6 | G2 X10. Y50. R-10.
+              | ^^^^^^^^^^^^^^^^^^ warning[arc-breaks-contour] the arc breaks the contour: corners before and after it
+        "#]],
+            ),
+            ("R10.", expect![[""]]),
+        ] {
+            let program = format!(
+                "G21 G17 G90 G94 G54 S3000 M3\nT1 M6\nG0 X-10. Y-10. Z-2.\nG41 D1 G1 X0. Y0. F300.\nY40.\nG2 X10. Y50. {radius}\nG1 X40.\nG40 X60.\nG0 Z50.\nM30\n"
+            );
+            check_rule_in(&RULE, "fanuc-mill", &program, &World::of_group("machine"), &expected);
+        }
     }
 
     #[test]
@@ -297,10 +335,7 @@ mod tests {
             &RULE,
             "fanuc-lathe",
             "G21 G99 G40\nT0101\nG97 S900 M3\nG0 X20. Z2.\nG1 Z-20. F.2\nG3 X30. Z-25. R5.\nG1 X50.\nG0 X150. Z100.\nM30\n",
-            &expect![[r#"
-                6 | G3 X30. Z-25. R5.
-                  | ^^^^^^^^^^^^^^^^^ warning[arc-breaks-contour] the arc breaks the contour: corners before and after it
-            "#]],
+            &expect![""],
         );
     }
 

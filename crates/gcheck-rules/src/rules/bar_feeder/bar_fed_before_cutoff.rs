@@ -12,7 +12,8 @@ use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// The program turns a part and feeds the bar, and has not cut the part off: nothing was cut across the bar behind it.
+    /// The program turns a part and feeds the bar, and has not cut the part off: nothing was cut across the bar on its side of
+    /// the chuck.
     ///
     /// ## Why it matters
     /// The part is pushed out with the bar. What comes after it cuts in wrong places, and the piece that is cut off in the end
@@ -102,7 +103,7 @@ impl PathRule for BarFedBeforeCutoff {
         }
         let deepest = self.cut.as_ref().map_or(0.0, |cut| cut.z);
         if goes_in(travel) && z <= deepest + SLACK {
-            // Behind all that was turned: a tube is cut off before the centre.
+            // Nearer to the chuck than all that was turned: a tube is cut off before the centre.
             self.cut = None;
         } else if z < deepest {
             self.cut = Some(DeepestCut { z, bytes: cx.range() });

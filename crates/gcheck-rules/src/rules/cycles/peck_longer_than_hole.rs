@@ -1,13 +1,14 @@
 //! A peck that is longer than the hole.
 
 use gcheck_controls::{Effect, Letter};
-use gcheck_engine::{Abstract, Axis, Domain, Event, TravelKind};
+use gcheck_engine::{Abstract, At, Axis, Domain, Event, TravelKind};
 use gcheck_geometry::Mm;
 
 use crate::declare::declare_rule;
 use crate::facts::cycles::cycle_range;
 use crate::facts::offset_schemes::whole;
 use crate::{PathCx, PathRule, Report, Run, Severity, Uses, Watch};
+use crate::{Remembers, remembers};
 
 declare_rule! {
     /// A drilling cycle in pecks (`G83`, `G73`) makes its hole in one go: its first peck reaches the bottom, and the hole is
@@ -38,16 +39,26 @@ declare_rule! {
         severity: Warning,
         tier: Path,
         since: "0.1.0",
-        run: Run::Path { watch: Watch::MOVES, make: || Box::new(PeckLongerThanHole) },
+        run: Run::Path { watch: Watch::MOVES, make: || Box::new(PeckLongerThanHole::default()) },
     }
 }
 
-struct PeckLongerThanHole;
+#[derive(Default, Clone, PartialEq)]
+struct PeckLongerThanHole {
+    /// The block whose first stroke was looked at.
+    block: Option<At>,
+}
+
+remembers!(PeckLongerThanHole: block);
 
 /// Diameters that a drill goes without clearing chips.
 const FREE: f64 = 2.5;
 
 impl PathRule for PeckLongerThanHole {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn concerns(&self, program: &Uses<'_>) -> bool {
         program.may(is_peck)
     }
@@ -55,6 +66,10 @@ impl PathRule for PeckLongerThanHole {
     fn moved(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
         let Event::Travel(travel) = event else { return };
         if travel.kind != TravelKind::Feed || !travel.expanded || !cx.has_effect(is_peck) {
+            return;
+        }
+        // The last peck of a hole is what is left of it.
+        if self.block.replace(cx.origin().at) == Some(cx.origin().at) {
             return;
         }
         let state = cx.state();
@@ -86,4 +101,22 @@ impl PathRule for PeckLongerThanHole {
 
 fn is_peck(effect: Effect) -> bool {
     matches!(effect, Effect::CyclePeck | Effect::CycleChipBreak)
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::check_rule;
+
+    #[test]
+    fn the_last_peck_is_what_is_left() {
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "G21 G17 G90 G94 G54 S2000 M3\nG0 X0 Y0 Z10\nG98 G83 Z-12 R2 Q3 F120\nX5\nG80\nM2\n",
+            &expect![[""]],
+        );
+    }
 }

@@ -1,13 +1,14 @@
 //! A turning cycle that starts inside its profile.
 
-use gcheck_controls::Effect;
+use gcheck_controls::{Effect, LetterSet};
 
 use crate::declare::declare_rule;
-use crate::facts::turning::{Profile, is_roughing, profile};
+use crate::facts::turning::{Point, Profile, is_roughing, profile};
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 
 declare_rule! {
-    /// The tool is inside the profile when a roughing cycle begins. The same holds for a start nearer to the centre than
+    /// The tool is inside the profile when a roughing cycle begins, or so near to the chuck that the first block of the profile
+    /// goes at rapid into the part; this also where the profile is finished. The same holds for a start nearer to the centre than
     /// the whole profile, if the profile is an outside one: its X grows toward the chuck, and the finishing allowance is
     /// that of an outside.
     ///
@@ -53,22 +54,30 @@ impl PathRule for TurningStartInsideProfile {
     }
 
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
-        if !cx.has_effect(is_roughing) {
+        let is_finish = cx.has_effect(|effect| effect == Effect::FinishProfile);
+        if !is_finish && !cx.has_effect(is_roughing) {
             return;
         }
         let along_x = cx.has_effect(|effect| effect == Effect::RoughAlongX);
         let Some(profile) = profile(cx) else { return };
+        if let Some(begin) = begin_behind_start(&profile).filter(|_| !along_x) {
+            behind_face(cx, &profile, begin, report);
+            return;
+        }
+        if is_finish {
+            return;
+        }
         if !along_x && is_below_outside(cx, &profile) {
             below_outside(cx, &profile, report);
             return;
         }
-        let level = |point: &crate::facts::turning::Point| if along_x { point.z } else { point.x };
+        let level = |point: &Point| if along_x { point.z } else { point.x };
         let mut cut = profile.points.iter().skip(1).filter(|point| !point.is_rapid);
         let (Some(first), Some(last)) = (profile.points.first(), cut.clone().next_back()) else { return };
         // Outward from the first block: the tool must be at the end of the profile, or beyond.
         let start = level(&profile.start);
         let outward = if level(first) <= start { 1.0 } else { -1.0 };
-        let beyond = |point: &crate::facts::turning::Point| (level(point) - start) * outward;
+        let beyond = |point: &Point| (level(point) - start) * outward;
         let Some(worst) = cut.find(|point| beyond(point) > SLACK) else { return };
         // A profile that begins outside the tool, or runs the other way, is not judged.
         if beyond(first) > 0.0 || beyond(last) <= 0.0 {
@@ -83,6 +92,32 @@ impl PathRule for TurningStartInsideProfile {
                 .help("move outside the stock before the cycle"),
         );
     }
+}
+
+/// The point that the profile comes back out to, where its first block goes at rapid into the part: toward the centre, nearer
+/// to the chuck than the face at which it begins.
+fn begin_behind_start(profile: &Profile) -> Option<&Point> {
+    let Profile { start, points, first_axes } = profile;
+    let (first, begin) = (points.first()?, points.get(1)?);
+    let across = !first_axes.intersects(LetterSet::of("ZW")) && first.is_rapid && first.x < start.x - SLACK;
+    let is_outside = points.iter().all(|point| point.x <= start.x + SLACK);
+    let goes_on = points.iter().skip(2).all(|point| point.z <= begin.z + SLACK);
+    (across && is_outside && goes_on && begin.z > start.z + SLACK && !begin.is_rapid).then_some(begin)
+}
+
+fn behind_face(cx: &PathCx<'_>, profile: &Profile, begin: &Point, report: &mut Report<'_>) {
+    let z = trimmed(profile.start.z);
+    let Some(first) = profile.points.first() else { return };
+    report.add(
+        cx.finding(&META, cx.range(), format!("the turning cycle starts inside its profile (`Z{z}`)"))
+            .label("the tool is nearer to the chuck than the begin of the profile")
+            .also(
+                first.range.clone(),
+                format!("goes at rapid to `X{}` there, into the part", trimmed(first.x)),
+            )
+            .also(begin.range.clone(), format!("the profile begins at `Z{}`", trimmed(begin.z)))
+            .help(format!("start in front of `Z{}`", trimmed(begin.z))),
+    );
 }
 
 /// Is the start nearer to the centre than the whole of an outside profile?
@@ -126,6 +161,25 @@ mod tests {
 
     use super::RULE;
     use crate::testing::check_rule;
+
+    #[test]
+    fn a_finish_that_starts_behind_the_face() {
+        let program = |z: &str| {
+            format!(
+                "G20 G99 G54 T0101\nG97 S500 M3\nG0 X2.1 Z.1\nG71 P10 Q20 D.05 U.02 W.005 F.01\nN10 G0 X1.3\nG1 Z0. F.006\nX1.5 Z-.1\nZ-1.\nN20 X2.1\nG0 X2.1 Z{z}\nG70 P10 Q20\nM30\n"
+            )
+        };
+        check_rule(
+            &RULE,
+            "haas-lathe",
+            &program("-.1"),
+            &expect![[r#"
+            11 | G70 P10 Q20
+               | ^^^^^^^^^^^ warning[turning-start-inside-profile] the turning cycle starts inside its profile (`Z-0.1`)
+        "#]],
+        );
+        check_rule(&RULE, "haas-lathe", &program(".1"), &expect![[""]]);
+    }
 
     #[test]
     fn a_start_where_the_facing_ended() {

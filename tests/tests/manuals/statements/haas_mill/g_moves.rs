@@ -322,12 +322,12 @@ pub(crate) const CHAPTER: Chapter = Chapter {
             "rule `full-circle-by-radius`",
             &[
                 Rule {
-                    finding: "warning[full-circle-by-radius]",
+                    finding: "error[full-circle-by-radius]",
                     violates: cut!("G2 R1. F10.\n"),
                     conforms: cut!("G2 I1. F10.\n"),
                 },
                 Rule {
-                    finding: "warning[full-circle-by-radius]",
+                    finding: "error[full-circle-by-radius]",
                     violates: cut!("G2 X0. Y0. R1. F10.\n"),
                     conforms: cut!("G2 X1. Y1. R1. F10.\n"),
                 },
