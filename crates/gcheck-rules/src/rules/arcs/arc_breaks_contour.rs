@@ -197,8 +197,11 @@ impl Forms {
             // The centre on the other side of the chord.
             let mirrored = mirror(centre, start, chord);
             vec![(Other::Way, directions(mirrored, -way)), (Other::Sign, directions(mirrored, way))]
-        } else {
+        } else if arc.sweep.abs() > std::f64::consts::PI {
             vec![(Other::Way, directions(centre, -way))]
+        } else {
+            // A path that comes back on the arc before it would be smooth the long way round.
+            Vec::new()
         };
         Some(Self { own: directions(centre, way), others, chord: length })
     }
@@ -276,6 +279,16 @@ mod tests {
 
     fn program(moves: &str) -> String {
         format!("G21 G17 G90 G54 S3000 M3\nG0 X0. Y0. Z-2.\n{moves}G0 Z50.\nM30\n")
+    }
+
+    #[test]
+    fn arcs_to_and_fro_are_meant() {
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "G21 G19 G90 G94 G54 S3000 M3\nG0 X0. Y6. Z-12.\nG3 X1. Y-12. Z6. J-18. K0. F300.\nG2 X2. Y6. Z-12. J0. K-18.\nG3 X3. Y-12. Z6. J-18. K0.\nG17 G1 Y25.\nG0 Z50.\nM30\n",
+            &expect![[""]],
+        );
     }
 
     #[test]
