@@ -215,7 +215,31 @@ fn keep(fuzzer: &Path, target: &str) -> anyhow::Result<()> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Ran, read};
+    use std::fs;
+
+    use super::{Ran, folder, read};
+    use crate::workspace;
+
+    /// The lock file of the fuzzer is its own: a crate of ours that is not in it fails `cargo xtask fuzz`, which no test runs.
+    #[test]
+    fn the_lock_of_the_fuzzer_knows_what_our_crates_use() {
+        let table =
+            |path: std::path::PathBuf| fs::read_to_string(path).unwrap().parse::<toml::Table>().unwrap();
+        let lock = table(folder().join("Cargo.lock"));
+        let packages = lock["package"].as_array().unwrap();
+        let ours = packages.iter().filter_map(|package| package["name"].as_str());
+        for name in ours.filter(|name| name.starts_with("gcheck-") && *name != "gcheck-fuzzer") {
+            let manifest = table(workspace::root().join("crates").join(name).join("Cargo.toml"));
+            let used = manifest.get("dependencies").and_then(|used| used.as_table()).into_iter().flatten();
+            for (used, _) in used.filter(|(used, _)| used.starts_with("gcheck-")) {
+                let is_locked = packages.iter().any(|package| package["name"].as_str() == Some(used));
+                assert!(
+                    is_locked,
+                    "{name} uses {used}: `cargo metadata --manifest-path fuzz/Cargo.toml` locks it"
+                );
+            }
+        }
+    }
 
     #[test]
     fn the_last_counts_are_what_a_run_did() {
