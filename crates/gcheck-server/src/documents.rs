@@ -45,10 +45,21 @@ pub(crate) struct Document {
     pub(crate) too_long: Option<u64>,
     /// What its run amounted to, and the clock then.
     pub(crate) figures: Option<(u64, Arc<RunFigures>)>,
-    /// A run of it is under way.
-    pub(crate) is_running: bool,
+    /// The run for its figures that is under way.
+    pub(crate) run: FiguresRun,
     /// When it was changed last, compared with others.
     pub(crate) touched: u64,
+}
+
+/// Is a run for the figures of a document under way?
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum FiguresRun {
+    /// No.
+    Idle,
+    /// Yes.
+    UnderWay,
+    /// Yes, of a text that has changed since; figures of the new one were asked for.
+    AskedAgain,
 }
 
 /// What of a document's settings has to be asked for again.

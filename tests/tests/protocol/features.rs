@@ -352,6 +352,35 @@ fn a_run_for_lenses_ends_with_the_edit_that_outdates_it() {
     assert!(!lenses.as_array().unwrap().is_empty(), "{lenses}");
 }
 
+#[test]
+fn lenses_asked_for_during_an_outdated_run_are_renewed() {
+    let mut capabilities = usual();
+    capabilities["workspace"]["codeLens"] = json!({ "refreshSupport": true });
+    let mut session = Session::with(&capabilities, &[]);
+    session.open("a.nc", "(gcheck: control=haas-mill)\nO1\nG54 G90 G21\nG4 P1.\nM30\n");
+    let document = session.document("a.nc");
+    let title = |lenses: &Value| lenses[0]["command"]["title"].clone();
+    let first = ask(&mut session, "textDocument/codeLens", document.clone());
+    assert_eq!(title(&first), "0:01 in all");
+    // Now it would run until its fuel is spent.
+    session.edit("a.nc", 2, [3, 0, 3, 6], "N1 G91 G0 X1.\nGOTO 1");
+    assert_eq!(ask(&mut session, "textDocument/codeLens", document.clone()), first);
+    session.edit("a.nc", 3, [3, 0, 4, 6], "G4 P2.");
+    ask(&mut session, "textDocument/codeLens", document.clone());
+    // The client does not ask again by itself: it is told when there is something new.
+    let refreshed = |session: &Session| {
+        session.client.requests.iter().any(|asked| asked["method"] == "workspace/codeLens/refresh")
+    };
+    let start = Instant::now();
+    while !refreshed(&session) && start.elapsed() < Duration::from_secs(10) {
+        let at = session.at("a.nc", 0, 0);
+        session.client.request("textDocument/hover", at);
+    }
+    let second = ask(&mut session, "textDocument/codeLens", document);
+    assert_eq!(title(&second), "0:02 in all");
+    assert!(refreshed(&session));
+}
+
 fn actions(session: &mut Session, range: [u32; 4], only: Option<&str>) -> Vec<Value> {
     let mut params = session.document("a.nc");
     params["range"] = range_of(range);

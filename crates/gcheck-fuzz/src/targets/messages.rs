@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::{self, JoinHandle};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use gcheck_controls::fallback;
 use gcheck_db::Settings;
@@ -22,6 +22,8 @@ use crate::programs;
 const FOLDER: &str = "/work";
 /// An answer that takes longer is missing.
 const PATIENCE: Duration = Duration::from_secs(20);
+/// Before what may be out of date is asked for again.
+const BETWEEN_QUESTIONS: Duration = Duration::from_millis(1);
 /// Messages of an input.
 const MOST: usize = 40;
 
@@ -145,20 +147,34 @@ impl Session {
         }
     }
 
-    /// Ends the session; gives every message of the server.
-    fn end(mut self) -> Vec<Value> {
+    /// The answers to questions, in their order.
+    fn answers(&mut self, questions: &[(&str, Value)]) -> Vec<Value> {
+        let first = u64::from(self.sent) + 1;
+        for (method, params) in questions {
+            self.request(method, params);
+        }
+        self.wait();
+        let answer = |id: u64| self.said.iter().find(|message| answer_to(message) == Some(id));
+        let ids = first..=u64::from(self.sent);
+        ids.map(|id| answer(id).and_then(|message| message.get("result")).cloned().unwrap_or_default())
+            .collect()
+    }
+
+    /// Ends the session; gives every request with the number of its answers.
+    fn end(mut self) -> Vec<(u64, usize)> {
         // A client that says `exit` does not wait for what it asked before.
         self.wait();
         self.request("shutdown", &Value::Null);
         self.wait();
         self.notify("exit", &Value::Null);
-        let Self { input, output, server, mut said, .. } = self;
+        let Self { input, output, server, sent, mut said } = self;
         drop(input);
         let ended = server.join();
         assert!(matches!(ended, Ok(Ok(Ending::Orderly))), "the session ends as it should: {ended:?}");
         // The stream ends when no thread of the server is left.
         said.extend(output);
-        said
+        let answers = |id: u64| said.iter().filter(|message| answer_to(message) == Some(id)).count();
+        (1..=u64::from(sent)).map(|id| (id, answers(id))).collect()
     }
 }
 
@@ -233,54 +249,54 @@ pub(crate) fn run(bytes: &[u8]) {
         let Some(text) = texts.get_mut(at) else { continue };
         step(&mut session, &mut choices, &files, name, text, version);
     }
-    let asked = session.sent + 1;
-    let mut answered = Vec::new();
-    let last: Vec<Value> = finish(session, &texts, &mut answered);
-    for (id, count) in answered.iter().enumerate().skip(1) {
-        assert_eq!(*count, 1, "request {id} of {asked} has so many answers");
-    }
     let Ok(mut fresh) = Session::new(files) else { return };
     for (name, text) in DOCUMENTS.iter().zip(&texts) {
         if let Some(text) = text {
             fresh.notify("textDocument/didOpen", &opened(name, 1, text));
         }
     }
-    let mut answered = Vec::new();
-    assert_eq!(last, finish(fresh, &texts, &mut answered), "the server knows what a fresh one does");
+    let expected = fresh.answers(&at_once(&texts));
+    assert_eq!(session.answers(&at_once(&texts)), expected, "the server knows what a fresh one does");
+    // Those of the last run are shown until the next is over.
+    let expected = fresh.answers(&in_the_end(&texts));
+    let since = Instant::now();
+    let mut last = session.answers(&in_the_end(&texts));
+    while last != expected && since.elapsed() < PATIENCE {
+        thread::sleep(BETWEEN_QUESTIONS);
+        last = session.answers(&in_the_end(&texts));
+    }
+    assert_eq!(last, expected, "the server comes to know what a fresh one does");
+    for session in [session, fresh] {
+        let asked = session.sent + 1;
+        for (id, count) in session.end() {
+            assert_eq!(count, 1, "request {id} of {asked} has so many answers");
+        }
+    }
 }
 
-/// Asks what must be equal in the end; gives the answers, and counts those to every request.
-fn finish(mut session: Session, texts: &[Option<String>], answered: &mut Vec<usize>) -> Vec<Value> {
-    let first = session.sent + 1;
-    for (name, text) in DOCUMENTS.iter().zip(texts) {
-        let Some(text) = text else { continue };
-        for method in [
-            "gcheck/syntaxTree",
-            "textDocument/foldingRange",
-            "textDocument/documentSymbol",
-            "textDocument/codeLens",
-        ] {
-            session.request(method, &json!({ "textDocument": { "uri": uri(name) } }));
+/// Questions whose answers are of the text as it is.
+fn at_once(texts: &[Option<String>]) -> Vec<(&'static str, Value)> {
+    let mut questions = Vec::new();
+    for (name, text) in open(texts) {
+        for method in ["gcheck/syntaxTree", "textDocument/foldingRange", "textDocument/documentSymbol"] {
+            questions.push((method, json!({ "textDocument": { "uri": uri(name) } })));
         }
-        let line = text.lines().count() / 2;
-        session.request(
-            "textDocument/hover",
-            &json!({ "textDocument": { "uri": uri(name) }, "position": { "line": line, "character": 1 } }),
-        );
+        let place = json!({ "line": text.lines().count() / 2, "character": 1 });
+        let hover = json!({ "textDocument": { "uri": uri(name) }, "position": place });
+        questions.push(("textDocument/hover", hover));
     }
-    answered.resize(session.sent as usize + 2, 0);
-    let mut last = vec![Value::Null; (session.sent + 1 - first) as usize];
-    for message in session.end() {
-        let Some(id) = answer_to(&message) else { continue };
-        let id = id as usize;
-        if let Some(count) = answered.get_mut(id) {
-            *count += 1;
-        }
-        if let Some(slot) = id.checked_sub(first as usize).and_then(|at| last.get_mut(at)) {
-            *slot = message.get("result").cloned().unwrap_or_default();
-        }
-    }
-    last
+    questions
+}
+
+/// Questions whose answers are of the text as it was until a run of it is over.
+fn in_the_end(texts: &[Option<String>]) -> Vec<(&'static str, Value)> {
+    open(texts)
+        .map(|(name, _)| ("textDocument/codeLens", json!({ "textDocument": { "uri": uri(name) } })))
+        .collect()
+}
+
+fn open(texts: &[Option<String>]) -> impl Iterator<Item = (&'static str, &String)> {
+    DOCUMENTS.iter().zip(texts).filter_map(|(name, text)| Some((*name, text.as_ref()?)))
 }
 
 fn uri(name: &str) -> String {

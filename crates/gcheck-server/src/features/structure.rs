@@ -8,6 +8,7 @@ use gcheck_db::Snapshot;
 use gcheck_ide::{FoldKind, InlayKind, RunFigures, Symbol};
 
 use super::{LARGE, given_up, markdown, within};
+use crate::documents::FiguresRun;
 use crate::mailbox::{Kind, Reply};
 use crate::owner::Owner;
 use crate::position::Places;
@@ -220,10 +221,11 @@ impl Owner {
         reply: Option<Reply<Option<Vec<CodeLens>>>>,
     ) {
         let Some(document) = self.documents.get_mut(uri) else { return };
-        if document.is_running && reply.is_none() {
+        if document.run != FiguresRun::Idle && reply.is_none() {
+            document.run = FiguresRun::AskedAgain;
             return;
         }
-        document.is_running = true;
+        document.run = FiguresRun::UnderWay;
         let clock = document.clock.clone();
         let (uri, now) = (uri.clone(), clock.now());
         let (mailbox, encoding) = (self.mailbox.clone(), self.abilities.encoding);
@@ -235,34 +237,41 @@ impl Owner {
                 if let Some(reply) = reply {
                     reply.send(Err(Error::content_modified()));
                 }
-                mailbox.post("figures", Kind::Result, move |owner| owner.have_no_figures(&uri));
+                mailbox.post("figures", Kind::Result, move |owner| owner.run_has_ended(&uri));
                 return;
             };
             let figures = Arc::new(figures);
-            let is_shown = reply.is_some();
+            let (kept, is_shown) = (Arc::clone(&figures), reply.is_some());
+            // They are kept before the client hears of them: what it asks next finds them.
+            mailbox.post("figures", Kind::Result, move |owner| {
+                owner.put_figures(&uri, now, kept, is_shown);
+            });
             if let Some(reply) = reply {
                 reply.send(Ok(Some(lenses(&snapshot, &figures, encoding))));
             }
-            mailbox.post("figures", Kind::Result, move |owner| {
-                owner.put_figures(&uri, now, figures, is_shown);
-            });
         });
-    }
-
-    /// The run was given up: the next who asks starts another.
-    fn have_no_figures(&mut self, uri: &Uri) {
-        if let Some(document) = self.documents.get_mut(uri) {
-            document.is_running = false;
-        }
     }
 
     fn put_figures(&mut self, uri: &Uri, at: u64, figures: Arc<RunFigures>, is_shown: bool) {
         let Some(document) = self.documents.get_mut(uri) else { return };
-        document.is_running = false;
         let is_news = document.figures.as_ref().is_none_or(|(_, known)| *known != figures);
         document.figures = Some((at, figures));
         if is_news && !is_shown && self.abilities.refreshes_lenses {
             self.outbox.ask::<CodeLensRefresh>((), |_| ());
+        }
+        self.run_has_ended(uri);
+    }
+
+    /// A client that asked while an outdated run was under way got old figures, and does not ask again by itself.
+    fn run_has_ended(&mut self, uri: &Uri) {
+        let Some(document) = self.documents.get_mut(uri) else { return };
+        let ended = std::mem::replace(&mut document.run, FiguresRun::Idle);
+        let is_old = document.figures.as_ref().is_none_or(|(at, _)| *at != document.clock.now());
+        if ended == FiguresRun::AskedAgain
+            && is_old
+            && let Ok(snapshot) = self.snapshot(uri)
+        {
+            self.run_for_figures(uri, snapshot, None);
         }
     }
 }

@@ -8,7 +8,7 @@ use gcheck_db::Snapshot;
 
 use super::{Owner, fallback_settings};
 use crate::client::Moment;
-use crate::documents::{Clock, Document, Stale};
+use crate::documents::{Clock, Document, FiguresRun, Stale};
 use crate::proto::{
     DidChangeTextDocumentParams, DidCloseTextDocumentParams, DidOpenTextDocumentParams,
     DidSaveTextDocumentParams, MessageType, TextDocumentContentChangeEvent, Uri, WorkspaceDiagnosticRefresh,
@@ -58,7 +58,7 @@ impl Owner {
             failed: None,
             too_long: None,
             figures: None,
-            is_running: false,
+            run: FiguresRun::Idle,
             touched,
             path,
         };
