@@ -3,10 +3,14 @@
 //! Knows: which tool cuts, its teeth and ranges, the speed of the spindle. Must not know: any rule, which figures are sensible.
 
 use gcheck_controls::Effect;
-use gcheck_engine::{Abstract, Cutting, Domain, Role, Spindle, Truth, Units};
+use gcheck_engine::{
+    Abstract, At, Axis, Cutting, Domain, Fact, FeedMode, Position, Role, Spindle, Truth, Units,
+};
+use gcheck_geometry::Mm;
 
 use crate::PathCx;
 use crate::facts::offset_schemes::whole;
+use crate::facts::reach::feed;
 
 /// The tool in the spindle, with how it cuts; `None` where it is not known, or nothing is configured of it.
 pub(crate) fn cutting<'c>(cx: &PathCx<'c>) -> Option<(u32, &'c Cutting)> {
@@ -23,9 +27,37 @@ pub(crate) fn turns(cx: &PathCx<'_>) -> Option<f64> {
     Abstract::known(state.speed()).filter(|turns| *turns > 0.0 && is_turning && !is_surface && !is_live)
 }
 
-/// Is the feed one number on every path?
-pub(crate) fn is_one_feed(cx: &PathCx<'_>) -> bool {
-    Abstract::known(cx.state().feed()).is_some()
+/// The feed for each turn of the spindle, millimetres, and its speed, 1/min: where both are one number.
+pub(crate) fn feed_per_turn(cx: &PathCx<'_>) -> Option<(f64, f64)> {
+    Abstract::known(cx.state().feed())?;
+    let (turns, (feed, mode)) = (turns(cx)?, feed(cx)?);
+    match mode {
+        FeedMode::PerMinute => Some((feed / turns, turns)),
+        FeedMode::PerRevolution => Some((feed, turns)),
+        FeedMode::InverseTime => None,
+    }
+}
+
+/// The block that gave feed or speed, whichever is later.
+pub(crate) fn feed_or_speed_set_by(cx: &PathCx<'_>) -> Option<At> {
+    [Fact::Feed, Fact::Speed].into_iter().filter_map(|fact| cx.trace().set_by(fact)).max()
+}
+
+/// Does a move go at least as far across the tool as along it?
+pub(crate) fn goes_across(from: &Position, to: &Position) -> bool {
+    let way = |axis| match (from.get(axis), to.get(axis)) {
+        (Some(from), Some(to)) => (to - from).abs(),
+        _ => 0.0,
+    };
+    let across = way(Axis::X).hypot(way(Axis::Y));
+    across > 0.0 && across >= way(Axis::Z)
+}
+
+/// The tool in the spindle with its diameter, where both are known.
+pub(crate) fn diameter(cx: &PathCx<'_>) -> Option<(u32, Mm)> {
+    let tool = Abstract::known(cx.state().tool()).and_then(whole)?;
+    let diameter = cx.state().tables().tool(tool)?.size();
+    (diameter.0 > 0.0).then_some((tool, diameter))
 }
 
 /// A small length in the units of the program.

@@ -11,7 +11,7 @@ use gcheck_geometry::Plane;
 
 use crate::facts::parting::Parting;
 use crate::facts::tool_words::ToolWords;
-use crate::facts::turning::{is_roughing, turns};
+use crate::facts::turning::{is_roughing, turns_the_part};
 use crate::{PathCx, remembers};
 
 /// X as a radius, and Z: millimetres.
@@ -78,12 +78,7 @@ struct Chain {
 impl Turned {
     /// Is everything known that was cut up to here, and does the part turn under a tool that does not?
     pub(crate) fn knows(&self, cx: &PathCx<'_>) -> bool {
-        !self.blind
-            && turns(cx)
-            && self.frame.is_some()
-            && self.frame == frame(cx)
-            && cx.state().plane(cx.model) == Some(Plane::Zx)
-            && cx.state().live_tool() == Truth::False
+        !self.blind && self.frame.is_some() && self.frame == frame(cx) && turns_the_part(cx)
     }
 
     /// Nothing can be known any more.

@@ -8,7 +8,8 @@ use std::ops::Range;
 use crate::facts::offset_schemes::whole;
 use crate::{PathCx, Uses};
 use gcheck_controls::{Effect, LetterSet, Machine};
-use gcheck_engine::{At, Axis, Fact, Role};
+use gcheck_engine::{At, Axis, Fact, Role, Truth};
+use gcheck_geometry::Plane;
 use gcheck_program::{BlockFlags, Place};
 
 /// A profile that can be read.
@@ -65,6 +66,12 @@ pub(crate) fn is_turned(program: &Uses<'_>) -> bool {
 /// Does the program turn: the control is a lathe's, or the program has said what X counts?
 pub(crate) fn turns(cx: &PathCx<'_>) -> bool {
     cx.control().machine() == Machine::Lathe || cx.trace().set_by(Fact::Mode(Role::Diameter)).is_some()
+}
+
+/// Does the part turn under a tool that does not, in the plane of X and Z?
+pub(crate) fn turns_the_part(cx: &PathCx<'_>) -> bool {
+    let state = cx.state();
+    turns(cx) && state.plane(cx.model) == Some(Plane::Zx) && state.live_tool() == Truth::False
 }
 
 /// Does the code remove material layer by layer down to a profile?

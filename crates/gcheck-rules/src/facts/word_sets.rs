@@ -4,6 +4,9 @@
 
 use gcheck_controls::{Code, Control, GroupIx, Handling, LetterSet, Motion};
 
+/// Words of cylindrical mapping that need a rotary axis beside them.
+pub(crate) const NEED_A_ROTARY_AXIS: LetterSet = LetterSet::of("XYZQR");
+
 /// Addresses for people: "`I`, `J` or `R`".
 pub(crate) fn choice(letters: LetterSet) -> String {
     let names: Vec<String> = letters.iter().map(|letter| format!("`{letter}`")).collect();

@@ -1,12 +1,12 @@
 //! A peck that is longer than the hole.
 
 use gcheck_controls::{Effect, Letter};
-use gcheck_engine::{Abstract, At, Axis, Domain, Event, TravelKind};
+use gcheck_engine::{At, Axis, Event, TravelKind};
 use gcheck_geometry::Mm;
 
 use crate::declare::declare_rule;
 use crate::facts::cycles::cycle_range;
-use crate::facts::offset_schemes::whole;
+use crate::facts::edge;
 use crate::{PathCx, PathRule, Report, Run, Severity, Uses, Watch};
 use crate::{Remembers, remembers};
 
@@ -72,9 +72,8 @@ impl PathRule for PeckLongerThanHole {
         if self.block.replace(cx.origin().at) == Some(cx.origin().at) {
             return;
         }
-        let state = cx.state();
         // The words of this block: other rules report a cycle that uses those of an earlier one.
-        let (Some(q), Some(unit)) = (cx.known_number('Q'), state.units(cx.model)) else { return };
+        let (Some(q), Some(unit)) = (cx.known_number('Q'), cx.state().units(cx.model)) else { return };
         let is_length = cx.word('Q').is_some_and(|word| word.shape.point)
             || cx.control().numbers().unpointed == gcheck_controls::Unpointed::AsWritten;
         let depth = travel.from.raw(Axis::Z) - travel.to.raw(Axis::Z);
@@ -84,9 +83,8 @@ impl PathRule for PeckLongerThanHole {
         if !is_longer || cx.origin().letters.contains(Letter::of('I')) {
             return;
         }
-        let tool = Abstract::known(state.tool()).and_then(whole).and_then(|tool| state.tables().tool(tool));
-        let diameter = tool.map(|tool| tool.size().0).filter(|diameter| *diameter > 0.0);
-        if diameter.is_some_and(|diameter| depth <= diameter * FREE) {
+        let diameter = edge::diameter(cx);
+        if diameter.is_some_and(|(_, diameter)| depth <= diameter.0 * FREE) {
             return;
         }
         let letter = Letter::of('Q');

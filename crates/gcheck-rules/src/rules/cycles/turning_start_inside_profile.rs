@@ -110,7 +110,7 @@ fn behind_face(cx: &PathCx<'_>, profile: &Profile, begin: &Point, report: &mut R
     let Some(first) = profile.points.first() else { return };
     report.add(
         cx.finding(&META, cx.range(), format!("the turning cycle starts inside its profile (`Z{z}`)"))
-            .label("the tool is nearer to the chuck than the begin of the profile")
+            .label("the tool is nearer to the chuck than the start of the profile")
             .also(
                 first.range.clone(),
                 format!("goes at rapid to `X{}` there, into the part", trimmed(first.x)),

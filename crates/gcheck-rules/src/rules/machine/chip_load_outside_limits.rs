@@ -2,11 +2,10 @@
 
 use std::collections::BTreeSet;
 
-use gcheck_engine::{At, Axis, Event, Fact, FeedMode, Position, TravelKind};
+use gcheck_engine::{At, Event, Fact, Position, TravelKind};
 
 use crate::declare::declare_rule;
 use crate::facts::edge;
-use crate::facts::reach;
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 use crate::{Remembers, remembers};
 
@@ -72,23 +71,18 @@ impl PathRule for ChipLoadOutsideLimits {
             _ => return,
         };
         let Some((tool, cutting)) = edge::cutting(cx) else { return };
-        let (Some((low, high)), Some(turns)) = (cutting.chip_load, edge::turns(cx)) else { return };
-        let Some((feed, mode)) = reach::feed(cx).filter(|_| edge::is_one_feed(cx)) else { return };
-        let per_turn = match mode {
-            FeedMode::PerMinute => feed / turns,
-            FeedMode::PerRevolution => feed,
-            FeedMode::InverseTime => return,
+        let (Some((low, high)), Some((per_turn, turns))) = (cutting.chip_load, edge::feed_per_turn(cx))
+        else {
+            return;
         };
         let Some(load) = cutting.load(per_turn) else { return };
         // Numbers are rounded, and so are the limits.
         let above = load.0 > high * 1.005;
-        let below = load.0 < low * 0.995 && goes_across(from, to);
+        let below = load.0 < low * 0.995 && edge::goes_across(from, to);
         if !above && !below {
             return;
         }
-        let set_by =
-            [Fact::Feed, Fact::Speed].map(|fact| cx.trace().set_by(fact)).into_iter().max().flatten();
-        if !self.told.insert(set_by) {
+        if !self.told.insert(edge::feed_or_speed_set_by(cx)) {
             return;
         }
         let limit = if above { high } else { low };
@@ -113,15 +107,6 @@ impl PathRule for ChipLoadOutsideLimits {
 }
 
 /// Does the tool move at least as far across as along itself?
-fn goes_across(from: &Position, to: &Position) -> bool {
-    let way = |axis| match (from.get(axis), to.get(axis)) {
-        (Some(from), Some(to)) => (to - from).abs(),
-        _ => 0.0,
-    };
-    let across = way(Axis::X).hypot(way(Axis::Y));
-    across > 0.0 && across >= way(Axis::Z)
-}
-
 #[cfg(test)]
 mod tests {
     use expect_test::expect;

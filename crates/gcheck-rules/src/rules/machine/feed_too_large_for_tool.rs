@@ -1,14 +1,12 @@
 //! A feed for each turn that no milling cutter of this diameter bears.
 
-use gcheck_controls::Effect;
-use gcheck_engine::{Abstract, At, Axis, Domain, Event, Fact, FeedMode, Role, TravelKind};
+use gcheck_engine::{At, Event, Fact, TravelKind};
 use gcheck_geometry::Mm;
 
 use crate::declare::declare_rule;
 use crate::facts::cycles::is_cycle;
-use crate::facts::offset_schemes::whole;
+use crate::facts::edge;
 use crate::facts::tool_comment::comment_of_tool;
-use crate::facts::{edge, reach};
 use crate::{PathCx, PathRule, Report, Run, Watch};
 use crate::{Remembers, remembers};
 
@@ -68,21 +66,15 @@ impl PathRule for FeedTooLargeForTool {
         if !cx.is_mill() || !goes_sideways(event) || cx.is_called_only() || cx.has_effect(is_cycle) {
             return;
         }
-        let state = cx.state();
-        let Some(tool) = Abstract::known(state.tool()).and_then(whole) else { return };
-        let Some(diameter) = state.tables().tool(tool).map(|tool| tool.size().0) else { return };
-        let (Some(turns), Some((feed, mode))) = (edge::turns(cx), reach::feed(cx)) else { return };
-        let per_turn = match mode {
-            FeedMode::PerMinute => feed / turns,
-            FeedMode::PerRevolution => feed,
-            FeedMode::InverseTime => return,
+        let (Some((tool, Mm(diameter))), Some((per_turn, turns))) =
+            (edge::diameter(cx), edge::feed_per_turn(cx))
+        else {
+            return;
         };
-        let is_too_large = diameter >= SMALLEST && per_turn > diameter * MOST && edge::is_one_feed(cx);
-        if !is_too_large || state.effect(Role::SpindleMode, cx.model) == Some(Effect::SurfaceSpeed) {
+        if diameter < SMALLEST || per_turn <= diameter * MOST {
             return;
         }
-        let set_by =
-            [Fact::Feed, Fact::Speed].map(|fact| cx.trace().set_by(fact)).into_iter().max().flatten();
+        let set_by = edge::feed_or_speed_set_by(cx);
         if set_by.is_none() || self.told == set_by {
             return;
         }
@@ -109,11 +101,11 @@ impl PathRule for FeedTooLargeForTool {
 
 /// Does the tool move at least as far across as along itself?
 fn goes_sideways(event: &Event) -> bool {
-    let Event::Travel(travel) = event else { return matches!(event, Event::Arc(arc) if !arc.expanded) };
-    let way = |axis| match (travel.from.get(axis), travel.to.get(axis)) {
-        (Some(from), Some(to)) => (to - from).abs(),
-        _ => 0.0,
-    };
-    let across = way(Axis::X).hypot(way(Axis::Y));
-    travel.kind == TravelKind::Feed && !travel.expanded && across > 0.0 && across >= way(Axis::Z)
+    match event {
+        Event::Travel(travel) => {
+            travel.kind == TravelKind::Feed && !travel.expanded && edge::goes_across(&travel.from, &travel.to)
+        }
+        Event::Arc(arc) => !arc.expanded,
+        _ => false,
+    }
 }

@@ -4,7 +4,7 @@ use gcheck_controls::{Code, Effect, Letter, LetterSet};
 use gcheck_program::{BlockFlags, Word};
 
 use crate::declare::declare_rule;
-use crate::facts::word_sets::choice;
+use crate::facts::word_sets::{NEED_A_ROTARY_AXIS, choice};
 use crate::{BlockCx, Finding, Reads, Report, Run, Severity, limit};
 
 declare_rule! {
@@ -38,8 +38,6 @@ declare_rule! {
     }
 }
 
-/// Words that need a rotary axis beside them.
-const OF_CYLINDER: LetterSet = LetterSet::of("XYZQR");
 const ROTARY: LetterSet = LetterSet::of("ABC");
 
 fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
@@ -53,7 +51,7 @@ fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
         return;
     }
     // A word with a variable may count as missing.
-    let is_given = |word: &&Word| OF_CYLINDER.contains(word.letter) && word.number().is_some();
+    let is_given = |word: &&Word| NEED_A_ROTARY_AXIS.contains(word.letter) && word.number().is_some();
     if let Some(word) = cx.words().iter().find(is_given)
         && cx.words_are_plain()
     {

@@ -1,11 +1,11 @@
 //! A facing cut that goes far beyond the centre of the part.
 
-use gcheck_engine::{Axis, Event, TravelKind, Truth};
-use gcheck_geometry::{Mm, Plane};
+use gcheck_engine::{Axis, Event, TravelKind};
+use gcheck_geometry::Mm;
 
 use crate::declare::declare_rule;
 use crate::facts::tool_words::ToolWords;
-use crate::facts::turning::{is_turned, turns};
+use crate::facts::turning::{is_turned, turns_the_part};
 use crate::{PathCx, PathRule, Report, Run, Severity, Uses, Watch};
 
 declare_rule! {
@@ -56,12 +56,8 @@ impl PathRule for FacedPastTheCentre {
 
     fn cut(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
         let Event::Travel(travel) = event else { return };
-        let state = cx.state();
-        let is_turning = turns(cx)
-            && state.plane(cx.model) == Some(Plane::Zx)
-            && state.live_tool() == Truth::False
-            && !cx.is_called_only();
-        if travel.kind != TravelKind::Feed || travel.expanded || !is_turning {
+        let is_own = travel.kind == TravelKind::Feed && !travel.expanded;
+        if !is_own || !turns_the_part(cx) || cx.is_called_only() {
             return;
         }
         let at = |axis| Some((travel.from.get(axis)?, travel.to.get(axis)?));
@@ -73,7 +69,7 @@ impl PathRule for FacedPastTheCentre {
         if words.may_bore() || words.drills() || words.needs_no_spindle() {
             return;
         }
-        let is_diameter = state.is_diameter(cx.model) == Some(true);
+        let is_diameter = cx.state().is_diameter(cx.model) == Some(true);
         let finding = cx
             .finding(&META, cx.letter_range('X'), "the cut across the face goes far beyond the centre")
             .label(format!("{} beyond the centre, measured as a radius", cx.shown(Mm(-to))))

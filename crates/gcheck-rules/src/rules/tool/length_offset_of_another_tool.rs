@@ -96,10 +96,11 @@ impl PathRule for LengthOffsetOfAnotherTool {
         let (tool, offset) = (Abstract::known(state.tool()), Abstract::known(state.h()));
         let (Some(tool), Some(offset)) = (tool.and_then(whole), offset.and_then(whole)) else { return };
         let letter = if by_t { 'T' } else { 'H' };
-        if tool != offset && !self.listed.contains(&offset) && listed(cx, offset).is_some() {
-            self.listed.insert(offset);
-        }
+        let of_list = &mut self.listed;
         self.pairs.add(tool, offset, cx.trace().set_by(Fact::Tool), || {
+            if tool != offset && listed(cx, offset).is_some() {
+                of_list.insert(offset);
+            }
             let (given, changed) = (cx.trace().set_by(Fact::Length), cx.trace().set_by(Fact::Tool));
             let given = given
                 .and_then(|at| Some((at, cx.find_word(at, |word| word.letter.ascii() == letter as u8)?)));

@@ -4,7 +4,7 @@ use gcheck_controls::{Code, Effect, Letter, LetterSet, Need, WordKind};
 use gcheck_engine::{Fault, FrameKind, Role};
 
 use crate::declare::declare_rule;
-use crate::facts::word_sets::choice;
+use crate::facts::word_sets::{NEED_A_ROTARY_AXIS, choice};
 use crate::{PathCx, PathRule, Report, Run, Severity, Watch, limit};
 
 declare_rule! {
@@ -56,7 +56,7 @@ impl PathRule for NeededWordMissing {
         let Some(code) = candidates.find(|code| code.reads().contains(letter)) else { return };
         if is_told_by_text(code, letter, cx.origin().letters)
             || code.effect() == Effect::CylinderMapping
-                && "XYZQR".chars().any(|own| cx.known_number(own).is_some())
+                && NEED_A_ROTARY_AXIS.iter().any(|own| cx.known_number(char::from(own.ascii())).is_some())
         {
             return;
         }
