@@ -61,7 +61,6 @@ pub(crate) struct Course<'c> {
     /// Of the last move.
     last: [Owner; 3],
     reached: Position,
-    refusal: Option<Refusal>,
 }
 
 impl<'c> Course<'c> {
@@ -75,13 +74,7 @@ impl<'c> Course<'c> {
             passed: VecDeque::with_capacity(REMEMBERED),
             last: [Owner::Plain; 3],
             reached: Position::UNKNOWN,
-            refusal: None,
         }
-    }
-
-    /// Why the points cannot be moved, as far as the run has shown.
-    pub(crate) fn refusal(&self) -> Option<&Refusal> {
-        self.refusal.as_ref()
     }
 
     /// The motion, once the units of the program are known.
@@ -97,23 +90,15 @@ impl<'c> Course<'c> {
         self.passed.clear();
     }
 
-    fn refuse(&mut self, block: &Executed<'_>, reason: impl Into<String>, help: Option<&str>) {
-        if self.refusal.is_none() {
-            let refusal = Refusal::at(block.start..block.end, reason).in_file(block.file);
-            self.refusal = Some(match help {
-                Some(help) => refusal.help(help),
-                None => refusal,
-            });
-        }
-    }
-
-    pub(crate) fn executed(&mut self, block: &Executed<'_>) {
+    /// # Errors
+    /// Why the points of the block cannot be moved.
+    pub(crate) fn executed(&mut self, block: &Executed<'_>) -> Result<(), Refusal> {
         let read = read(block.place, &block.facts, self.model);
         let before = self.owners;
         if block.is_selected {
-            self.selected(block, &read);
+            self.selected(block, &read)?;
         } else {
-            self.other(block, &read);
+            self.other(block, &read)?;
         }
         if self.passed.len() >= REMEMBERED {
             self.passed.pop_front();
@@ -129,34 +114,33 @@ impl<'c> Course<'c> {
             after: self.owners,
             level,
         });
+        Ok(())
     }
 
-    fn selected(&mut self, block: &Executed<'_>, read: &Read) {
+    fn selected(&mut self, block: &Executed<'_>, read: &Read) -> Result<(), Refusal> {
         match read.class {
-            Class::Moves | Class::Operation => self.selected_move(block, read),
+            Class::Moves | Class::Operation => self.selected_move(block, read)?,
             Class::Machine | Class::Reference => self.machine_point(read),
-            Class::Origin { by_point } => self.origin(block, by_point),
+            Class::Origin { by_point } => self.origin(block, by_point)?,
             Class::Mapping(role) => {
-                self.refuse(
-                    block,
-                    format!("{} begins here, and words do not say places under it", mapping_name(role)),
-                    None,
-                );
+                return Err(block.refusal(format!(
+                    "{} begins here, and words do not say places under it",
+                    mapping_name(role)
+                )));
             }
             Class::Computed => {
-                self.refuse(
-                    block,
-                    "a code of this block is computed, so what its words mean is not certain",
-                    None,
+                return Err(
+                    block.refusal("a code of this block is computed, so what its words mean is not certain")
                 );
             }
             Class::Call | Class::Other => {}
         }
+        Ok(())
     }
 
-    fn selected_move(&mut self, block: &Executed<'_>, read: &Read) {
+    fn selected_move(&mut self, block: &Executed<'_>, read: &Read) -> Result<(), Refusal> {
         if !read.has_places() {
-            return;
+            return Ok(());
         }
         let facts = &block.facts;
         if let Some(role) = facts.mapped {
@@ -164,20 +148,17 @@ impl<'c> Course<'c> {
                 "{} is in effect here, so the words do not say where the axes go",
                 mapping_name(role)
             );
-            return self.refuse(block, reason, Some("select lines outside of it"));
+            return Err(block.refusal(reason).help("select lines outside of it"));
         }
-        let Some((rigid, units)) = self.settled(block) else { return };
+        let (rigid, units) = self.settled(block)?;
         if facts.units != Some(units) {
             let reason = "this block is in another unit than the ones before it";
-            return self.refuse(
-                block,
-                reason,
-                Some("give the amounts with their unit, such as 10mm, or select lines of one unit"),
-            );
+            let help = "give the amounts with their unit, such as 10mm, or select lines of one unit";
+            return Err(block.refusal(reason).help(help));
         }
         if read.class == Class::Operation && !rigid.is_shift() {
             let reason = "the code of this block makes moves of its own, which do not turn with its words";
-            return self.refuse(block, reason, None);
+            return Err(block.refusal(reason));
         }
         for (_, meaning) in &read.words {
             match meaning {
@@ -194,64 +175,60 @@ impl<'c> Course<'c> {
                         "this block moves {} by an increment from a point that is not in the selection",
                         name(*axis)
                     );
-                    return self.refuse(
-                        block,
-                        reason,
-                        Some("begin the selection at a block that gives absolute coordinates"),
-                    );
+                    let help = "begin the selection at a block that gives absolute coordinates";
+                    return Err(block.refusal(reason).help(help));
                 }
                 Meaning::Direction if !rigid.is_shift() => {
-                    return self.refuse(block, "this block gives a direction, which is not turned", None);
+                    return Err(block.refusal("this block gives a direction, which is not turned"));
                 }
                 _ => {}
             }
         }
-        self.whole(block, read, &rigid);
+        self.whole(block, read, &rigid)
     }
 
     /// Are all coordinates given that the block needs to have moved?
-    fn whole(&mut self, block: &Executed<'_>, read: &Read, rigid: &Rigid) {
+    fn whole(&self, block: &Executed<'_>, read: &Read, rigid: &Rigid) -> Result<(), Refusal> {
         let begin = "begin the selection at the block that gives it, or before";
         if rigid.swaps() && (self.owner(0) == Owner::Moved) != (self.owner(1) == Owner::Moved) {
             let missing = if self.owner(0) == Owner::Moved { 'Y' } else { 'X' };
             let reason = format!(
                 "this block needs X and Y to be rotated, and no block of the selection has given {missing}"
             );
-            return self.refuse(block, reason, Some(begin));
+            return Err(block.refusal(reason).help(begin));
         }
         if !read.cuts {
-            return;
+            return Ok(());
         }
         let position = block.state.position();
         for (axis, letter) in LINEAR.iter().enumerate() {
             if !rigid.keeps(axis) && self.owner(axis) != Owner::Moved && !position.raw(*letter).is_nan() {
                 let reason =
                     format!("this block cuts, and no block of the selection has given {}", letter.name());
-                return self.refuse(block, reason, Some(begin));
+                return Err(block.refusal(reason).help(begin));
             }
         }
+        Ok(())
     }
 
     /// The motion in the units of the first block that it is asked for.
-    fn settled(&mut self, block: &Executed<'_>) -> Option<(Rigid, Units)> {
-        if self.rigid.is_none() {
-            let units = block.facts.units;
-            let diameter = block.facts.diameter.unwrap_or(false);
-            let rigid = units.and_then(|units| Some((Rigid::of(self.change, units, diameter)?, units)));
-            if rigid.is_none() {
-                self.refuse(block, "the unit of this block is not known", None);
-            }
-            self.rigid = rigid;
+    fn settled(&mut self, block: &Executed<'_>) -> Result<(Rigid, Units), Refusal> {
+        if let Some(settled) = self.rigid {
+            return Ok(settled);
         }
-        self.rigid
+        let diameter = block.facts.diameter.unwrap_or(false);
+        let rigid = |units| Some((Rigid::of(self.change, units, diameter)?, units));
+        let settled = block.facts.units.and_then(rigid);
+        self.rigid = settled;
+        settled.ok_or_else(|| block.refusal("the unit of this block is not known"))
     }
 
-    fn other(&mut self, block: &Executed<'_>, read: &Read) {
-        let Some((rigid, _)) = self.rigid else { return };
+    fn other(&mut self, block: &Executed<'_>, read: &Read) -> Result<(), Refusal> {
+        let Some((rigid, _)) = self.rigid else { return Ok(()) };
         match read.class {
             Class::Moves | Class::Operation if read.has_places() => {
-                if self.is_whole && self.goes_along_with(block, read, &rigid) {
-                    return;
+                if self.is_whole {
+                    return goes_along_with(block, read, &rigid);
                 }
                 let mut moves = read.class == Class::Operation || read.cuts;
                 for (_, meaning) in &read.words {
@@ -271,41 +248,17 @@ impl<'c> Course<'c> {
                         "this block is not in the selection and goes on from a moved point: it does not give {} as a coordinate",
                         name(axis)
                     );
-                    self.refuse(
-                        block,
-                        reason,
-                        Some("end the selection where the next block gives all moved axes, or extend it"),
-                    );
+                    let help = "end the selection where the next block gives all moved axes, or extend it";
+                    return Err(block.refusal(reason).help(help));
                 }
             }
             Class::Machine | Class::Reference => self.machine_point(read),
             Class::Origin { by_point } if self.owners.iter().any(|owner| *owner != Owner::Plain) => {
-                self.origin(block, by_point);
+                self.origin(block, by_point)?;
             }
             _ => {}
         }
-    }
-
-    /// Does a block of another file move with the whole program? Only increments do, and only along a shift.
-    fn goes_along_with(&mut self, block: &Executed<'_>, read: &Read, rigid: &Rigid) -> bool {
-        let stays = read.words.iter().any(|(_, meaning)| match meaning {
-            Meaning::Place { axis, incremental }
-            | Meaning::Height { axis, incremental }
-            | Meaning::Centre { axis, incremental } => {
-                !(rigid.keeps(*axis) || *incremental && rigid.is_shift())
-            }
-            Meaning::Vector { .. } | Meaning::Direction => !rigid.is_shift(),
-            Meaning::Feed | Meaning::Speed | Meaning::Other => false,
-        });
-        if stays {
-            let reason = "this block gives places, and it is in another file, which stays as it is";
-            self.refuse(
-                block,
-                reason,
-                Some("change that file as well, or select the lines of this one that go with the change"),
-            );
-        }
-        true
+        Ok(())
     }
 
     fn machine_point(&mut self, read: &Read) {
@@ -323,18 +276,17 @@ impl<'c> Course<'c> {
         }
     }
 
-    fn origin(&mut self, block: &Executed<'_>, by_point: bool) {
+    fn origin(&self, block: &Executed<'_>, by_point: bool) -> Result<(), Refusal> {
         let is_shift = matches!(self.change, Change::Translate(_));
         if by_point {
             let reason = "this block moves the zero of the program to or from where the tool is, and the tool is somewhere else then";
-            self.refuse(block, reason, None);
-        } else if !is_shift {
-            self.refuse(
-                block,
-                "this block shifts the zero of the program, and the shift is not turned with it",
-                None,
-            );
+            return Err(block.refusal(reason));
         }
+        if !is_shift {
+            let reason = "this block shifts the zero of the program, and the shift is not turned with it";
+            return Err(block.refusal(reason));
+        }
+        Ok(())
     }
 
     fn owner(&self, axis: usize) -> Owner {
@@ -342,9 +294,12 @@ impl<'c> Course<'c> {
     }
 
     /// An act as it is with the points moved.
-    pub(crate) fn act(&mut self, at: At, is_expanded: bool, act: Act) -> Act {
-        let Doing::Move(made) = &act.doing else { return act };
-        let Some((rigid, _)) = self.rigid else { return act };
+    ///
+    /// # Errors
+    /// When only a part of an arc moves.
+    pub(crate) fn act(&mut self, at: At, is_expanded: bool, act: Act) -> Result<Act, Refusal> {
+        let Doing::Move(made) = &act.doing else { return Ok(act) };
+        let Some((rigid, _)) = self.rigid else { return Ok(act) };
         let passed = self.passed.iter().rev().find(|passed| passed.at == at).copied();
         let mut owners = passed.map_or(self.last, |passed| passed.after);
         if let Some(passed) = &passed {
@@ -369,15 +324,15 @@ impl<'c> Course<'c> {
         let to = place(&rigid, &made.to, owners, &self.reached);
         let along = made.arc().filter(|arc| self.goes_along(&rigid, arc.plane(), owners));
         let arc = along.and_then(|arc| turned(&rigid, arc, &from, &to, owners));
-        if made.arc().is_some() && arc.is_none() && self.refusal.is_none() {
+        if made.arc().is_some() && arc.is_none() {
             let range = passed.map_or(0..0, |passed| passed.start..passed.end);
-            let reason = "the arc of this block does not move as a whole: its begin and its end are not both in the selection, or its plane becomes another one";
-            self.refusal = Some(Refusal::at(range, reason));
+            let reason = "the arc of this block does not move as a whole: its start and its end are not both in the selection, or its plane becomes another one";
+            return Err(Refusal::at(range, reason));
         }
         self.last = owners;
         self.reached = to;
         let doing = Doing::Move(Move::new(made.driven, from, to, arc));
-        Act { doing, ..act }
+        Ok(Act { doing, ..act })
     }
 
     /// Do both ends of an arc move alike?
@@ -389,6 +344,23 @@ impl<'c> Course<'c> {
         let both = [first, second];
         both.into_iter().all(is_same) && (both.into_iter().all(is_moved) || both.into_iter().all(is_plain))
     }
+}
+
+/// A block of another file moves with the whole program only where it gives increments, and only along a shift.
+fn goes_along_with(block: &Executed<'_>, read: &Read, rigid: &Rigid) -> Result<(), Refusal> {
+    let stays = read.words.iter().any(|(_, meaning)| match meaning {
+        Meaning::Place { axis, incremental }
+        | Meaning::Height { axis, incremental }
+        | Meaning::Centre { axis, incremental } => !(rigid.keeps(*axis) || *incremental && rigid.is_shift()),
+        Meaning::Vector { .. } | Meaning::Direction => !rigid.is_shift(),
+        Meaning::Feed | Meaning::Speed | Meaning::Other => false,
+    });
+    if !stays {
+        return Ok(());
+    }
+    let reason = "this block gives places, and it is in another file, which stays as it is";
+    let help = "change that file as well, or select the lines of this one that go with the change";
+    Err(block.refusal(reason).help(help))
 }
 
 /// A point whose coordinates are moved or not.

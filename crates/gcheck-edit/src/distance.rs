@@ -32,40 +32,20 @@ pub(crate) struct Distance<'c> {
     model: &'c Model<'c>,
     modal: Modal<'c>,
     blocks: BTreeMap<u32, Bases>,
-    refusal: Option<Refusal>,
 }
 
 impl<'c> Distance<'c> {
     pub(crate) fn new(to_increments: bool, model: &'c Model<'c>) -> Self {
-        Self {
-            to_increments,
-            model,
-            modal: Modal::new(Role::Distance, model),
-            blocks: BTreeMap::new(),
-            refusal: None,
-        }
+        Self { to_increments, model, modal: Modal::new(Role::Distance, model), blocks: BTreeMap::new() }
     }
 
     pub(crate) fn begin(&mut self) {
         self.modal.begin();
     }
 
-    pub(crate) fn refusal(&self) -> Option<&Refusal> {
-        self.refusal.as_ref()
-    }
-
-    pub(crate) fn executed(&mut self, block: &Executed<'_>) {
-        if self.refusal.is_none()
-            && let Err(refusal) = self.block(block)
-        {
-            self.refusal = Some(refusal);
-        }
-    }
-
-    fn block(&mut self, block: &Executed<'_>) -> Result<(), Refusal> {
+    pub(crate) fn executed(&mut self, block: &Executed<'_>) -> Result<(), Refusal> {
         let read = read(block.place, &block.facts, self.model);
-        let range = block.start..block.end;
-        let refuse = |reason: &str| Err(Refusal::at(range.clone(), reason).in_file(block.file));
+        let refuse = |reason: &str| Err(block.refusal(reason));
         let Some(was) = block.facts.incremental else {
             return refuse("whether words are increments here is not known");
         };

@@ -4,7 +4,7 @@
 
 use std::collections::BTreeMap;
 
-use gcheck_controls::{CodeIx, DwellWord, Effect, LetterSet, Unpointed};
+use gcheck_controls::{CodeIx, DwellWord, Effect, LetterSet};
 use gcheck_engine::{Axis, Event, Model, Position, Role, TravelKind, Units};
 use gcheck_program::{BlockFlags, Place};
 
@@ -39,16 +39,11 @@ pub(crate) struct Cycles<'c> {
     model: &'c Model<'c>,
     events: Vec<Event>,
     found: BTreeMap<u32, Expansion>,
-    refusal: Option<Refusal>,
 }
 
 impl<'c> Cycles<'c> {
     pub(crate) fn new(model: &'c Model<'c>) -> Self {
-        Self { model, events: Vec::new(), found: BTreeMap::new(), refusal: None }
-    }
-
-    pub(crate) fn refusal(&self) -> Option<&Refusal> {
-        self.refusal.as_ref()
+        Self { model, events: Vec::new(), found: BTreeMap::new() }
     }
 
     pub(crate) fn before(&mut self) {
@@ -61,35 +56,25 @@ impl<'c> Cycles<'c> {
         }
     }
 
-    fn refuse(&mut self, block: &Executed<'_>, reason: impl Into<String>) {
-        if self.refusal.is_none() {
-            self.refusal = Some(Refusal::at(block.start..block.end, reason));
-        }
-    }
-
-    pub(crate) fn executed(&mut self, block: &Executed<'_>) {
+    pub(crate) fn executed(&mut self, block: &Executed<'_>) -> Result<(), Refusal> {
         let expands = |event: &Event| match event {
             Event::Travel(travel) => travel.expanded,
             Event::RigidTap { .. } => true,
             _ => false,
         };
         if !block.is_selected || !block.facts.cycle.is_some() || !self.events.iter().any(expands) {
-            return;
+            return Ok(());
         }
         if self.events.len() > MOST_STROKES {
-            return self.refuse(block, format!("this block would become more than {MOST_STROKES} moves"));
+            return Err(block.refusal(format!("this block would become more than {MOST_STROKES} moves")));
         }
-        match self.strokes(block) {
-            Ok(strokes) => {
-                let new = Expansion { facts: block.facts, strokes };
-                let is_other = |old: &Expansion| !is_same(old, &new);
-                if self.found.get(&block.at.block).is_some_and(is_other) {
-                    self.refuse(block, "this block runs more than once and makes other moves each time");
-                }
-                self.found.insert(block.at.block, new);
-            }
-            Err(reason) => self.refuse(block, reason),
+        let strokes = self.strokes(block).map_err(|reason| block.refusal(reason))?;
+        let new = Expansion { facts: block.facts, strokes };
+        if self.found.get(&block.at.block).is_some_and(|old| !is_same(old, &new)) {
+            return Err(block.refusal("this block runs more than once and makes other moves each time"));
         }
+        self.found.insert(block.at.block, new);
+        Ok(())
     }
 
     fn strokes(&self, block: &Executed<'_>) -> Result<Vec<Stroke>, String> {
@@ -256,15 +241,13 @@ fn words(sheet: &Sheet<'_, '_>, from: &Position, to: &Position, facts: &Facts) -
         let value = Some(value).filter(|value| !value.is_nan())?;
         let value = if axis.is_rotary() { value } else { value / unit };
         let value = if axis == Axis::X && facts.diameter == Some(true) { value * 2.0 } else { value };
-        words.push(format!("{}{}", axis.name(), sheet.hand.write(form(sheet), value, decimals)));
+        words.push(format!(
+            "{}{}",
+            axis.name(),
+            sheet.hand.write(sheet.hand.form(sheet.model.control()), value, decimals)
+        ));
     }
     Some(words.join(sheet.hand.gap()))
-}
-
-/// A number in the form that the program's coordinates have.
-pub(crate) fn form(sheet: &Sheet<'_, '_>) -> &'static str {
-    let as_written = sheet.model.control().numbers().unpointed == Unpointed::AsWritten;
-    if sheet.hand.points() || !as_written { "1." } else { "1" }
 }
 
 /// A dwell as the control reads it.

@@ -9,7 +9,7 @@ use crate::change::Change;
 use crate::refusal::Refusal;
 use crate::run::{Executed, Visitor, run};
 use crate::scope::Scope;
-use crate::witness::Tracker;
+use crate::witness::Following;
 
 /// What a run came to.
 #[derive(Debug)]
@@ -32,11 +32,10 @@ pub fn expected(
     fuel: u64,
     emit: &mut dyn FnMut(Act) -> bool,
 ) -> Expected {
-    let tracker = Some(Tracker::new(change, scope, model));
-    let mut emitting = Emitting { tracker, emit, is_over: false };
+    let following = Some(Following::new(change, scope, model));
+    let mut emitting = Emitting { following, emit, is_over: false };
     let result = run(program, model, machine, options, fuel, scope, &mut emitting);
-    let refusal = emitting.tracker.as_ref().and_then(|tracker| tracker.refusal().cloned());
-    Expected { result, refusal }
+    Expected { result, refusal: emitting.following.and_then(|following| following.refusal) }
 }
 
 /// Runs a program and hands on its acts as they are; `emit` says whether it wants more.
@@ -48,20 +47,20 @@ pub fn plainly(
     fuel: u64,
     emit: &mut dyn FnMut(Act) -> bool,
 ) -> RunResult {
-    let mut emitting = Emitting { tracker: None, emit, is_over: false };
+    let mut emitting = Emitting { following: None, emit, is_over: false };
     run(program, model, machine, options, fuel, &Scope::All, &mut emitting)
 }
 
 struct Emitting<'c, 'e> {
-    tracker: Option<Tracker<'c>>,
+    following: Option<Following<'c>>,
     emit: &'e mut dyn FnMut(Act) -> bool,
     is_over: bool,
 }
 
 impl Visitor for Emitting<'_, '_> {
     fn executed(&mut self, block: &Executed<'_>) {
-        if let Some(tracker) = &mut self.tracker {
-            tracker.executed(block);
+        if let Some(following) = &mut self.following {
+            following.executed(block);
         }
     }
 
@@ -69,11 +68,11 @@ impl Visitor for Emitting<'_, '_> {
         if self.is_over {
             return;
         }
-        let act = match &mut self.tracker {
-            Some(tracker) => tracker.act(at, is_expanded, act),
-            None => act,
+        let act = match &mut self.following {
+            Some(following) => following.act(at, is_expanded, act),
+            None => Some(act),
         };
-        self.is_over = !(self.emit)(act);
+        self.is_over = act.is_none_or(|act| !(self.emit)(act));
     }
 
     fn unfollowed(&mut self, _: u32, _: u32, _: Option<&str>) {}

@@ -11,7 +11,7 @@ use gcheck_geometry::Plane;
 pub(crate) struct Facts {
     /// Words are increments; `None` unknown.
     pub(crate) incremental: Option<bool>,
-    /// Centres of arcs are points, else they count from the begin of the arc.
+    /// Centres of arcs are points, else they count from the start of the arc.
     pub(crate) centre_absolute: bool,
     pub(crate) plane: Option<Plane>,
     pub(crate) units: Option<Units>,
@@ -71,8 +71,9 @@ impl Facts {
     }
 }
 
+/// The tool in the spindle.
 #[expect(clippy::cast_sign_loss, reason = "tool numbers are not negative")]
-fn tool(state: &State<Concrete>) -> Option<u32> {
+pub(crate) fn tool(state: &State<Concrete>) -> Option<u32> {
     match state.tool() {
         ConcreteValue::Number(number) if *number >= 0.0 => Some(number.round() as u32),
         _ => None,

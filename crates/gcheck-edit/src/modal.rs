@@ -54,13 +54,12 @@ impl<'c> Modal<'c> {
         if self.current.is_none() && !has_code {
             self.current = Some(was);
         }
-        let range = block.start..block.end;
         let twice = "this block runs more than once, in another mode each time";
         if has_code {
             let new = if block.file.is_some() { was } else { needs.unwrap_or(otherwise) };
             self.current = Some(new);
             if block.file.is_none() && self.own.insert(number, new).is_some_and(|old| old != new) {
-                return Err(Refusal::at(range, twice));
+                return Err(block.refusal(twice));
             }
             return Ok(());
         }
@@ -71,11 +70,11 @@ impl<'c> Modal<'c> {
         if block.file.is_some() {
             let reason =
                 "this block is in another file, which stays as it is, and it would run in another mode";
-            return Err(Refusal::at(range, reason).in_file(block.file));
+            return Err(block.refusal(reason));
         }
         self.current = Some(needs);
         if self.inserted.insert(number, needs).is_some_and(|old| old != needs) {
-            return Err(Refusal::at(range, twice));
+            return Err(block.refusal(twice));
         }
         Ok(())
     }

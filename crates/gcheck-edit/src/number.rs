@@ -2,7 +2,7 @@
 //!
 //! Knows: points, zeros and signs as a program has them. Must not know: what a number counts.
 
-use gcheck_controls::Letter;
+use gcheck_controls::{Control, Letter, Unpointed};
 use gcheck_program::{Dialect, Loaded, Value};
 
 /// How a program writes its numbers.
@@ -51,11 +51,6 @@ impl Hand {
         hand
     }
 
-    /// Do coordinates have a point?
-    pub(crate) const fn points(self) -> bool {
-        self.points
-    }
-
     /// Do codes below 10 have a zero in front?
     pub(crate) const fn zeros(self) -> bool {
         self.zeros
@@ -64,6 +59,12 @@ impl Hand {
     /// What is between words.
     pub(crate) const fn gap(self) -> &'static str {
         if self.spaced { " " } else { "" }
+    }
+
+    /// The form of a coordinate: with a point where the program's coordinates have one, or the control counts steps without it.
+    pub(crate) fn form(self, control: &Control) -> &'static str {
+        let as_written = control.numbers().unpointed == Unpointed::AsWritten;
+        if self.points || !as_written { "1." } else { "1" }
     }
 
     /// A number in the form of an old one, with at most `most` decimals, or as many as the old one has.

@@ -41,12 +41,12 @@ pub fn plan(
     if let Some(refusal) = witness.refusal() {
         return Err(refusal);
     }
-    let Some(file) = program.file(0) else { return Err(Refusal::whole("there is no program")) };
+    let Some(file) = program.file(0) else { return Err(Refusal::whole("the text has no program")) };
     let mut sheet = Sheet::new(program, &file.loaded, model, machine);
     let mut planner = Planner { change, scope, witness, model, cuts: false };
     for number in 0..file.loaded.outline().blocks() {
         let Some(place) = file.loaded.place(number, program.dialect()) else { continue };
-        match &witness.tracker {
+        match &witness.following.tracker {
             Tracker::Cycles(cycles) => cycles.write(&mut sheet, number, &place)?,
             Tracker::Loops(loops) => loops.write(&mut sheet, number, &place, program),
             Tracker::Starts(starts) => {
@@ -63,7 +63,7 @@ pub fn plan(
             _ => planner.block(&mut sheet, number, &place)?,
         }
     }
-    if let Tracker::Rates(rates) = &witness.tracker {
+    if let Tracker::Rates(rates) = &witness.following.tracker {
         inserted(&mut sheet, rates, program, &file.loaded)?;
     }
     let edits = sheet.into_edits();
@@ -74,7 +74,7 @@ pub fn plan(
                 .to_owned(),
         );
     }
-    if let Tracker::Rates(rates) = &witness.tracker
+    if let Tracker::Rates(rates) = &witness.following.tracker
         && let Some(name) = &rates.leaves
     {
         notes.push(format!("feeds and speeds that {name} gives stay as they are"));
@@ -84,16 +84,7 @@ pub fn plan(
 
 /// What a run rests on that leaves moves out: passes of a cycle, programs that are not there. A proof would have a gap.
 pub fn gaps(assumptions: &BTreeSet<Assumption>) -> BTreeSet<Assumption> {
-    let is_gap = |assumption: &&Assumption| {
-        matches!(
-            assumption,
-            Assumption::Passes(_)
-                | Assumption::MissingProgram(_)
-                | Assumption::MissingSubroutine(_)
-                | Assumption::Code(_)
-        )
-    };
-    assumptions.iter().filter(is_gap).cloned().collect()
+    assumptions.iter().filter(|assumption| assumption.leaves_moves_out()).cloned().collect()
 }
 
 struct Planner<'p> {
@@ -114,7 +105,7 @@ impl Planner<'_> {
             return Ok(());
         }
         let read = read(place, &seen.facts, self.model);
-        match &self.witness.tracker {
+        match &self.witness.following.tracker {
             Tracker::Course(course) => {
                 if !read.has_places() {
                     return Ok(());

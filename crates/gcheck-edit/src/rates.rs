@@ -36,7 +36,6 @@ pub(crate) struct Rates<'c> {
     own: BTreeMap<u32, Pair<f64>>,
     /// Blocks that get a number, by their number: the number in effect, and by how much it is scaled there.
     inserted: BTreeMap<u32, (Given, Pair<f64>)>,
-    refusal: Option<Refusal>,
     /// The block under way cuts a thread.
     threads: bool,
     /// Another file has feeds or speeds of its own, which stay.
@@ -53,7 +52,6 @@ impl<'c> Rates<'c> {
             factors: SAME,
             own: BTreeMap::new(),
             inserted: BTreeMap::new(),
-            refusal: None,
             threads: false,
             leaves: None,
         }
@@ -61,10 +59,6 @@ impl<'c> Rates<'c> {
 
     pub(crate) fn begin(&mut self) {
         self.factors = SAME;
-    }
-
-    pub(crate) fn refusal(&self) -> Option<&Refusal> {
-        self.refusal.as_ref()
     }
 
     /// By how much a block's own numbers are scaled.
@@ -90,7 +84,7 @@ impl<'c> Rates<'c> {
         }
     }
 
-    pub(crate) fn executed(&mut self, block: &Executed<'_>) {
+    pub(crate) fn executed(&mut self, block: &Executed<'_>) -> Result<(), Refusal> {
         let read = read(block.place, &block.facts, self.model);
         let wanted = self.wanted(block.is_selected, &read, &block.facts);
         self.threads = read.threads && !read.taps;
@@ -103,6 +97,7 @@ impl<'c> Rates<'c> {
             }
             self.factors.feed = if gives.feed { 1.0 } else { self.factors.feed };
             self.factors.speed = if gives.speed { 1.0 } else { self.factors.speed };
+            Ok(())
         } else {
             // `G71 U2. R1.` only tells how the cycle after it cuts.
             let cuts = read.cuts && (read.class != Class::Operation || block.has_cut);
@@ -115,14 +110,14 @@ impl<'c> Rates<'c> {
             let (factor, needs) = one(self.factors.feed, wanted.feed, gives.feed, feeds);
             self.factors.feed = factor;
             if needs {
-                added.feed = self.known(block, numbers.feed, "feed");
+                added.feed = Some(known(block, numbers.feed, "feed")?);
             }
             let (factor, needs) = one(self.factors.speed, wanted.speed, gives.speed, turns);
             self.factors.speed = factor;
             if needs {
-                added.speed = self.known(block, numbers.speed, "speed");
+                added.speed = Some(known(block, numbers.speed, "speed")?);
             }
-            self.note(block, gives, added, cuts);
+            self.note(block, gives, added, cuts)
         }
     }
 
@@ -135,24 +130,14 @@ impl<'c> Rates<'c> {
         })
     }
 
-    /// The number in effect that a block has to repeat, scaled as its moves are.
-    fn known(&mut self, block: &Executed<'_>, number: Option<f64>, what: &str) -> Option<f64> {
-        if number.is_none() {
-            let reason =
-                format!("this block needs a {what} of its own, and the {what} in effect is not known");
-            self.refuse(block, reason);
-        }
-        number
-    }
-
-    fn refuse(&mut self, block: &Executed<'_>, reason: impl Into<String>) {
-        if self.refusal.is_none() {
-            self.refusal = Some(Refusal::at(block.start..block.end, reason));
-        }
-    }
-
     /// Keeps what a block gets; it must be the same each time that it runs.
-    fn note(&mut self, block: &Executed<'_>, gives: Pair<bool>, added: Given, cuts: bool) {
+    fn note(
+        &mut self,
+        block: &Executed<'_>,
+        gives: Pair<bool>,
+        added: Given,
+        cuts: bool,
+    ) -> Result<(), Refusal> {
         let number = block.at.block;
         if gives.feed || gives.speed {
             let factors = Pair {
@@ -160,28 +145,24 @@ impl<'c> Rates<'c> {
                 speed: if gives.speed { self.factors.speed } else { 1.0 },
             };
             if self.own.insert(number, factors).is_some_and(|before| before != factors) {
-                self.refuse(block, "this block runs more than once, and its feed or speed is scaled only in some of the turns");
+                return Err(block.refusal("this block runs more than once, and its feed or speed is scaled only in some of the turns"));
             }
         }
-        if added.feed.is_some() || added.speed.is_some() {
+        let differs = if added.feed.is_some() || added.speed.is_some() {
             let new = (added, self.factors);
-            if self.inserted.insert(number, new).is_some_and(|before| before != new) {
-                self.refuse(
-                    block,
-                    "this block runs more than once, each time with another feed or speed in effect",
-                );
-            }
-        } else if cuts && self.inserted.contains_key(&number) {
-            let again = numbers(block);
-            let same = |old: Option<f64>, new: Option<f64>| old.is_none() || old == new;
-            let before = self.inserted.get(&number).map(|(given, _)| *given);
-            if before.is_some_and(|old| !same(old.feed, again.feed) || !same(old.speed, again.speed)) {
-                self.refuse(
-                    block,
-                    "this block runs more than once, each time with another feed or speed in effect",
-                );
-            }
+            self.inserted.insert(number, new).is_some_and(|before| before != new)
+        } else if cuts && let Some((old, _)) = self.inserted.get(&number) {
+            let new = numbers(block);
+            let other = |old: Option<f64>, new: Option<f64>| old.is_some() && old != new;
+            other(old.feed, new.feed) || other(old.speed, new.speed)
+        } else {
+            false
+        };
+        if differs {
+            let reason = "this block runs more than once, each time with another feed or speed in effect";
+            return Err(block.refusal(reason));
         }
+        Ok(())
     }
 
     /// An act with its rates scaled. Acts have the rates that are in effect when they show, which under cutter compensation
@@ -199,6 +180,12 @@ impl<'c> Rates<'c> {
         setting.speed *= factors.speed;
         Act { setting, ..act }
     }
+}
+
+/// The number in effect that a block has to repeat, scaled as its moves are.
+fn known(block: &Executed<'_>, number: Option<f64>, what: &str) -> Result<f64, Refusal> {
+    let reason = || format!("this block needs a {what} of its own, and the {what} in effect is not known");
+    number.ok_or_else(|| block.refusal(reason()))
 }
 
 /// The factor of the number in effect after a block, and whether the block needs a number of its own.

@@ -5,16 +5,15 @@
 //!
 //! Under cutter compensation a move shows only when the next one is known, so that acts come with the block that they are of.
 
-use std::rc::Rc;
-
 use gcheck_engine::{
-    At, Axis, Concrete, Event, Machine, Model, Observer, Options, Origin, Position, Program, RunResult,
-    State, Stop, Units,
+    At, Axis, BlockLines, Concrete, Event, Machine, Model, Observer, Options, Origin, Position, Program,
+    RunResult, State, Stop, Units,
 };
 use gcheck_program::Place;
 use gcheck_toolpath::{Act, Beside, Doing, Driven, Spot, Step, Trail, WorkCoordinates};
 
 use crate::facts::Facts;
+use crate::refusal::Refusal;
 use crate::scope::Scope;
 
 /// A block that was executed.
@@ -37,6 +36,13 @@ pub(crate) struct Executed<'a> {
     pub(crate) before: Position,
     /// The state after it.
     pub(crate) state: &'a State<Concrete>,
+}
+
+impl Executed<'_> {
+    /// Why a change is not made, with the block as its place.
+    pub(crate) fn refusal(&self, reason: impl Into<String>) -> Refusal {
+        Refusal::at(self.start..self.end, reason).in_file(self.file)
+    }
 }
 
 /// Takes what happens in a run.
@@ -87,7 +93,7 @@ pub(crate) fn run<V: Visitor>(
         units,
         optional_stop: options.optional_stop,
         scope,
-        files: Vec::new(),
+        lines: BlockLines::new(""),
         trail: Trail::new(WorkCoordinates::at_power_on(model, machine)),
         before: Position::UNKNOWN,
         waiting: Vec::new(),
@@ -105,7 +111,7 @@ struct Watcher<'a, 'p, V> {
     units: Units,
     optional_stop: bool,
     scope: &'a Scope,
-    files: Vec<Option<Lines>>,
+    lines: BlockLines,
     trail: Trail,
     before: Position,
     /// Acts whose block is not over.
@@ -113,41 +119,7 @@ struct Watcher<'a, 'p, V> {
     visitor: &'a mut V,
 }
 
-/// Name and begins of the lines of a file.
-struct Lines {
-    name: Rc<str>,
-    starts: Vec<u32>,
-    last: (u32, u32),
-}
-
-impl Lines {
-    fn new(name: Rc<str>, text: &str) -> Self {
-        let breaks = text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n').map(|(at, _)| at as u32 + 1);
-        Self { name, starts: std::iter::once(0).chain(breaks).collect(), last: (0, 1) }
-    }
-
-    fn line(&mut self, offset: u32) -> u32 {
-        if self.last.0 != offset {
-            self.last = (offset, self.starts.partition_point(|start| *start <= offset) as u32);
-        }
-        self.last.1
-    }
-}
-
 impl<V: Visitor> Watcher<'_, '_, V> {
-    fn place(&mut self, origin: Origin) -> (Rc<str>, u32) {
-        let index = origin.at.file as usize;
-        if self.files.len() <= index {
-            self.files.resize_with(index + 1, || None);
-        }
-        let Some(slot) = self.files.get_mut(index) else { return (Rc::from(""), 0) };
-        if slot.is_none() {
-            let Some(file) = self.program.file(origin.at.file) else { return (Rc::from(""), 0) };
-            *slot = Some(Lines::new(Rc::clone(&file.name), &file.loaded.text()));
-        }
-        slot.as_mut().map_or((Rc::from(""), 0), |lines| (Rc::clone(&lines.name), lines.line(origin.start)))
-    }
-
     fn hand_on(&mut self) {
         for (at, is_expanded, act) in self.waiting.drain(..) {
             self.visitor.act(at, is_expanded, act);
@@ -186,7 +158,7 @@ impl<V: Visitor> Observer<Concrete> for Watcher<'_, '_, V> {
             return;
         }
         self.visitor.event(event);
-        let (file, line) = self.place(origin);
+        let (file, line) = self.lines.of(self.program, origin);
         // A lathe may be anywhere in Y when it drills: no move depends on it.
         let is_lathe = self.model.control().machine() == gcheck_controls::Machine::Lathe;
         let stands = [Axis::X, Axis::Z].into_iter().all(|axis| !self.before.raw(axis).is_nan());

@@ -30,16 +30,11 @@ pub(crate) struct Starts<'c> {
     /// The block under way, with its codes.
     block: Option<(u32, Range<u32>, Vec<String>)>,
     found: BTreeMap<u32, Vec<String>>,
-    refusal: Option<Refusal>,
 }
 
 impl<'c> Starts<'c> {
     pub(crate) fn new(scope: &Scope, model: &'c Model<'c>) -> Self {
-        Self { scope: scope.clone(), model, block: None, found: BTreeMap::new(), refusal: None }
-    }
-
-    pub(crate) fn refusal(&self) -> Option<&Refusal> {
-        self.refusal.as_ref()
+        Self { scope: scope.clone(), model, block: None, found: BTreeMap::new() }
     }
 
     pub(crate) fn before(&mut self, at: At, place: &Place, state: &State<Concrete>) {
@@ -67,17 +62,17 @@ impl<'c> Starts<'c> {
         ROLES.into_iter().filter_map(code).collect()
     }
 
-    pub(crate) fn event(&mut self, event: &Event) {
-        let Event::ToolChange(tool) = event else { return };
-        let Some((block, range, codes)) = self.block.take() else { return };
+    pub(crate) fn event(&mut self, event: &Event) -> Result<(), Refusal> {
+        let Event::ToolChange(tool) = event else { return Ok(()) };
+        let Some((block, range, codes)) = self.block.take() else { return Ok(()) };
         if !self.scope.selects(range.start, *tool) || codes.is_empty() {
-            return;
+            return Ok(());
         }
-        if self.found.get(&block).is_some_and(|other| *other != codes) && self.refusal.is_none() {
-            let reason = "this tool change runs more than once, under different modes";
-            self.refusal = Some(Refusal::at(range, reason));
+        if self.found.get(&block).is_some_and(|other| *other != codes) {
+            return Err(Refusal::at(range, "this tool change runs more than once, under different modes"));
         }
         self.found.insert(block, codes);
+        Ok(())
     }
 
     /// Writes the lines.

@@ -25,33 +25,19 @@ pub(crate) struct Conversion<'c> {
     model: &'c Model<'c>,
     modal: Modal<'c>,
     blocks: BTreeMap<u32, Facts>,
-    refusal: Option<Refusal>,
 }
 
 impl<'c> Conversion<'c> {
     pub(crate) fn new(to: Units, model: &'c Model<'c>) -> Self {
-        Self { to, model, modal: Modal::new(Role::Units, model), blocks: BTreeMap::new(), refusal: None }
+        Self { to, model, modal: Modal::new(Role::Units, model), blocks: BTreeMap::new() }
     }
 
     pub(crate) fn begin(&mut self) {
         self.modal.begin();
     }
 
-    pub(crate) fn refusal(&self) -> Option<&Refusal> {
-        self.refusal.as_ref()
-    }
-
-    pub(crate) fn executed(&mut self, block: &Executed<'_>) {
-        if self.refusal.is_none()
-            && let Err(refusal) = self.block(block)
-        {
-            self.refusal = Some(refusal);
-        }
-    }
-
-    fn block(&mut self, block: &Executed<'_>) -> Result<(), Refusal> {
-        let range = block.start..block.end;
-        let refuse = |reason: &str| Err(Refusal::at(range.clone(), reason).in_file(block.file));
+    pub(crate) fn executed(&mut self, block: &Executed<'_>) -> Result<(), Refusal> {
+        let refuse = |reason: &str| Err(block.refusal(reason));
         let Some(was) = block.facts.units else { return refuse("the unit of this block is not known") };
         let read = read(block.place, &block.facts, self.model);
         let words = block.place.table.words(block.place.block());

@@ -3,14 +3,14 @@
 //! Knows: which blocks of a loop a run executed, in which order. Must not know: how expressions are computed (the engine does).
 
 use std::collections::BTreeMap;
-use std::ops::Range;
 
-use gcheck_controls::{Unpointed, WordKind};
+use gcheck_controls::WordKind;
 use gcheck_engine::{
-    AbstractValue, At, Concrete, ConcreteValue, Domain as _, Look, Machine, Model, Program, State, Units,
+    AbstractValue, At, Concrete, ConcreteValue, Look, Machine, Model, Program, State, Units,
 };
 use gcheck_program::{BlockFlags, OKeyword, Op, Place, StatementKind, Target, Value, Word};
 
+use crate::facts::tool;
 use crate::number::Hand;
 use crate::refusal::Refusal;
 use crate::scope::Scope;
@@ -28,7 +28,6 @@ pub(crate) struct Loops<'c> {
     outermost: Vec<[u32; 2]>,
     under_way: Option<Turns>,
     done: BTreeMap<u32, Done>,
-    refusal: Option<Refusal>,
 }
 
 /// A loop that runs.
@@ -57,17 +56,6 @@ impl<'c> Loops<'c> {
             outermost: Vec::new(),
             under_way: None,
             done: BTreeMap::new(),
-            refusal: None,
-        }
-    }
-
-    pub(crate) fn refusal(&self) -> Option<&Refusal> {
-        self.refusal.as_ref()
-    }
-
-    fn refuse(&mut self, range: Range<u32>, reason: impl Into<String>, help: &str) {
-        if self.refusal.is_none() {
-            self.refusal = Some(Refusal::at(range, reason).help(help));
         }
     }
 
@@ -78,20 +66,20 @@ impl<'c> Loops<'c> {
         at: At,
         place: &Place,
         state: &State<Concrete>,
-    ) {
+    ) -> Result<(), Refusal> {
         self.prepare(program);
         let depth = state.call_depth();
         if let Some(turns) = &self.under_way {
             let [first, last] = turns.blocks;
             let is_inside = at.file == 0 && (first..=last).contains(&at.block) && depth >= turns.depth;
             if depth <= turns.depth && !is_inside {
-                self.finish(program, state);
+                self.finish(program, state)?;
             } else if depth > turns.depth {
-                return;
+                return Ok(());
             }
         }
         if at.file != 0 {
-            return;
+            return Ok(());
         }
         let starts = place.range().start;
         if self.under_way.is_none()
@@ -100,9 +88,7 @@ impl<'c> Loops<'c> {
         {
             self.under_way = Some(Turns { blocks: *blocks, depth, lines: Vec::new() });
         }
-        if self.under_way.is_some() {
-            self.turn(program, machine, at, place, state);
-        }
+        if self.under_way.is_some() { self.turn(program, machine, at, place, state) } else { Ok(()) }
     }
 
     /// Looks for loops, once.
@@ -154,46 +140,40 @@ impl<'c> Loops<'c> {
         at: At,
         place: &Place,
         state: &State<Concrete>,
-    ) {
+    ) -> Result<(), Refusal> {
+        let refuse = |reason: &str, help: &str| Err(Refusal::at(place.range(), reason).help(help));
         let words = place.table.words(place.block());
         let flags = place.block().flags;
         let kinds: Vec<&StatementKind> =
             place.table.statements(place.ix).map(|statement| &statement.kind).collect();
         if kinds.iter().any(|kind| matches!(kind, StatementKind::Print | StatementKind::Command)) {
-            return self.refuse(
-                place.range(),
-                "this block prints or commands something in each turn",
-                "select lines without it",
-            );
+            return refuse("this block prints or commands something in each turn", "select lines without it");
         }
         let is_conditional =
             kinds.iter().any(|kind| matches!(kind, StatementKind::If { .. } | StatementKind::Guard { .. }));
         let says = words.iter().any(|word| word.letter.ascii() != b'N');
         if says && (is_conditional || flags.intersects(BlockFlags::BLOCK_DELETE)) {
-            return self.refuse(
-                place.range(),
+            return refuse(
                 "whether this block acts is decided in each turn by a condition or by block delete",
                 "write the condition as a jump over the block",
             );
         }
         let is_comment = flags.contains(BlockFlags::COMMENT) && words.is_empty() && kinds.is_empty();
         if !says && !is_comment {
-            return;
+            return Ok(());
         }
         let Some(line) = self.line(program, machine, at, place, state, !kinds.is_empty()) else {
-            return self.refuse(
-                place.range(),
-                "a word of this block has no value that is known",
-                "give values with --set",
-            );
+            return refuse("a word of this block has no value that is known", "give values with --set");
         };
-        let Some(turns) = &mut self.under_way else { return };
+        let Some(turns) = &mut self.under_way else { return Ok(()) };
         turns.lines.push(line);
         if turns.lines.len() > MOST_LINES {
-            let reason = format!("the loop would become more than {MOST_LINES} lines");
-            self.refuse(place.range(), reason, "select another loop");
-            self.under_way = None;
+            return refuse(
+                &format!("the loop would become more than {MOST_LINES} lines"),
+                "select another loop",
+            );
         }
+        Ok(())
     }
 
     /// A block as a line without variables.
@@ -255,36 +235,29 @@ impl<'c> Loops<'c> {
         let has_point =
             matches!(kind, Some(WordKind::Length | WordKind::Angle | WordKind::Feed | WordKind::Real));
         let hand = self.hand?;
-        let as_written = control.numbers().unpointed == Unpointed::AsWritten;
-        let form = if has_point && (hand.points() || !as_written) { "1." } else { "1" };
+        let form = if has_point { hand.form(control) } else { "1" };
         let least = if units == Some(Units::Inch) { 4 } else { 3 };
         let head: String = old.chars().take_while(|c| c.is_ascii_alphabetic() || *c == ',').collect();
         Some(format!("{head}{}", hand.write(form, number, least)))
     }
 
     /// Ends the loop that runs.
-    fn finish(&mut self, program: &Program<'_>, state: &State<Concrete>) {
-        let Some(turns) = self.under_way.take() else { return };
+    fn finish(&mut self, program: &Program<'_>, state: &State<Concrete>) -> Result<(), Refusal> {
+        let Some(turns) = self.under_way.take() else { return Ok(()) };
         let [first, last] = turns.blocks;
-        let values = match left(program, turns.blocks, state) {
-            Ok(values) => values,
-            Err(reason) => {
-                let place = program.file(0).and_then(|file| file.loaded.place(first, program.dialect()));
-                let range = place.map_or(0..0, |place| place.range());
-                return self.refuse(range, reason, "unroll only loops whose variables nothing else reads");
-            }
+        let refusal = |reason: String, help: &str| {
+            let place = program.file(0).and_then(|file| file.loaded.place(first, program.dialect()));
+            Refusal::at(place.map_or(0..0, |place| place.range()), reason).help(help)
         };
+        let values = left(program, turns.blocks, state)
+            .map_err(|reason| refusal(reason, "unroll only loops whose variables nothing else reads"))?;
         let new = Done { last, lines: turns.lines, values };
         if self.done.get(&first).is_some_and(|old| *old != new) {
-            let place = program.file(0).and_then(|file| file.loaded.place(first, program.dialect()));
-            let range = place.map_or(0..0, |place| place.range());
-            return self.refuse(
-                range,
-                "this loop runs more than once, each time in another way",
-                "select another loop",
-            );
+            let reason = "this loop runs more than once, each time in another way".to_owned();
+            return Err(refusal(reason, "select another loop"));
         }
         self.done.insert(first, new);
+        Ok(())
     }
 
     /// Writes the turns in the place of the loops.
@@ -298,11 +271,6 @@ impl<'c> Loops<'c> {
         let text = lines.join(sheet.line_end());
         sheet.replace(place.range().start..last.range().end, text);
     }
-}
-
-#[expect(clippy::cast_sign_loss, reason = "tool numbers are not negative")]
-fn tool(state: &State<Concrete>) -> Option<u32> {
-    Concrete::known(state.tool()).filter(|number| *number >= 0.0).map(|number| number.round() as u32)
 }
 
 /// The values that a loop leaves to blocks outside of it.

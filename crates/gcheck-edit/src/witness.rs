@@ -27,7 +27,7 @@ use crate::unroll::Loops;
 pub struct Witness<'c> {
     /// By number of the block.
     pub(crate) blocks: Vec<Option<Seen>>,
-    pub(crate) tracker: Tracker<'c>,
+    pub(crate) following: Following<'c>,
     unfollowed: Option<Refusal>,
     /// What the runs rest on.
     assumptions: BTreeSet<Assumption>,
@@ -85,41 +85,63 @@ impl<'c> Tracker<'c> {
         }
     }
 
-    pub(crate) fn executed(&mut self, block: &Executed<'_>) {
+    fn executed(&mut self, block: &Executed<'_>) -> Result<(), Refusal> {
         match self {
             Self::Course(course) => course.executed(block),
             Self::Rates(rates) => rates.executed(block),
             Self::Cycles(cycles) => cycles.executed(block),
             Self::Distance(distance) => distance.executed(block),
             Self::Units(units) => units.executed(block),
-            Self::Loops(_) | Self::Starts(_) | Self::Same => {}
+            Self::Loops(_) | Self::Starts(_) | Self::Same => Ok(()),
         }
     }
 
-    pub(crate) fn act(&mut self, at: At, is_expanded: bool, act: Act) -> Act {
+    fn act(&mut self, at: At, is_expanded: bool, act: Act) -> Result<Act, Refusal> {
         match self {
             Self::Course(course) => course.act(at, is_expanded, act),
-            Self::Rates(rates) => rates.act(act),
+            Self::Rates(rates) => Ok(rates.act(act)),
             Self::Cycles(_)
             | Self::Loops(_)
             | Self::Distance(_)
             | Self::Starts(_)
             | Self::Units(_)
-            | Self::Same => act,
+            | Self::Same => Ok(act),
+        }
+    }
+}
+
+/// A tracker, until there is a reason not to make the change: nothing is followed after it.
+pub(crate) struct Following<'c> {
+    pub(crate) tracker: Tracker<'c>,
+    /// Why the change cannot be made, as far as the runs have shown.
+    pub(crate) refusal: Option<Refusal>,
+}
+
+impl<'c> Following<'c> {
+    pub(crate) fn new(change: &'c Change, scope: &Scope, model: &'c Model<'c>) -> Self {
+        Self { tracker: Tracker::new(change, scope, model), refusal: None }
+    }
+
+    fn follow<T>(&mut self, step: impl FnOnce(&mut Tracker<'c>) -> Result<T, Refusal>) -> Option<T> {
+        if self.refusal.is_some() {
+            return None;
+        }
+        match step(&mut self.tracker) {
+            Ok(done) => Some(done),
+            Err(refusal) => {
+                self.refusal = Some(refusal);
+                None
+            }
         }
     }
 
-    pub(crate) fn refusal(&self) -> Option<&Refusal> {
-        match self {
-            Self::Course(course) => course.refusal(),
-            Self::Rates(rates) => rates.refusal(),
-            Self::Cycles(cycles) => cycles.refusal(),
-            Self::Loops(loops) => loops.refusal(),
-            Self::Starts(starts) => starts.refusal(),
-            Self::Distance(distance) => distance.refusal(),
-            Self::Units(units) => units.refusal(),
-            Self::Same => None,
-        }
+    pub(crate) fn executed(&mut self, block: &Executed<'_>) {
+        self.follow(|tracker| tracker.executed(block));
+    }
+
+    /// The act as it is after the change; `None` once the change is refused.
+    pub(crate) fn act(&mut self, at: At, is_expanded: bool, act: Act) -> Option<Act> {
+        self.follow(|tracker| tracker.act(at, is_expanded, act))
     }
 }
 
@@ -134,7 +156,7 @@ impl<'c> Witness<'c> {
     pub fn new(change: &'c Change, scope: &Scope, model: &'c Model<'c>) -> Self {
         Self {
             blocks: Vec::new(),
-            tracker: Tracker::new(change, scope, model),
+            following: Following::new(change, scope, model),
             unfollowed: None,
             assumptions: BTreeSet::new(),
         }
@@ -152,7 +174,7 @@ impl<'c> Witness<'c> {
 
     /// Why the change cannot be proved, as far as the runs have shown.
     pub(crate) fn refusal(&self) -> Option<Refusal> {
-        self.unfollowed.as_ref().or_else(|| self.tracker.refusal()).cloned()
+        self.unfollowed.as_ref().or(self.following.refusal.as_ref()).cloned()
     }
 }
 
@@ -167,7 +189,7 @@ pub fn witness(
     fuel: u64,
     scope: &Scope,
 ) -> RunResult {
-    witness.tracker.begin();
+    witness.following.tracker.begin();
     let mut watching = Watching { witness, program, machine };
     let result = run(program, model, machine, options, fuel, scope, &mut watching);
     witness.assumptions.extend(result.assumptions.iter().cloned());
@@ -185,20 +207,30 @@ impl Visitor for Watching<'_, '_, '_> {
     const LOOKS_BEFORE: bool = true;
 
     fn before(&mut self, at: At, place: &Place, state: &State<Concrete>) {
-        match &mut self.witness.tracker {
-            Tracker::Cycles(cycles) => cycles.before(),
-            Tracker::Loops(loops) => loops.before(self.program, self.machine, at, place, state),
-            Tracker::Starts(starts) => starts.before(at, place, state),
-            _ => {}
-        }
+        let (program, machine) = (self.program, self.machine);
+        self.witness.following.follow(|tracker| match tracker {
+            Tracker::Cycles(cycles) => {
+                cycles.before();
+                Ok(())
+            }
+            Tracker::Loops(loops) => loops.before(program, machine, at, place, state),
+            Tracker::Starts(starts) => {
+                starts.before(at, place, state);
+                Ok(())
+            }
+            _ => Ok(()),
+        });
     }
 
     fn event(&mut self, event: &Event) {
-        match &mut self.witness.tracker {
-            Tracker::Cycles(cycles) => cycles.event(event),
+        self.witness.following.follow(|tracker| match tracker {
+            Tracker::Cycles(cycles) => {
+                cycles.event(event);
+                Ok(())
+            }
             Tracker::Starts(starts) => starts.event(event),
-            _ => {}
-        }
+            _ => Ok(()),
+        });
     }
 
     fn executed(&mut self, block: &Executed<'_>) {
@@ -206,7 +238,7 @@ impl Visitor for Watching<'_, '_, '_> {
     }
 
     fn act(&mut self, at: At, is_expanded: bool, act: Act) {
-        self.witness.tracker.act(at, is_expanded, act);
+        self.witness.following.act(at, is_expanded, act);
     }
 
     fn unfollowed(&mut self, start: u32, end: u32, file: Option<&str>) {
@@ -220,7 +252,7 @@ impl Visitor for Watching<'_, '_, '_> {
 
 impl Witness<'_> {
     fn executed(&mut self, block: &Executed<'_>) {
-        self.tracker.executed(block);
+        self.following.executed(block);
         if block.at.file != 0 {
             return;
         }

@@ -88,3 +88,10 @@ pub enum Assumption {
     /// The passes of a cycle are not computed: it ends where it should, but what it cuts is in no figure.
     Passes(CodeIx),
 }
+
+impl Assumption {
+    /// Is something that the machine does in no move of the run: passes of a cycle, a program that is not there, a code?
+    pub const fn leaves_moves_out(&self) -> bool {
+        matches!(self, Self::Passes(_) | Self::MissingProgram(_) | Self::MissingSubroutine(_) | Self::Code(_))
+    }
+}

@@ -4,6 +4,7 @@
 //! typed faults, fuel. Must not know: words for people, files, how results are cached.
 
 mod assumption;
+mod block_lines;
 pub mod cycles;
 mod cylinder;
 mod event;
@@ -26,6 +27,7 @@ mod value;
 mod words;
 
 pub use assumption::{Assumption, Unsettled};
+pub use block_lines::BlockLines;
 pub use cylinder::Cylinder;
 pub use event::*;
 pub use fault::{ArcFault, CompensationFault, CornerFault, CycleFault, Fault, ValueFault};

@@ -28,6 +28,19 @@ pub enum Stopped {
     OutOfFuel,
 }
 
+impl Stopped {
+    /// Did the run come to where the program ends by its own words?
+    pub const fn is_program_end(&self) -> bool {
+        match self {
+            Self::Ended(ending) => match ending {
+                Ending::Program | Ending::Restart | Ending::Tape | Ending::BarsUsed => true,
+                Ending::Text | Ending::Alarm(_) => false,
+            },
+            Self::Faulted(_) | Self::OutOfFuel => false,
+        }
+    }
+}
+
 /// What a run leaves.
 #[derive(Debug)]
 pub struct RunResult {

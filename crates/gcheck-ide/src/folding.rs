@@ -28,7 +28,7 @@ pub enum FoldKind {
     Region,
 }
 
-/// What can be folded, in order of its begin.
+/// What can be folded, in order of its start.
 pub fn folding_ranges(snapshot: &Snapshot) -> Vec<Fold> {
     let end = code_end(snapshot);
     let mut regions: Vec<Range<u32>> = Vec::new();

@@ -3,15 +3,13 @@
 //! Knows: which file and line an event belongs to, where the control would stop. Must not know: what is made of the moves.
 
 use std::collections::BTreeSet;
-use std::rc::Rc;
 
 use gcheck_controls::Machine as MachineKind;
 use gcheck_db::{Cancelled, Snapshot};
 use gcheck_engine::{
-    Assumption, Axis, Concrete, Ending, Event, Fault, Machine, Model, Observer, Options, Origin, Program,
-    State, Stop, Stopped, Units, run,
+    Assumption, Axis, BlockLines, Concrete, Ending, Event, Fault, Machine, Model, Observer, Options, Origin,
+    Program, State, Stop, Stopped, Units, run,
 };
-use gcheck_syntax::line_len;
 use gcheck_toolpath::{Beside, Spot, Step, View};
 
 use crate::reading::Reading;
@@ -51,33 +49,22 @@ pub(crate) fn run_through(
     }
     snapshot.with_program(|program, model| {
         let units = machine.units.or_else(|| model.units_at_power_on(&machine.settings)).unwrap_or(Units::Mm);
-        let files = Vec::new();
-        let mut watcher = Watcher { program, model, machine, units, files, stop, stopped: false, show };
+        let lines = BlockLines::new("");
+        let mut watcher = Watcher { program, model, machine, units, lines, stop, stopped: false, show };
         let result = run(program, model, machine, options, fuel, &mut watcher);
         if watcher.stopped {
             return Err(Cancelled);
         }
-        let line = watcher.line(result.origin);
-        let stopped = match &result.stopped {
-            Stopped::Ended(Ending::Program | Ending::Restart | Ending::Tape | Ending::BarsUsed) => None,
-            Stopped::Ended(Ending::Text) => Some("the text ends without a program end".to_owned()),
-            Stopped::Ended(Ending::Alarm(number)) => {
-                Some(format!("alarm {number} of its own in line {line}"))
-            }
-            Stopped::Faulted(_) => Some(format!("the control would stop in line {line}")),
-            Stopped::OutOfFuel => Some(format!("ended after {} blocks", result.blocks)),
-        };
+        let (_, line) = watcher.lines.of(program, result.origin);
+        let stopped = (!result.stopped.is_program_end()).then(|| match &result.stopped {
+            Stopped::Ended(Ending::Alarm(number)) => format!("alarm {number} of its own in line {line}"),
+            Stopped::Ended(_) => "the text ends without a program end".to_owned(),
+            Stopped::Faulted(_) => format!("the control would stop in line {line}"),
+            Stopped::OutOfFuel => format!("ended after {} blocks", result.blocks),
+        });
         let is_subprogram = matches!(result.stopped, Stopped::Ended(Ending::Restart));
-        let lost = |assumption: &&Assumption| {
-            matches!(
-                assumption,
-                Assumption::Passes(_)
-                    | Assumption::MissingProgram(_)
-                    | Assumption::MissingSubroutine(_)
-                    | Assumption::Code(_)
-            )
-        };
-        let lost: BTreeSet<Assumption> = result.assumptions.iter().filter(lost).cloned().collect();
+        let lost = result.assumptions.iter().filter(|assumption| assumption.leaves_moves_out());
+        let lost: BTreeSet<Assumption> = lost.cloned().collect();
         let without = gcheck_lint::describe_all(&lost, model).into_iter().map(|stated| stated.text).collect();
         Ok(Ran { stopped, is_subprogram, without })
     })
@@ -102,67 +89,11 @@ struct Watcher<'a> {
     model: &'a Model<'a>,
     machine: &'a Machine,
     units: Units,
-    files: Vec<Option<Lines>>,
+    lines: BlockLines,
     stop: &'a dyn Fn() -> bool,
     /// It said yes.
     stopped: bool,
     show: &'a mut dyn FnMut(&Shown<'_>),
-}
-
-/// Name and begins of the lines of a file.
-struct Lines {
-    name: Rc<str>,
-    starts: Vec<u32>,
-    /// The last place that was asked for, and its line: many events come from one block.
-    last: (u32, u32),
-}
-
-impl Lines {
-    fn new(name: Rc<str>, text: &str) -> Self {
-        let mut starts = Vec::new();
-        let mut rest = text.as_bytes();
-        let mut at = 0;
-        while !rest.is_empty() {
-            starts.push(at);
-            let len = line_len(rest);
-            at += len as u32;
-            rest = rest.get(len..).unwrap_or_default();
-        }
-        Self { name, starts, last: (0, 1) }
-    }
-
-    fn line(&mut self, offset: u32) -> u32 {
-        if self.last.0 != offset {
-            self.last = (offset, self.starts.partition_point(|start| *start <= offset) as u32);
-        }
-        self.last.1
-    }
-}
-
-impl Watcher<'_> {
-    fn lines(&mut self, file: u32) -> Option<&mut Lines> {
-        let at = file as usize;
-        if self.files.len() <= at {
-            self.files.resize_with(at + 1, || None);
-        }
-        let slot = self.files.get_mut(at)?;
-        if slot.is_none() {
-            let loaded = self.program.file(file)?;
-            *slot = Some(Lines::new(Rc::clone(&loaded.name), &loaded.loaded.text()));
-        }
-        slot.as_mut()
-    }
-
-    fn place(&mut self, origin: Origin) -> (Rc<str>, u32) {
-        match self.lines(origin.at.file) {
-            Some(lines) => (Rc::clone(&lines.name), lines.line(origin.start)),
-            None => (Rc::from(""), 0),
-        }
-    }
-
-    fn line(&mut self, origin: Origin) -> u32 {
-        self.lines(origin.at.file).map_or(0, |lines| lines.line(origin.start))
-    }
 }
 
 impl Observer<Concrete> for Watcher<'_> {
@@ -171,7 +102,7 @@ impl Observer<Concrete> for Watcher<'_> {
         if matches!(event, Event::Stop(Stop::Optional)) {
             return;
         }
-        let (name, line) = self.place(origin);
+        let (name, line) = self.lines.of(self.program, origin);
         let spot = Spot { file: &name, line, n: origin.n };
         let seen = Step::seen(event, state, self.model, spot, self.units);
         let step = Step { beside: Beside::of(state, self.machine, event), ..seen };
@@ -179,7 +110,7 @@ impl Observer<Concrete> for Watcher<'_> {
     }
 
     fn fault(&mut self, origin: Origin, _: &State<Concrete>, fault: &Fault) {
-        let (name, line) = self.place(origin);
+        let (name, line) = self.lines.of(self.program, origin);
         (self.show)(&Shown::Alarm { file: &name, line, fault });
     }
 

@@ -204,7 +204,7 @@ pub(crate) fn callee(snapshot: &Snapshot, call: &Call) -> Option<Thing> {
     }
 }
 
-/// Where a program or subroutine is that is called in `from`: its name, or the begin of the file that is named so.
+/// Where a program or subroutine is that is called in `from`: its name, or the start of the file that is named so.
 pub(crate) fn definition_of(workspace: &Workspace, from: DocumentId, thing: &Thing) -> Option<Place> {
     let own = workspace.files.iter().filter(|file| file.id == from);
     let others = || workspace.files.iter().filter(|file| file.id != from);

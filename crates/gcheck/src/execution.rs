@@ -10,7 +10,7 @@ mod session;
 mod steps;
 mod tool_table;
 
-use gcheck_engine::{Axis, Options, RunResult, Stopped};
+use gcheck_engine::{Axis, Options, RunResult};
 use gcheck_toolpath::View;
 
 pub(crate) use closing::{Rests, control_line, end_of_run, fault_of, problem_of};
@@ -91,12 +91,5 @@ pub(crate) fn tool_table_of(
 
 /// The exit code of a run: 0 it came to its end, 1 it did not, or the control would have stopped on the way.
 pub(crate) fn exit_code(result: &RunResult) -> u8 {
-    use gcheck_engine::Ending;
-    if !result.alarms.is_empty() {
-        return 1;
-    }
-    match result.stopped {
-        Stopped::Ended(Ending::Program | Ending::Restart | Ending::Tape | Ending::BarsUsed) => 0,
-        Stopped::Ended(Ending::Text | Ending::Alarm(_)) | Stopped::Faulted(_) | Stopped::OutOfFuel => 1,
-    }
+    u8::from(!(result.alarms.is_empty() && result.stopped.is_program_end()))
 }

@@ -172,7 +172,7 @@ fn only_begins_upward(profile: &[ProfileSegment]) -> bool {
     top > begin + SAME && levels.all(|level| (level - top).abs() <= SAME)
 }
 
-/// A profile in coordinates `(u, w)`: it runs toward larger u, and its end lies at a larger w than its begin.
+/// A profile in coordinates `(u, w)`: it runs toward larger u, and its end lies at a larger w than its start.
 struct Contour {
     transposed: bool,
     signs: Point,
@@ -184,7 +184,7 @@ struct Contour {
 }
 
 impl Contour {
-    /// `None` when the profile has no piece beyond its begin: there is nothing to cut then.
+    /// `None` when the profile has no piece beyond its start: there is nothing to cut then.
     fn of(from: [Mm; 3], profile: &[ProfileSegment], transposed: bool) -> Result<Option<Self>, CycleError> {
         let [x0, _, z0] = from;
         if profile.len() < 2 {

@@ -67,7 +67,7 @@ pub(super) fn offer(
     }
 }
 
-/// With a capital at its begin, as editors write what can be done.
+/// With a capital at its start, as editors write what can be done.
 fn capitalised(title: &str) -> String {
     let mut letters = title.chars();
     letters.next().map(|first| first.to_uppercase().chain(letters).collect()).unwrap_or_default()

@@ -95,7 +95,7 @@ pub fn proved_changes(snapshot: &Snapshot, selected: &Range<u32>) -> Vec<ProvedC
 fn whole_lines(snapshot: &Snapshot, selected: &Range<u32>) -> Range<u32> {
     let first = snapshot.line_at(selected.start);
     let last = snapshot.line_at(selected.end);
-    // A selection of whole lines ends at the begin of the next one.
+    // A selection of whole lines ends where the next one begins.
     let ends_before = last > first && snapshot.line_range(last).start == selected.end;
     let last = if ends_before { last - 1 } else { last };
     snapshot.line_range(first).start..snapshot.line_range(last).end
@@ -247,7 +247,7 @@ impl Proving<'_> {
         if let Some(reason) = different(&differences) {
             return Ok(Err(reason));
         }
-        if !is_end(&ended.stopped) {
+        if !ended.stopped.is_program_end() {
             return Ok(Err("the changed program does not run to its end".to_owned()));
         }
         if differences.unknown {
@@ -261,7 +261,7 @@ impl Proving<'_> {
 
     /// Why a run did not come to its end.
     fn end(&self, ran: &RunResult) -> Option<String> {
-        if is_end(&ran.stopped) {
+        if ran.stopped.is_program_end() {
             return None;
         }
         let place = if ran.origin.at.file == 0 {
@@ -287,10 +287,6 @@ impl Proving<'_> {
     fn line(&self, offset: u32) -> u32 {
         self.snapshot.line_at(offset) + 1
     }
-}
-
-fn is_end(stopped: &Stopped) -> bool {
-    matches!(stopped, Stopped::Ended(Ending::Program | Ending::Restart | Ending::Tape | Ending::BarsUsed))
 }
 
 /// The first difference in a few words; `None` when there is none.

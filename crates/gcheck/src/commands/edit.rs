@@ -137,7 +137,7 @@ fn scope(target: &EditTarget, prepared: &Prepared) -> Result<Scope, Problem> {
     if lines.first as usize > count {
         return Err(Problem::with_file(
             &prepared.path,
-            format!("has {count} lines, so there is no line {}", lines.first),
+            format!("has {count} lines; line {} does not exist", lines.first),
         ));
     }
     Ok(Scope::lines(text, lines.first, lines.last))

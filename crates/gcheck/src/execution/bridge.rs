@@ -4,10 +4,8 @@
 
 use std::io;
 use std::panic::{self, AssertUnwindSafe};
-use std::rc::Rc;
 
-use gcheck_engine::{At, Concrete, Event, Fault, Observer, Origin, RunResult, State, Stop};
-use gcheck_report::LineIndex;
+use gcheck_engine::{At, BlockLines, Concrete, Event, Fault, Observer, Origin, RunResult, State, Stop};
 use gcheck_toolpath::{Beside, Spot, Step};
 
 use super::session::Session;
@@ -22,24 +20,7 @@ pub(super) struct Bridge<'s, S> {
     executing: Option<u32>,
     /// The block being executed. An event of it that has no number was written by the control itself.
     executing_at: At,
-    files: Vec<Option<Lines>>,
-}
-
-/// Name and lines of a file.
-struct Lines {
-    name: Rc<str>,
-    index: LineIndex,
-    /// The last place that was asked for: many events come from one block.
-    last: (u32, u32),
-}
-
-impl Lines {
-    fn line(&mut self, offset: u32) -> u32 {
-        if self.last.0 != offset {
-            self.last = (offset, self.index.line(offset));
-        }
-        self.last.1
-    }
+    lines: BlockLines,
 }
 
 /// Unwinds through the engine when output has failed: there is nobody to execute for.
@@ -62,7 +43,7 @@ impl<'s, S: Steps> Bridge<'s, S> {
             error: None,
             executing: None,
             executing_at: At { file: 0, block: 0 },
-            files: Vec::new(),
+            lines: BlockLines::new(&session.prepared.shown),
         }
     }
 
@@ -73,25 +54,6 @@ impl<'s, S: Steps> Bridge<'s, S> {
             (_, Some(error)) => Err(error),
             (None, None) => Err(io::ErrorKind::Other.into()),
         }
-    }
-
-    /// Name of the file and line of the block.
-    fn place(&mut self, origin: Origin) -> (Rc<str>, u32) {
-        let at = origin.at.file as usize;
-        if self.files.len() <= at {
-            self.files.resize_with(at + 1, || None);
-        }
-        let Some(slot) = self.files.get_mut(at) else { return (Rc::from(""), 0) };
-        let session = self.session;
-        let lines = slot.get_or_insert_with(|| {
-            let file = session.program.file(origin.at.file);
-            let text = file.as_ref().map(|file| file.loaded.text()).unwrap_or_default();
-            let name = file.as_ref().map_or("", |file| &*file.name);
-            let name =
-                if name.is_empty() { Rc::from(session.prepared.shown.as_str()) } else { Rc::from(name) };
-            Lines { name, index: LineIndex::new(&text), last: (0, 1) }
-        });
-        (Rc::clone(&lines.name), lines.line(origin.start))
     }
 }
 
@@ -109,7 +71,7 @@ impl<S: Steps> Observer<Concrete> for Bridge<'_, S> {
             return;
         }
         let model = self.session.model;
-        let (file, line) = self.place(origin);
+        let (file, line) = self.lines.of(self.session.program, origin);
         let n = if S::AS_INTERPRETED && (origin.n.is_some() || origin.at != self.executing_at) {
             self.executing
         } else {
@@ -127,7 +89,7 @@ impl<S: Steps> Observer<Concrete> for Bridge<'_, S> {
     }
 
     fn fault(&mut self, origin: Origin, _: &State<Concrete>, fault: &Fault) {
-        let (file, line) = self.place(origin);
+        let (file, line) = self.lines.of(self.session.program, origin);
         if let Err(error) = self.steps.alarm(&file, line, fault) {
             self.error = Some(error);
             panic::resume_unwind(Box::new(OutputFailed));

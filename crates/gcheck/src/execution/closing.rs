@@ -91,11 +91,7 @@ pub(crate) fn fault_of(session: &Session<'_>, result: &RunResult) -> Option<Faul
 
 /// Why a run did not come to the end of the program; `None` if it did.
 fn early_end(session: &Session<'_>, result: &RunResult) -> Option<Fault> {
-    let is_end = matches!(
-        result.stopped,
-        Stopped::Ended(Ending::Program | Ending::Restart | Ending::Tape | Ending::BarsUsed)
-    );
-    (!is_end).then(|| fault_at(session, result, &result.stopped, result.origin))
+    (!result.stopped.is_program_end()).then(|| fault_at(session, result, &result.stopped, result.origin))
 }
 
 fn fault_at(session: &Session<'_>, result: &RunResult, stopped: &Stopped, origin: Origin) -> Fault {

@@ -741,7 +741,7 @@ fn a_selection_that_begins_or_ends_in_the_middle_of_a_contour() {
         "haas-mill",
         "translate --x 5 --lines 6",
         &expect![[r#"
-        error: part.nc:6:1: cannot shift the path: the arc of this block does not move as a whole: its begin and its end are not both in the selection, or its plane becomes another one
+        error: part.nc:6:1: cannot shift the path: the arc of this block does not move as a whole: its start and its end are not both in the selection, or its plane becomes another one
           |
         6 | G2 X20. Y10. I10.
           | ^^^^^^^^^^^^^^^^^
@@ -795,7 +795,7 @@ fn a_rotation_of_arcs_in_other_planes() {
         "haas-mill",
         "rotate 90",
         &expect![[r#"
-        error: part.nc:5:1: cannot rotate the path: the arc of this block does not move as a whole: its begin and its end are not both in the selection, or its plane becomes another one
+        error: part.nc:5:1: cannot rotate the path: the arc of this block does not move as a whole: its start and its end are not both in the selection, or its plane becomes another one
           |
         5 | G2 X10. Z-5. K-10. F100.
           | ^^^^^^^^^^^^^^^^^^^^^^^^
@@ -888,7 +888,7 @@ fn usage() {
         (
             "edit mirror x part.nc --lines 90",
             expect![[r#"
-            error: part.nc: has 27 lines, so there is no line 90
+            error: part.nc: has 27 lines; line 90 does not exist
         "#]],
         ),
         (

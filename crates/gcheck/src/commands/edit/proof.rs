@@ -1,6 +1,6 @@
 //! The proof of a change: the moves of two runs, compared while both run.
 //!
-//! Knows: threads, what is said of a proof that failed. Must not know: what a change claims, when moves are the same.
+//! Knows: threads, the words for a proof that failed. Must not know: what a change claims, when moves are the same.
 
 use std::mem;
 use std::sync::Arc;
