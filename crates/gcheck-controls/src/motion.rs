@@ -27,7 +27,7 @@ pub struct MotionRules {
     pub taps: TapRules,
     /// When it waits for the spindle.
     pub spindle_wait: SpindleWaitRules,
-    /// Seconds from the end of a move that the axes stop after to the begin of what they stop for. 0 for none.
+    /// Seconds from the end of a move that the axes stop after to the start of what they stop for. 0 for none.
     #[serde(default)]
     pub halt_time: f64,
     /// What the axes stop for, besides dwells, stops and tool changes.

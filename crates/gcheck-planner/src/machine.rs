@@ -124,7 +124,7 @@ pub struct Control {
     pub block_time: Seconds,
     /// Stretches that take less are run with one even change of speed; zero for none.
     pub even_below: Seconds,
-    /// From the end of a move that the axes stop after to the begin of what they stop for.
+    /// From the end of a move that the axes stop after to the start of what they stop for.
     pub halt_time: Seconds,
     /// How it taps.
     pub taps: Taps,

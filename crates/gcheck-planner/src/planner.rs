@@ -29,7 +29,7 @@ pub struct Span<T> {
     pub tag: T,
     /// How many moves it is: none for the arc at a corner, several for merged moves.
     pub blocks: u32,
-    /// When it begins, from the begin of the run.
+    /// When it begins, from the start of the run.
     pub begin: Seconds,
     /// Where its time goes.
     pub shares: Shares,
@@ -109,7 +109,7 @@ pub struct Planner<T> {
 }
 
 impl<T: Copy> Planner<T> {
-    /// At the begin of a run.
+    /// At the start of a run.
     pub fn new(machine: Machine) -> Self {
         Self {
             meeting: Meeting::Exact,

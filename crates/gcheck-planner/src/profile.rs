@@ -8,7 +8,7 @@
 pub struct Profile {
     /// Way.
     pub length: f64,
-    /// Speed at its begin.
+    /// Speed at its start.
     pub entry: f64,
     /// Highest speed.
     pub peak: f64,

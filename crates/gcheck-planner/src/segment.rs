@@ -38,7 +38,7 @@ pub(crate) struct Segment<T> {
     pub(crate) length: f64,
     /// Its length before corners took their part.
     pub(crate) whole: f64,
-    /// Change of the axes by length, at its begin and at its end.
+    /// Change of the axes by length, at its start and at its end.
     pub(crate) begin: Point,
     pub(crate) end: Point,
     /// The speed that was asked for; infinite for rapid moves.

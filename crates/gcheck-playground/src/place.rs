@@ -19,7 +19,7 @@ pub struct Place {
 /// A part of the program; `end` is after its last character.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 pub struct Span {
-    /// Its begin.
+    /// Its start.
     pub start: Place,
     /// Its end.
     pub end: Place,

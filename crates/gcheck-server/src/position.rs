@@ -42,7 +42,7 @@ impl Encoding {
         columns as u32
     }
 
-    /// Bytes before a column; the whole text when it has fewer. A column inside a character is taken for its begin.
+    /// Bytes before a column; the whole text when it has fewer. A column inside a character is taken for its start.
     fn bytes(self, text: &str, column: u32) -> u32 {
         let column = column as usize;
         let bytes = match self {
@@ -255,7 +255,7 @@ mod tests {
         assert_eq!(text(range(0, 3, 0, 99)), "X1.", "after a line is its end");
         assert_eq!(text(range(2, 0, 99, 0)), "M30\n", "after the text is its end");
         assert_eq!(text(range(1, 1, 0, 3)), "X1.\r\n(", "the wrong way round");
-        assert_eq!(text(range(1, 6, 1, 7)), "", "half a character is taken for its begin");
+        assert_eq!(text(range(1, 6, 1, 7)), "", "half a character is taken for its start");
         assert_eq!(text(range(1, 6, 1, 8)), "😀");
     }
 

@@ -84,7 +84,7 @@ const MOST_ALARMS: usize = 1_000;
 const ROTARY: [Axis; 3] = [Axis::A, Axis::B, Axis::C];
 
 impl Plot {
-    /// At the begin of a run, with the work coordinates in effect there. At most `limit` points are kept ([`MAX_POINTS`]).
+    /// At the start of a run, with the work coordinates in effect there. At most `limit` points are kept ([`MAX_POINTS`]).
     pub fn new(view: View, timing: Timing, work: WorkCoordinates, limit: usize) -> Self {
         Self {
             view,

@@ -321,7 +321,7 @@ pub struct Statistics {
 }
 
 impl Statistics {
-    /// At the begin of a run, with the number of the work coordinate system active there (`None` unknown).
+    /// At the start of a run, with the number of the work coordinate system active there (`None` unknown).
     pub fn new(view: View, timing: Timing, work: Option<u16>) -> Self {
         Self {
             view,

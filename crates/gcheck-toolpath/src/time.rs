@@ -172,7 +172,7 @@ pub struct Clock {
 }
 
 impl Clock {
-    /// Starts at the begin of a run.
+    /// Starts at the start of a run.
     pub fn new(timing: Timing) -> Self {
         Self {
             timing,

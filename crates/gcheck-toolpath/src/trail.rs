@@ -53,7 +53,7 @@ impl Move {
         Self { driven, from, to, arc }
     }
 
-    /// Its begin.
+    /// Its start.
     pub const fn from(&self) -> &Position {
         &self.from
     }
@@ -169,7 +169,7 @@ pub struct Trail {
 }
 
 impl Trail {
-    /// At the begin of a run, with the work coordinate system in effect there.
+    /// At the start of a run, with the work coordinate system in effect there.
     pub fn new(work: WorkCoordinates) -> Self {
         Self {
             clock: Clock::new(Timing::new(None, None)),

@@ -39,7 +39,7 @@ M30
 %`;
 
 /**
- * The programs to type. Blanks at the begin of a line are left out, because VS Code puts them there itself; a comment that
+ * The programs to type. Blanks at the start of a line are left out, because VS Code puts them there itself; a comment that
  * is never closed too, because VS Code closes it.
  */
 function programs(): Program[] {

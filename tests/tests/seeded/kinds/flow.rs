@@ -243,7 +243,7 @@ pub(super) const KINDS: &[Kind] = &[
     Kind::new(
         "loop-begin-forgotten",
         Fear::Alarm,
-        "the begin of a loop is lost",
+        "the start of a loop is lost",
         &["loop-begin-missing", "o-word-unmatched"],
         |p| {
             statements(p, |block, _, kind| {
