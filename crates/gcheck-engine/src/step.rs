@@ -153,8 +153,8 @@ pub(crate) struct Executor<'a, 'p, D: Domain, O: Observer<D>> {
     stroke_buffer: Vec<Stroke>,
     /// Assignments that wait for the end of the block.
     pending: Vec<(Assignee, D::Value)>,
-    /// Words of the block that begin before this byte of its chunk have acted.
-    acted_to: u32,
+    /// Words of the block that begin before this byte of its chunk have acted; `None` until some may have.
+    acted_to: Option<u32>,
     /// The words that are read belong to a block after the one under way.
     looks_ahead: bool,
     /// Variables that were written, and whether the control lets programs do that.
@@ -244,7 +244,7 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
             nested: FxHashMap::default(),
             stroke_buffer: Vec::new(),
             pending: Vec::new(),
-            acted_to: 0,
+            acted_to: None,
             looks_ahead: false,
             writable: FxHashMap::default(),
             bar_feeds: 0,
@@ -298,7 +298,7 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
         self.flow = None;
         self.machine_coordinates = false;
         self.pending.clear();
-        self.acted_to = 0;
+        self.acted_to = None;
         if self.lenient {
             self.before = Some(self.before_block(state));
             (self.bridge, self.at_fault) = (None, None);
@@ -409,7 +409,8 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
     /// The words of a block that have not acted yet.
     fn words_to_come<'t>(&self, table: &'t BlockTable, block: &Block) -> &'t [Word] {
         let words = table.words(block);
-        let first = words.partition_point(|word| word.range().start < self.acted_to);
+        let acted_to = self.acted_to.unwrap_or(0);
+        let first = words.partition_point(|word| word.range().start < acted_to);
         words.get(first..).unwrap_or_default()
     }
 
@@ -428,7 +429,7 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
         let words = self.words_to_come(table, block);
         let count = words.partition_point(|word| word.range().start < before);
         let words = words.get(..count).unwrap_or_default();
-        self.acted_to = before;
+        self.acted_to = Some(before);
         if words.iter().all(|word| matches!(word.letter.ascii(), b'N' | b'O')) {
             return Ok(());
         }
@@ -1198,7 +1199,7 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
                 StatementKind::Goto { target } => {
                     let Some(target) = target else { return Err(Fault::Malformed) };
                     // What is between a condition and its jump belongs to the jump; without one all words act before it.
-                    let end = if self.acted_to == 0 { u32::MAX } else { statement.range.start };
+                    let end = if self.acted_to.is_some() { statement.range.start } else { u32::MAX };
                     self.act_before(place, table, block, end, state)?;
                     let value = self.value_of(place, table, table.expr(*target), state)?;
                     return self.jump_to_label(&value, state).map(Statements::Done);

@@ -505,3 +505,17 @@ fn what_is_put_in_where_a_segment_begins_is_executed() {
         });
     }
 }
+
+#[test]
+fn a_condition_at_the_start_of_a_chunk_is_one_all_the_same() {
+    let control = gcheck_controls::load("haas-mill").unwrap();
+    let dialect = Dialect::new(&control);
+    let world = World::default();
+    let environment = world.environment(&dialect);
+    let selection = everything();
+    // The words after the jump are not read when it is taken.
+    let text = "#1=3\nIF [#1 EQ 3] GOTO 4 M60\nM30\n";
+    for lines in 1..4 {
+        Bench::new(environment, &selection).assert_fresh(text, lines, &|| format!("{lines} lines a chunk"));
+    }
+}
