@@ -88,7 +88,7 @@ fn draw(
     let model = Model::new(snapshot.control());
     let timing = Timing::of_machine(&model, machine);
     let work = WorkCoordinates::at_power_on(&model, machine);
-    let mut plot = Plot::new(view(snapshot, &model), timing, work, most_segments);
+    let mut plot = Plot::new(view(snapshot, &model), timing, work, most_segments).on_machine(machine);
     if is_turned(snapshot) {
         plot = plot.for_lathe();
     }
@@ -113,6 +113,7 @@ fn draw(
     let drawing = plot.finish();
     let names = tool_names(snapshot);
     let tool = |tool| names.get(tool).map(str::to_owned);
+    let offset = |number| Some(gcheck_lint::work_offset_name(number, &model));
     let found = headings(snapshot);
     let lines = found.iter().map(|heading| snapshot.line_at(heading.from) + 1);
     let headings: Vec<_> =
@@ -121,7 +122,7 @@ fn draw(
     notes.extend(without.into_iter().map(|what| format!("not drawn: {what}")));
     notes.extend(stopped.clone());
     let path = Toolpath {
-        data: drawing.to_json(&Names { tool: &tool, ..Names::NONE }, &headings),
+        data: drawing.to_json(&Names { tool: &tool, offset: &offset }, &headings),
         moves: drawing.moves(),
         seconds: drawing.seconds().0,
         notes,

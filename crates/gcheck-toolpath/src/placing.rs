@@ -2,6 +2,8 @@
 //!
 //! Knows: shifts, offsets and rotations in effect. Must not know: which codes set them, what is made of the points.
 
+use std::collections::BTreeMap;
+
 use gcheck_engine::{Axis, Event, Machine, Model, Position};
 
 /// A work coordinate system: its number and where it lies.
@@ -40,11 +42,15 @@ pub(crate) struct Placing {
     first: Option<WorkCoordinates>,
     /// A point was placed though the distance of its system from the first one is unknown.
     overlaid: bool,
+    /// The systems in which something moved, by number, with the place of their zero from the first one's; NaN unknown.
+    used: BTreeMap<u16, [f64; 3]>,
+    /// The last one of them.
+    noted: Option<u16>,
 }
 
 impl Placing {
     pub(crate) fn new(work: WorkCoordinates) -> Self {
-        Self { work, shift: Position::ZERO, first: None, overlaid: false }
+        Self { work, shift: Position::ZERO, first: None, overlaid: false, used: BTreeMap::new(), noted: None }
     }
 
     /// To be called after an event was looked at.
@@ -69,6 +75,23 @@ impl Placing {
         let first = *self.first.get_or_insert(self.work);
         let apart = self.away(&first);
         self.overlaid |= self.work.number != first.number && apart.iter().any(|way| way.is_nan());
+        if self.noted != self.work.number {
+            self.noted = self.work.number;
+            let is_first = self.work.number == first.number;
+            let place = if is_first { [0.0; 3] } else { apart };
+            self.used.extend(self.work.number.map(|number| (number, place)));
+        }
+    }
+
+    /// The system in effect at the first move.
+    pub(crate) const fn first(&self) -> Option<&WorkCoordinates> {
+        self.first.as_ref()
+    }
+
+    /// The systems in which something moved and whose zero has a known place, in the order of their numbers.
+    pub(crate) fn zeros(&self) -> Vec<(u16, [f64; 3])> {
+        let known = self.used.iter().filter(|(_, place)| place.iter().all(|way| way.is_finite()));
+        known.map(|(number, place)| (*number, *place)).collect()
     }
 
     /// A point in the coordinates of the first system. One whose distance from it is unknown is taken to be the first.

@@ -9,10 +9,11 @@ mod drive;
 mod packed;
 mod page;
 mod palette;
+mod surroundings;
 mod svg;
 mod thin;
 
-use gcheck_engine::{Axis, Event, FeedMode, Position};
+use gcheck_engine::{Axis, Event, FeedMode, Machine, Position};
 use gcheck_geometry::{Arc, Bounds, Mm};
 
 pub use data::Heading;
@@ -25,6 +26,7 @@ use crate::step::{Beside, Step, View};
 use crate::time::{Clock, Timing};
 use drawing::{Alarm, Kind, Point};
 use drive::{Drive, Drives, four_digits};
+use surroundings::Surroundings;
 
 /// Points kept of a run for the page, when the caller does not say otherwise. More are thinned.
 pub const MAX_POINTS: usize = 500_000;
@@ -74,6 +76,7 @@ pub struct Plot {
     /// Moves that are drawn where the block aims, and not where the axes go: along a tilting tool, and beside a contour.
     posted: u64,
     on_contour: u64,
+    surroundings: Surroundings,
 }
 
 /// Blocks that change the tool; further ones begin no part of the path.
@@ -115,7 +118,14 @@ impl Plot {
             last: None,
             posted: 0,
             on_contour: 0,
+            surroundings: Surroundings::default(),
         }
+    }
+
+    /// With what is told of a machine around the path: how wide its tools are, how far it goes.
+    #[must_use]
+    pub fn on_machine(self, machine: &Machine) -> Self {
+        Self { surroundings: Surroundings::of(machine), ..self }
     }
 
     /// The control would stop at a block, and the run goes on: the place where the tool is gets a mark.
@@ -211,7 +221,13 @@ impl Plot {
         if self.points.len() > self.limit {
             self.thin();
         }
-        let names = self.tools.iter();
+        let surroundings = &self.surroundings;
+        let tool = |(ix, number): (usize, &Option<u32>)| Tool {
+            // What is told of a turning tool is its nose.
+            diameter: number.filter(|_| !self.lathe).and_then(|number| surroundings.diameter(number)),
+            ..Tool::new(ix, *number)
+        };
+        let travel = self.placing.first().filter(|work| !self.lathe && work.rotation.abs() <= 0.0);
         Drawing {
             view: self.view,
             lathe: self.lathe,
@@ -221,7 +237,9 @@ impl Plot {
                 gcheck_engine::Units::Mm
             },
             points: self.points,
-            tools: names.enumerate().map(|(ix, number)| Tool::new(ix, *number)).collect(),
+            tools: self.tools.iter().enumerate().map(tool).collect(),
+            zeros: self.placing.zeros(),
+            travel: travel.map(|work| surroundings.travel_in(work)).unwrap_or_default(),
             files: self.files,
             cut: extents(&self.cut),
             all: extents(&self.all),

@@ -38,7 +38,7 @@ impl Names<'static> {
 }
 
 impl Names<'_> {
-    fn offset(&self, number: Option<u16>) -> String {
+    pub(crate) fn offset(&self, number: Option<u16>) -> String {
         match number {
             None => "unknown offset".to_owned(),
             Some(number) => (self.offset)(number).unwrap_or_else(|| format!("offset {number}")),

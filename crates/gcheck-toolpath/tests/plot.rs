@@ -2,8 +2,8 @@
 
 mod step_maker;
 
-use gcheck_engine::{Axis, Event, FeedMode, Position, TravelKind};
-use gcheck_geometry::Plane;
+use gcheck_engine::{Axis, Event, FeedMode, Machine, Position, Tool, TravelKind};
+use gcheck_geometry::{Mm, Plane};
 use gcheck_toolpath::plot::{Drawing, Heading, Plot};
 use gcheck_toolpath::{Names, WorkCoordinates};
 use serde_json::json;
@@ -113,6 +113,43 @@ fn work_offsets_are_drawn_at_their_distance_where_it_is_known() {
     run.block().event(offset(2)).rapid(2.0, 0.0, 0.0);
     let notes = draw(&run, 1_000).notes().join("\n");
     assert!(notes.contains("work offsets whose values nobody told are drawn as if they were one"), "{notes}");
+}
+
+/// A tool of which nothing is told.
+const TOOL: Tool = Tool {
+    pocket: 0,
+    offset: Position::UNKNOWN,
+    diameter: Mm(f64::NAN),
+    corner_radius: Mm(f64::NAN),
+    angles: [f64::NAN; 2],
+    orientation: 0,
+};
+
+#[test]
+fn what_is_around_the_path_is_told_in_its_coordinates() {
+    let mut run = Run::new();
+    let offset = |number, x, y| Event::WorkOffset { number, offset: point(x, y, 0.0), rotation: 0.0 };
+    run.block().event(Event::ToolChange(Some(3))).event(offset(1, -400.0, f64::NAN)).rapid(0.0, 0.0, 0.0);
+    run.block().event(offset(2, -300.0, f64::NAN)).rapid(1.0, 0.0, 0.0);
+    run.block().event(offset(1, -400.0, f64::NAN)).rapid(2.0, 0.0, 0.0);
+    let mut machine = Machine::default();
+    machine.travel.extend([(Axis::X, (-700.0, 10.0)), (Axis::Y, (-500.0, 0.0)), (Axis::Z, (-400.0, 0.0))]);
+    let tool = |diameter| Tool { diameter: Mm(diameter), ..TOOL };
+    machine.tools.extend([(3, tool(12.0)), (4, tool(f64::NAN))]);
+    let data = |plot: Plot| {
+        let mut plot = plot.on_machine(&machine);
+        run.each(|step| plot.add(step));
+        plot.finish()
+            .to_json(&Names { offset: &|number| Some(format!("G{}", 53 + number)), ..Names::NONE }, &[])
+    };
+    let mill = data(Plot::new(xyz(), timing(), WorkCoordinates::UNKNOWN, 1_000));
+    // Where G55 is in Y nobody knows, and so nobody knows it.
+    assert_eq!(mill["zeros"], json!([{ "name": "G54", "at": [0.0, 0.0, 0.0] }]));
+    assert_eq!(mill["travel"], json!([[-300.0, 410.0], null]));
+    assert_eq!(mill["tools"][0]["diameter"], json!(12.0));
+    // On a lathe the offsets of tools count as well.
+    let lathe = data(Plot::new(xyz(), timing(), WorkCoordinates::UNKNOWN, 1_000).for_lathe());
+    assert_eq!((&lathe["travel"], &lathe["tools"][0]["diameter"]), (&json!([null, null]), &json!(null)));
 }
 
 #[test]

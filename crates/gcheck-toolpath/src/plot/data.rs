@@ -58,6 +58,14 @@ pub(super) struct ViewerData<'d> {
     cut: Option<[[f64; 3]; 2]>,
     all: Option<[[f64; 3]; 2]>,
     alarms: Vec<AlarmData>,
+    zeros: Vec<ZeroData>,
+    travel: [Option<[f64; 2]>; 2],
+}
+
+#[derive(Debug, Serialize)]
+struct ZeroData {
+    name: String,
+    at: [f64; 3],
 }
 
 #[derive(Debug, Serialize)]
@@ -93,6 +101,7 @@ struct ToolData {
     number: Option<u32>,
     name: Option<String>,
     color: &'static str,
+    diameter: Option<f64>,
 }
 
 impl Drawing {
@@ -120,6 +129,7 @@ impl Drawing {
                     number: tool.number,
                     name: tool.number.and_then(names.tool),
                     color: tool.color,
+                    diameter: tool.diameter.map(|diameter| diameter.0),
                 })
                 .collect(),
             files: &self.files,
@@ -143,6 +153,12 @@ impl Drawing {
                 .iter()
                 .map(|alarm| AlarmData { file: alarm.file, line: alarm.line, at: alarm.at })
                 .collect(),
+            zeros: self
+                .zeros
+                .iter()
+                .map(|(number, at)| ZeroData { name: names.offset(Some(*number)), at: *at })
+                .collect(),
+            travel: self.travel,
         }
     }
 }

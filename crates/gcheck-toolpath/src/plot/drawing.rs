@@ -5,6 +5,7 @@
 use std::fmt::Write as _;
 
 use gcheck_engine::Units;
+use gcheck_geometry::Mm;
 
 use super::drive::Drive;
 use super::palette;
@@ -55,17 +56,19 @@ pub(super) struct Alarm {
 }
 
 /// A tool of the drawing.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tool {
     /// Its number; `None` unknown.
     pub number: Option<u32>,
     /// Its colour, `#rrggbb`.
     pub color: &'static str,
+    /// Its diameter, where that is told.
+    pub diameter: Option<Mm>,
 }
 
 impl Tool {
     pub(super) fn new(index: usize, number: Option<u32>) -> Self {
-        Self { number, color: palette::color(index) }
+        Self { number, color: palette::color(index), diameter: None }
     }
 
     /// `T3`, with what the tool is called.
@@ -121,6 +124,10 @@ pub struct Drawing {
     /// Moves drawn where the program was posted, and on the contour that compensation runs beside.
     pub(super) posted: u64,
     pub(super) on_contour: u64,
+    /// The work coordinate systems in which something moved, with the places of their zeros that are known, millimetres.
+    pub(super) zeros: Vec<(u16, [f64; 3])>,
+    /// How far the machine goes in X and Y, millimetres, where that is known.
+    pub(super) travel: [Option<[f64; 2]>; 2],
 }
 
 impl Drawing {

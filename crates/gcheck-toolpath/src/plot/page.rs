@@ -19,7 +19,7 @@ const MAX_TEXT: usize = 32 << 20;
 const MAX_LINES: usize = 1_500_000;
 
 /// The modules of the page, each after those that it imports: as one script their names are one another's.
-const MODULES: [&str; 15] = [
+const MODULES: [&str; 16] = [
     include_str!("viewer/geometry.js"),
     include_str!("viewer/data.js"),
     include_str!("viewer/former.js"),
@@ -28,6 +28,7 @@ const MODULES: [&str; 15] = [
     include_str!("viewer/camera.js"),
     include_str!("viewer/painter.js"),
     include_str!("viewer/paper.js"),
+    include_str!("viewer/surroundings.js"),
     include_str!("viewer/annotate.js"),
     include_str!("viewer/measure.js"),
     include_str!("viewer/picture.js"),

@@ -14,7 +14,7 @@
 //   units      "mm" or "inch": how lengths are shown
 //   lathe      true: the first view is ZX, with X up
 //   diameter   true: X is shown doubled
-//   tools      [{ number: 3 or null, name: "…" or null, color: "#rrggbb" }]
+//   tools      [{ number: 3 or null, name: "…" or null, color: "#rrggbb", diameter: millimetres or null }]
 //   files      ["part.nc", …]
 //   count      how many points there are; the arrays have one entry a point, in the order of the run:
 //   points     x, y, z; differences in steps of 0.0001 mm
@@ -35,6 +35,9 @@
 //              the feed of the last
 //   alarms     [{ file, line, at: [x, y, z] or null }]: blocks at which the control would stop, and where the tool was then; may
 //              be missing
+//   zeros      [{ name: "G55", at: [x, y, z] }]: the work offsets in which something moves and whose place to the first is known;
+//              may be missing
+//   travel     [[low, high] or null of X, the same of Y]: how far the machine goes; may be missing
 //   cut, all   [[x, y, z], [x, y, z]]: smallest and largest of the moves that cut, and of all moves; null when there are none
 //
 // An array is a typed array, or base64 of numbers in groups of seven bits (plot/packed.rs): differences to the point before, or

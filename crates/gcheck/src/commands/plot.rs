@@ -68,7 +68,8 @@ pub(crate) fn run(global: &Global, options: &PlotOptions) -> Result<u8, Problem>
 fn draw(session: &Session<'_>) -> Result<(RunResult, Drawing), Problem> {
     let equipment = &session.prepared.equipment;
     let work = WorkCoordinates::at_power_on(session.model, &equipment.machine);
-    let mut plot = Plot::new(session.all_axes(), equipment.timing, work, MAX_POINTS);
+    let mut plot =
+        Plot::new(session.all_axes(), equipment.timing, work, MAX_POINTS).on_machine(&equipment.machine);
     if session.model.control().machine() == gcheck_controls::Machine::Lathe {
         plot = plot.for_lathe();
     }
@@ -88,7 +89,8 @@ fn stopped(session: &Session<'_>, ran: &RunResult) -> Option<String> {
 
 fn with_names<R>(session: &Session<'_>, with: impl FnOnce(&Names<'_>) -> R) -> R {
     let tool = |tool| session.tool_name(tool);
-    with(&Names { tool: &tool, ..Names::NONE })
+    let offset = |number| Some(gcheck_lint::work_offset_name(number, session.model));
+    with(&Names { tool: &tool, offset: &offset })
 }
 
 fn svg(session: &Session<'_>, drawing: &Drawing, notes: &[String], out: &mut dyn Write) -> io::Result<()> {

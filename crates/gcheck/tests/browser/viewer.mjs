@@ -143,6 +143,28 @@ try {
     viewer.setView("top");
     seen.former.isInSvgOfAnotherProgram = inSvg();
 
+    // What is around the path: the tool in its size, zeros, the travel, which the path crosses in X.
+    const around = {
+      tools: [{ number: 1, name: null, color: "#0072b2", diameter: 4 }], travel: [[-2, 8], [-5, 15]],
+      zeros: [{ name: "G54", at: [0, 0, 0] }, { name: "G55", at: [6, 4, 0] }],
+    };
+    const square = [[0, 0, 0], [10, 0, 0], [10, 10, 0], [0, 10, 0]];
+    const words = () => [...viewer.svg("around").matchAll(/<text[^>]*>([^<]*)</g)].map(([, text]) => text);
+    const rings = () => [...viewer.svg("around").matchAll(/<path d="([^"]*)"/g)].filter(([, way]) => way.split("L").length > 30).length;
+    viewer.setData(through(square, around), { keep: false });
+    viewer.setView("iso");
+    seen.around = { words: words().filter((text) => /^G5|travel/.test(text)), before: rings() };
+    viewer.goToTime(1.5);
+    seen.around.rings = rings();
+    seen.around.ink = await ink() > 0;
+    viewer.setData(through(square, { ...around, lathe: true }), { keep: true });
+    viewer.goToTime(1.5);
+    seen.around.ringsOnLathe = rings();
+    viewer.setData(through(square, { ...around, rotary: { axes: "B", values: new Float32Array([0, 30, 30, 30]) } }), { keep: true });
+    viewer.goToTime(1.5);
+    seen.around.ringsOfTilted = rings();
+    viewer.setData(through(square), { keep: false });
+
     // The axes turn while the tool moves.
     const values = new Float32Array([0, 90]);
     viewer.setData(through([[0, 0, 0], [10, 0, 0]], { rotary: { axes: "A", values } }));

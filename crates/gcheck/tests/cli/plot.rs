@@ -404,6 +404,11 @@ fn the_viewer_takes_other_data_and_comes_to_an_end() {
         serde_json::json!([2.5, 22.5]),
         "a quarter of the way, a quarter of the turn"
     );
+    let around = serde_json::json!({
+        "words": ["G54", "G55", "X− travel", "X+ travel, crossed", "Y− travel", "Y+ travel"],
+        "before": 0, "rings": 2, "ink": true, "ringsOnLathe": 0, "ringsOfTilted": 0,
+    });
+    assert_eq!(seen["around"], around, "{seen:#}");
     assert_eq!((&seen["turned"], &seen["turningFromUnknown"]), (&90.into(), &90.into()));
 }
 

@@ -1,4 +1,4 @@
-// What is written on the path: its size, the zero, marks, the tool, what is measured, a bar of a known length.
+// What is written on the path: its size, zeros, marks, the tool, the travel, what is measured, a bar of a known length.
 //
 // Knows: a paper, a camera, the data of a drawing. Must not know: how the path itself is drawn.
 //
@@ -6,6 +6,7 @@
 
 import { css, onGround, rgb } from "./colors.js";
 import { cornerOf, dot } from "./geometry.js";
+import { toolShape, travel, zeros } from "./surroundings.js";
 import { lengthText } from "./words.js";
 
 /** Contrast of words to the ground (WCAG 2). */
@@ -134,6 +135,7 @@ export function annotate(paper, scene) {
   }
   measured(paper, room, scene);
   zero(paper, room, scene);
+  for (const { name, places, color } of [...zeros(paper, scene), ...travel(paper, scene)]) write(paper, room, name, places, color ?? theme.text);
   extents(paper, room, scene);
   for (const mark of marks) {
     paper.disc(camera.onScreen(mark.point), 5, { fill: theme[mark.severity] ?? theme.info, color: theme.background });
@@ -145,7 +147,7 @@ export function annotate(paper, scene) {
     paper.line([[x - 6, y - 6], [x + 6, y + 6]], style);
     paper.line([[x - 6, y + 6], [x + 6, y - 6]], style);
   }
-  if (isPart) {
+  if (isPart && !toolShape(paper, scene)) {
     const p = camera.onScreen(tip), up = d.lathe ? [1, 0, 0] : [0, 0, 1];
     paper.disc(p, 6, { color: theme.text, width: 2 });
     paper.line([p, [p[0] + dot(camera.rows[0], up) * 40, p[1] - dot(camera.rows[1], up) * 40]], { color: theme.text, width: 2 });

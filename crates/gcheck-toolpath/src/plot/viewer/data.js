@@ -81,6 +81,8 @@ export function decode(data) {
     headings: data.headings ?? [],
     changes: data.changes ?? [],
     alarms: data.alarms ?? [],
+    zeros: data.zeros ?? [],
+    travel: data.travel ?? [null, null],
   };
 }
 
