@@ -6,8 +6,9 @@
 use crate::Hint;
 use crate::UnsupportedDialect;
 use crate::loader::all_control_files;
+use crate::schema::ControlFile;
 use crate::unsupported::{OtherControl, other_controls};
-use crate::whole_word::contains_word;
+use crate::whole_word::Words;
 
 /// What a program shows of itself.
 #[derive(Debug, Clone, Default)]
@@ -59,21 +60,34 @@ pub struct Score {
 
 /// What the evidence is worth for each control, the best first. Controls without any hint found are left out.
 pub fn scores(evidence: &Evidence) -> Vec<Score> {
-    let mut scores: Vec<Score> =
-        all_control_files().filter_map(|file| score(&file.name, &file.detect, evidence)).collect();
+    let comments = Comments::of(evidence);
+    let of_control = |file: &'static ControlFile| score(&file.name, &file.detect, evidence, &comments);
+    let mut scores: Vec<Score> = all_control_files().filter_map(of_control).collect();
     scores.sort_by(|a, b| b.points.cmp(&a.points).then_with(|| a.guess.control.cmp(&b.guess.control)));
     scores
 }
 
-fn score(control: &str, hints: &[Hint], evidence: &Evidence) -> Option<Score> {
+/// The comments of a program, made ready for many words to be looked for.
+struct Comments<'e>(Vec<(&'e str, Words)>);
+
+impl<'e> Comments<'e> {
+    fn of(evidence: &'e Evidence) -> Self {
+        Self(evidence.comments.iter().map(|comment| (comment.as_str(), Words::of(comment))).collect())
+    }
+
+    /// The first one that has a word, as written.
+    fn with(&self, word: &str) -> Option<&'e str> {
+        self.0.iter().find(|(_, words)| words.have(word)).map(|(comment, _)| *comment)
+    }
+}
+
+fn score(control: &str, hints: &[Hint], evidence: &Evidence, comments: &Comments<'_>) -> Option<Score> {
     let mut points = 0;
     let mut against = 0;
     let mut best: (i32, Option<String>) = (i32::MIN, None);
     for hint in hints {
         let found = match (&hint.comment, &hint.code, &hint.form) {
-            (Some(text), _, _) => {
-                evidence.comments.iter().find(|c| contains_word(c, text)).map(|c| format!("({c})"))
-            }
+            (Some(text), _, _) => comments.with(text).map(|comment| format!("({comment})")),
             (None, Some(code), _) => evidence.codes.iter().find(|c| *c == code).cloned(),
             (None, None, Some(form)) => evidence.forms.iter().find(|f| *f == form).cloned(),
             (None, None, None) => {
@@ -127,10 +141,10 @@ pub fn foreign(evidence: &Evidence) -> Option<Foreign> {
 
 /// The foreign control that a comment names, unless its programs are read as those of `control`.
 fn foreign_unlike(evidence: &Evidence, control: &str) -> Option<Foreign> {
-    let named = |word: &String| evidence.comments.iter().find(|comment| contains_word(comment, word));
+    let comments = Comments::of(evidence);
     let mut others = other_controls().iter().filter(|other| !other.like.iter().any(|like| like == control));
     let told = |other: &OtherControl| {
-        let comment = other.comments.iter().find_map(named)?;
+        let comment = other.comments.iter().find_map(|word| comments.with(word))?;
         Some(Foreign { name: other.name.clone(), comment: format!("({comment})") })
     };
     others.find_map(told)

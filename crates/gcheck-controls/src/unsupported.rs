@@ -8,7 +8,7 @@ use std::sync::LazyLock;
 
 use serde::Deserialize;
 
-use crate::whole_word::contains_word;
+use crate::whole_word::Words;
 
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -79,8 +79,9 @@ const ENOUGH_LINES: usize = 3;
 pub fn unsupported_dialect(head: &str, extension: Option<&str>) -> Option<&'static UnsupportedDialect> {
     let head = head.get(..head.floor_char_boundary(HEAD_BYTES)).unwrap_or(head);
     let lines: Vec<&str> = head.split(['\n', '\r']).map(without_number).collect();
+    let words = Words::of(head);
     let is_met = |hint: &&Hint| {
-        hint.extension.as_deref().is_some_and(|end| Some(end) == extension) || hint.is_in(head, &lines)
+        hint.extension.as_deref().is_some_and(|end| Some(end) == extension) || hint.is_in(&words, &lines)
     };
     let points = |dialect: &UnsupportedDialect| -> u32 {
         dialect.hints.iter().filter(is_met).map(|hint| hint.points).sum()
@@ -91,9 +92,9 @@ pub fn unsupported_dialect(head: &str, extension: Option<&str>) -> Option<&'stat
 }
 
 impl Hint {
-    fn is_in(&self, head: &str, lines: &[&str]) -> bool {
+    fn is_in(&self, words: &Words, lines: &[&str]) -> bool {
         let by_line = self.line.as_ref().is_some_and(|begin| lines.iter().any(|line| begins(line, begin)));
-        let by_text = self.text.as_ref().is_some_and(|text| contains_word(head, text));
+        let by_text = self.text.as_ref().is_some_and(|text| words.have(text));
         let by_word = self.word.is_some_and(|word| {
             lines.iter().filter(|line| is_move(line) && has_word(line, word)).count() >= ENOUGH_LINES
         });

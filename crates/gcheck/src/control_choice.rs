@@ -11,9 +11,19 @@ use gcheck_report::{ControlChoice, ControlSource};
 use gcheck_syntax::SourceText;
 
 use crate::config::validate_control;
-use crate::detection::{detected, evidence};
+use crate::detection::evidence;
 use crate::neighbours::Neighbours;
 use crate::{Problem, paths};
+
+/// The control of a program, and what was seen when it was chosen.
+#[derive(Debug, Clone)]
+pub(crate) struct Chosen {
+    pub(crate) choice: ControlChoice,
+    /// The programs beside it may change the choice.
+    pub(crate) depends_on_neighbours: bool,
+    /// The dialect, where no control here reads it and nobody chose one.
+    pub(crate) unsupported: Option<&'static UnsupportedDialect>,
+}
 
 /// Chooses the control of a program; `configured` is the configuration's, with the file that says so.
 pub(crate) fn choose(
@@ -22,8 +32,12 @@ pub(crate) fn choose(
     option: Option<&str>,
     configured: Option<(&str, Option<&Path>)>,
     neighbours: &Neighbours,
-) -> Result<ControlChoice, Problem> {
-    let choice = |name: &str, source, because| ControlChoice { name: name.to_owned(), source, because };
+) -> Result<Chosen, Problem> {
+    let choice = |name: &str, source, because| Chosen {
+        choice: ControlChoice { name: name.to_owned(), source, because },
+        depends_on_neighbours: false,
+        unsupported: None,
+    };
     if let Some(name) = option {
         return Ok(choice(name, ControlSource::Option, None));
     }
@@ -34,33 +48,45 @@ pub(crate) fn choose(
         let because = file.map(paths::shown_from_here);
         return Ok(choice(name, ControlSource::Configuration, because));
     }
-    Ok(guessed(&evidence(path, source.text()), path, neighbours))
+    let evidence = evidence(path, source.text());
+    let guess = gcheck_controls::guess(&evidence);
+    Ok(Chosen {
+        choice: guessed(guess.as_ref(), &evidence, path, neighbours),
+        depends_on_neighbours: depends_on_neighbours(guess.as_ref(), &evidence),
+        unsupported: evidence.unsupported,
+    })
+}
+
+/// Only a program that leaves a choice is worth the reading of its neighbours.
+fn depends_on_neighbours(guess: Option<&Guess>, evidence: &Evidence) -> bool {
+    evidence.unsupported.is_none() && guess.is_none_or(|guess| !guess.is_clear)
 }
 
 /// The choice where nobody made one.
-fn guessed(evidence: &Evidence, path: &Path, neighbours: &Neighbours) -> ControlChoice {
+fn guessed(
+    guess: Option<&Guess>,
+    evidence: &Evidence,
+    path: &Path,
+    neighbours: &Neighbours,
+) -> ControlChoice {
     let detected = |name: String, because: String| ControlChoice {
         name,
         source: ControlSource::Detected,
         because: Some(because),
     };
-    let guess = gcheck_controls::guess(evidence);
-    if let Some(guess) = guess.as_ref().filter(|guess| guess.is_clear) {
+    if let Some(guess) = guess.filter(|guess| guess.is_clear) {
         return detected(guess.control.clone(), guess.because.clone());
     }
-    // Only a program that leaves a choice is worth the reading of its neighbours.
-    let is_open = evidence.unsupported.is_none();
+    let is_open = depends_on_neighbours(guess, evidence);
     let majority = is_open.then(|| neighbours.majority(path)).flatten();
     let is_possible = |control: &String| {
-        guess
-            .as_ref()
-            .is_some_and(|guess| [Some(&guess.control), guess.rival.as_ref()].contains(&Some(control)))
+        guess.is_some_and(|guess| [Some(&guess.control), guess.rival.as_ref()].contains(&Some(control)))
             || gcheck_controls::may_be_for(evidence, control)
     };
     if let Some(majority) = majority.filter(|majority| is_possible(&majority.control)) {
         return detected(majority.control.clone(), majority.words());
     }
-    match guess {
+    match guess.cloned() {
         Some(Guess { control, because, rival: None, .. }) => return detected(control, because),
         Some(Guess { control, because, rival: Some(rival), .. }) => {
             return detected(control, format!("{because}; {rival} fits nearly as well"));
@@ -77,25 +103,18 @@ fn guessed(evidence: &Evidence, path: &Path, neighbours: &Neighbours) -> Control
     ControlChoice { name: gcheck_controls::fallback().to_owned(), source: ControlSource::Default, because }
 }
 
-/// Does the choice of a control depend on the programs beside the one that it is for?
-pub(crate) fn may_depend_on_neighbours(choice: &ControlChoice, path: &Path, text: &str) -> bool {
-    let is_guessed = matches!(choice.source, ControlSource::Detected | ControlSource::Default);
-    is_guessed && detected(path, text).is_none_or(|guess| !guess.is_clear)
-}
+impl Chosen {
+    /// Did nobody choose it?
+    pub(crate) fn is_guessed(&self) -> bool {
+        matches!(self.choice.source, ControlSource::Detected | ControlSource::Default)
+    }
 
-/// Of a program whose control nobody chose, and whose dialect no control here reads, only the rule that says so is run.
-/// Returns that dialect.
-pub(crate) fn narrow_for_dialect(
-    selection: &mut Selection,
-    source: ControlSource,
-    path: &Path,
-    head: &str,
-) -> Option<&'static UnsupportedDialect> {
-    let is_guessed = matches!(source, ControlSource::Detected | ControlSource::Default);
-    let extension = path.extension().map(|extension| extension.to_string_lossy().to_ascii_lowercase());
-    let dialect = gcheck_controls::unsupported_dialect(head, extension.as_deref()).filter(|_| is_guessed)?;
-    selection.keep_only(UNSUPPORTED_DIALECT);
-    Some(dialect)
+    /// Of a program whose control nobody chose, and whose dialect no control here reads, only the rule that says so is run.
+    pub(crate) fn narrow(&self, selection: &mut Selection) {
+        if self.unsupported.is_some() {
+            selection.keep_only(UNSUPPORTED_DIALECT);
+        }
+    }
 }
 
 /// The rule that names a dialect that no control here reads.
@@ -128,7 +147,8 @@ mod tests {
     ) -> (String, ControlSource, Option<String>) {
         let source = SourceText::from(text);
         let configured = configured.map(|name| (name, None));
-        let choice = choose(Path::new("a.nc"), &source, option, configured, &Neighbours::default()).unwrap();
+        let choice =
+            choose(Path::new("a.nc"), &source, option, configured, &Neighbours::default()).unwrap().choice;
         (choice.name, choice.source, choice.because)
     }
 
@@ -151,16 +171,15 @@ mod tests {
     #[test]
     fn of_an_unsupported_dialect_one_rule_is_run() {
         let printed = "G92 E0\nG1 X1 E1.1\nG1 X2 E1.2\nG1 Y2 E1.3\n";
-        let rules = |source, text| {
+        let rules = |option, text| {
             let mut selection = gcheck_lint::Selection::recommended(gcheck_rules::RULES);
-            super::narrow_for_dialect(&mut selection, source, Path::new("a.nc"), text);
+            let (path, source) = (Path::new("a.nc"), SourceText::from(text));
+            choose(path, &source, option, None, &Neighbours::default()).unwrap().narrow(&mut selection);
             selection.rules().map(|(rule, _)| rule.meta.id).collect::<Vec<_>>()
         };
-        for source in [ControlSource::Default, ControlSource::Detected] {
-            assert_eq!(rules(source, printed), ["unsupported-dialect"]);
-        }
-        assert!(rules(ControlSource::Option, printed).len() > 100);
-        assert!(rules(ControlSource::Default, "G0 X1.\n").len() > 100);
+        assert_eq!(rules(None, printed), ["unsupported-dialect"]);
+        assert!(rules(Some("linuxcnc"), printed).len() > 100);
+        assert!(rules(None, "G0 X1.\n").len() > 100);
     }
 
     #[test]
@@ -170,7 +189,7 @@ mod tests {
         let of = |name: &str, neighbours: &Neighbours| {
             let path = folder.path().join(name);
             let source = SourceText::from(std::fs::read_to_string(&path).unwrap().as_str());
-            let choice = choose(&path, &source, None, None, neighbours).unwrap();
+            let choice = choose(&path, &source, None, None, neighbours).unwrap().choice;
             (choice.name, choice.source, choice.because.unwrap_or_default())
         };
         write("clear.nc", "G0 X1. Y1.\nM30\n");
@@ -204,8 +223,8 @@ mod tests {
     #[test]
     fn an_unknown_name_in_a_comment_is_refused_at_its_place() {
         let source = SourceText::from("%\n(gcheck: control=linuxcn)\n");
-        let problem =
-            choose(Path::new("a.nc"), &source, None, None, &Neighbours::default()).unwrap_err().to_string();
+        let chosen = choose(Path::new("a.nc"), &source, None, None, &Neighbours::default());
+        let problem = chosen.err().unwrap().to_string();
         assert!(
             problem.starts_with("a.nc:2:18: no control is called `linuxcn`; did you mean `linuxcnc`?"),
             "{problem}"

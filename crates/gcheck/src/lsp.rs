@@ -11,7 +11,7 @@ use std::{fs, io};
 
 use gcheck_db::Settings;
 use gcheck_lint::{Execution, RuleTable};
-use gcheck_report::{ControlChoice, ControlSource};
+use gcheck_report::ControlChoice;
 use gcheck_server::{
     Choice, ConfigurationProblem, Host, InForce, ProgramFile, ProgramQuery, ProgramText, serve,
 };
@@ -19,7 +19,7 @@ use gcheck_syntax::SourceText;
 
 use crate::args::{FUEL, Global};
 use crate::config::{Config, Configs, FILE_NAMES, RuleWishes, unknown_rule, validate_control};
-use crate::control_choice::{choose, narrow_for_dialect};
+use crate::control_choice::choose;
 use crate::discovery::{self, EXTENSIONS, is_program_name};
 use crate::in_force::{self, Controls};
 use crate::neighbours::Neighbours;
@@ -102,8 +102,8 @@ impl Surroundings {
         in_force.folders = programs.folders().to_vec();
         let from = settings.control.as_deref().map(|name| (name, settings.control_from.as_deref()));
         let option = program.control.or(self.control.as_deref());
-        let ControlChoice { name, source, because } =
-            choose(program.path, &SourceText::from(program.head), option, from, &self.neighbours())?;
+        let chosen = choose(program.path, &SourceText::from(program.head), option, from, &self.neighbours())?;
+        let ControlChoice { name, source, because } = chosen.choice.clone();
         in_force.choice =
             Choice { control: name.clone(), source: format!("{source:?}").to_lowercase(), because };
         let control = self.controls.get(&name, &settings.codes)?;
@@ -112,11 +112,11 @@ impl Surroundings {
         let mut selection = settings
             .selection(&RuleWishes::default())
             .map_err(|unknown| Problem::new(unknown_rule(&unknown)))?;
-        let unsupported = narrow_for_dialect(&mut selection, source, program.path, program.head);
+        chosen.narrow(&mut selection);
         in_force.settings = Some(Settings {
             control,
-            control_is_guessed: matches!(source, ControlSource::Detected | ControlSource::Default),
-            unsupported,
+            control_is_guessed: chosen.is_guessed(),
+            unsupported: chosen.unsupported,
             machine: Arc::new(machine),
             selection: Arc::new(selection),
             suppressions: true,

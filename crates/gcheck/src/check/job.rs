@@ -6,18 +6,17 @@ use std::panic::{self, AssertUnwindSafe};
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use gcheck_controls::UnsupportedDialect;
 use gcheck_diagnostics::FixKinds;
 use gcheck_engine::Model;
 use gcheck_lint::{Environment, Execution, Fixed, Job, Selection, check, describe_all, fix_all};
 use gcheck_program::Dialect;
-use gcheck_report::{ControlChoice, ControlSource, FileReport};
+use gcheck_report::FileReport;
 use gcheck_syntax::SourceText;
 
 use super::cache::{Cache, Entry, Key, Questions, Run, Verdict, answers_hold};
 use crate::args::{Assignment, CheckOptions, Global, Switch};
 use crate::config::{Config, FileSettings, RuleWishes, unknown_rule};
-use crate::control_choice::{choose, may_depend_on_neighbours, narrow_for_dialect};
+use crate::control_choice::{Chosen, choose};
 use crate::in_force::Controls;
 use crate::neighbours::Neighbours;
 use crate::programs::{ProgramFolders, Reachable};
@@ -95,10 +94,8 @@ impl<'o> Bench<'o> {
 pub(super) struct Prepared {
     pub(super) source: SourceText,
     pub(super) settings: FileSettings,
-    pub(super) choice: ControlChoice,
+    pub(super) chosen: Chosen,
     pub(super) selection: Selection,
-    /// The dialect, where no control here reads it and nobody chose one.
-    unsupported: Option<&'static UnsupportedDialect>,
 }
 
 /// Reads a file and finds out what is in force for it.
@@ -112,11 +109,11 @@ fn decide(
     source: SourceText,
     settings: FileSettings,
 ) -> Result<Prepared, Problem> {
-    let choice = chosen(bench, target, &source, &settings)?;
+    let chosen = chosen(bench, target, &source, &settings)?;
     let mut selection =
         settings.selection(&bench.wishes).map_err(|unknown| Problem::new(unknown_rule(&unknown)))?;
-    let unsupported = narrow_for_dialect(&mut selection, choice.source, &target.path, source.text());
-    Ok(Prepared { source, settings, choice, selection, unsupported })
+    chosen.narrow(&mut selection);
+    Ok(Prepared { source, settings, chosen, selection })
 }
 
 fn chosen(
@@ -124,7 +121,7 @@ fn chosen(
     target: &Target,
     source: &SourceText,
     settings: &FileSettings,
-) -> Result<ControlChoice, Problem> {
+) -> Result<Chosen, Problem> {
     let from = settings.control.as_deref().map(|name| (name, settings.control_from.as_deref()));
     choose(&target.path, source, bench.control, from, &bench.neighbours)
 }
@@ -159,9 +156,8 @@ fn check_file(bench: &Bench<'_>, target: &Target) -> Result<Checked, Problem> {
     {
         return Ok(Checked { report: report(target, source, verdict, 0), change: None });
     }
-    let Prepared { source, settings, choice, selection, unsupported } =
-        decide(bench, target, source, settings)?;
-    let control = bench.controls.get(&choice.name, &settings.codes)?;
+    let Prepared { source, settings, chosen, selection } = decide(bench, target, source, settings)?;
+    let control = bench.controls.get(&chosen.choice.name, &settings.codes)?;
     let dialect = Dialect::new(&control);
     let programs = Reachable::new(Arc::clone(&bench.folders), &target.path, &settings.search);
     let questions = Questions::new(&programs);
@@ -171,8 +167,8 @@ fn check_file(bench: &Bench<'_>, target: &Target) -> Result<Checked, Problem> {
         dialect: &dialect,
         machine: &machine,
         programs: &questions,
-        control_is_guessed: matches!(choice.source, ControlSource::Detected | ControlSource::Default),
-        unsupported,
+        control_is_guessed: chosen.is_guessed(),
+        unsupported: chosen.unsupported,
     };
     let run = |source: &SourceText| {
         check(&Job {
@@ -197,7 +193,7 @@ fn check_file(bench: &Bench<'_>, target: &Target) -> Result<Checked, Problem> {
         }
     };
     let verdict = Verdict {
-        control: choice,
+        control: chosen.choice,
         findings: outcome.findings,
         omitted: outcome.omitted,
         failed_rules: outcome.failed.iter().map(|rule| rule.id).collect(),
@@ -208,7 +204,7 @@ fn check_file(bench: &Bench<'_>, target: &Target) -> Result<Checked, Problem> {
     };
     // What a rule failed to say is not known the next time either.
     if let Some((cache, key)) = slot.filter(|_| verdict.failed_rules.is_empty()) {
-        cache.store(key, &Entry::new(questions.into_asked(), &verdict));
+        cache.store(key, &Entry::new(questions.into_asked(), chosen.depends_on_neighbours, &verdict));
     }
     Ok(Checked { report: report(target, source, verdict, fixed), change })
 }
@@ -224,8 +220,9 @@ fn known(
     let entry = cache.load(key)?;
     let programs = Reachable::new(Arc::clone(&bench.folders), &target.path, &settings.search);
     let verdict = entry.verdict().filter(|_| answers_hold(&entry.asked, &programs))?;
-    let is_chosen_again = !may_depend_on_neighbours(&verdict.control, &target.path, source.text())
-        || chosen(bench, target, source, settings).is_ok_and(|choice| choice == verdict.control);
+    let choose = || chosen(bench, target, source, settings);
+    let is_chosen_again =
+        !entry.depends_on_neighbours || choose().is_ok_and(|chosen| chosen.choice == verdict.control);
     is_chosen_again.then_some(verdict)
 }
 

@@ -31,12 +31,13 @@ pub(super) fn page(bench: &Bench<'_>, targets: &[Target], problems: &mut Vec<Pro
 
 /// The machine as the program would find it.
 fn machine(bench: &Bench<'_>, prepared: &Prepared) -> Result<Machine, Problem> {
-    let control = bench.controls.get(&prepared.choice.name, &prepared.settings.codes)?;
+    let control = bench.controls.get(&prepared.chosen.choice.name, &prepared.settings.codes)?;
     Ok(Equipment::new(&prepared.settings, &Model::new(&control), Start::Any)?.machine)
 }
 
 fn of_file(target: &Target, prepared: &Prepared, machine: &Machine) -> String {
-    let Prepared { settings, choice, selection, .. } = prepared;
+    let Prepared { settings, chosen, selection, .. } = prepared;
+    let choice = &chosen.choice;
     let mut out = format!("{}\n", target.shown);
     let because = choice.because.as_ref().map(|b| format!(" ({b})")).unwrap_or_default();
     let source = format!("{:?}", choice.source).to_lowercase();

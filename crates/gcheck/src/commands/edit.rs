@@ -263,7 +263,7 @@ fn closing(
         "{}: {} for {}: {part}{}{rest}, within {} mm ({} compared{switches})",
         prepared.shown,
         if is_dry { "would change" } else { "changed" },
-        prepared.choice.name,
+        prepared.chosen.choice.name,
         change.claim(),
         target.tolerance,
         if proof.moves == 1 { "1 move".to_owned() } else { format!("{} moves", proof.moves) },

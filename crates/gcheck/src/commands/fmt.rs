@@ -188,7 +188,8 @@ fn reform(
 ) -> Result<Formatted, Problem> {
     let settings = target.config.settings(&target.path);
     let from = settings.control.as_deref().map(|name| (name, settings.control_from.as_deref()));
-    let choice = choose(&target.path, &source, global.control.as_deref(), from, &Neighbours::default())?;
+    let chosen = choose(&target.path, &source, global.control.as_deref(), from, &Neighbours::default())?;
+    let choice = chosen.choice;
     let plain = gcheck_controls::load(&choice.name).map_err(|error| Problem::new(error.to_string()))?;
     let control =
         if settings.codes.is_empty() { plain } else { Arc::new(plain.with_user_codes(&settings.codes)) };

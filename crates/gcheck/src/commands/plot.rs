@@ -124,7 +124,7 @@ fn page(
         .collect();
     let page = Page {
         title: shown,
-        control: &session.prepared.choice.name,
+        control: &session.prepared.chosen.choice.name,
         sources: &sources,
         findings: &findings,
         headings: &headings,

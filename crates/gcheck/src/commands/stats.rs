@@ -107,7 +107,7 @@ fn json(session: &Session<'_>, ran: &RunResult, statistics: &Statistics) -> Valu
     let head = Head {
         version: VERSION,
         file: &session.prepared.shown,
-        control: &session.prepared.choice,
+        control: &session.prepared.chosen.choice,
         ended: ended(&ran.stopped),
         blocks: ran.blocks,
         fault,

@@ -28,7 +28,7 @@ pub(crate) fn control_line(session: &Session<'_>) -> String {
     let report = Report::new(vec![FileReport {
         path: prepared.shown.clone(),
         text: Arc::new(SourceText::from("")),
-        control: prepared.choice.clone(),
+        control: prepared.chosen.choice.clone(),
         findings: Vec::new(),
         omitted: Vec::new(),
         lines: 0,

@@ -8,13 +8,12 @@ use std::sync::Arc;
 use gcheck_controls::Control;
 use gcheck_engine::{Model, Options, Program};
 use gcheck_program::{Dialect, Heading, Headings, Loaded, ToolNames};
-use gcheck_report::ControlChoice;
 use gcheck_syntax::SourceText;
 
 use super::equipment::{AxesSeen, Equipment, Start};
 use crate::args::{ExecutionOptions, Global, Switch};
 use crate::config::{Configs, validate_control};
-use crate::control_choice::choose;
+use crate::control_choice::{Chosen, choose};
 use crate::neighbours::Neighbours;
 use crate::programs::Reachable;
 use crate::{Problem, paths, reading};
@@ -27,7 +26,7 @@ pub(crate) struct Prepared {
     pub(crate) source: SourceText,
     /// As messages call the program.
     pub(crate) shown: String,
-    pub(crate) choice: ControlChoice,
+    pub(crate) chosen: Chosen,
     pub(crate) control: Arc<Control>,
     pub(crate) equipment: Equipment,
     pub(super) options: Options,
@@ -54,8 +53,9 @@ pub(crate) fn prepare(global: &Global, options: &ExecutionOptions) -> Result<Pre
     let source = if is_standard_input { reading::standard_input(&path) } else { reading::file(&path) }?;
     let settings = config.settings(&path);
     let from = settings.control.as_deref().map(|name| (name, settings.control_from.as_deref()));
-    let choice = choose(&path, &source, global.control.as_deref(), from, &Neighbours::default())?;
-    let plain = gcheck_controls::load(&choice.name).map_err(|error| Problem::new(error.to_string()))?;
+    let chosen = choose(&path, &source, global.control.as_deref(), from, &Neighbours::default())?;
+    let plain = gcheck_controls::load(&chosen.choice.name);
+    let plain = plain.map_err(|error| Problem::new(error.to_string()))?;
     let control =
         if settings.codes.is_empty() { plain } else { Arc::new(plain.with_user_codes(&settings.codes)) };
     let mut equipment = Equipment::new(&settings, &Model::new(&control), Start::Fresh)?;
@@ -63,7 +63,7 @@ pub(crate) fn prepare(global: &Global, options: &ExecutionOptions) -> Result<Pre
     Ok(Prepared {
         shown: paths::shown(&path),
         source,
-        choice,
+        chosen,
         control,
         equipment,
         options: Options {
@@ -93,7 +93,7 @@ impl Prepared {
         Self {
             source,
             shown,
-            choice: self.choice.clone(),
+            chosen: self.chosen.clone(),
             control: Arc::clone(&self.control),
             equipment: self.equipment.clone(),
             options: self.options,

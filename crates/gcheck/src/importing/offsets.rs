@@ -164,7 +164,7 @@ pub(super) fn read(sheet: &mut Sheet<'_>, path: &Path, request: Request<'_>) {
         Ok(prepared) => prepared,
         Err(problem) => return sheet.problems.push(problem),
     };
-    if prepared.choice.source == ControlSource::Default {
+    if prepared.chosen.choice.source == ControlSource::Default {
         let problem =
             Problem::with_file(path, "does not show for which control it is, and forms of `G10` differ")
                 .help("name the control: `--control NAME`; `gcheck controls` lists them");
@@ -232,7 +232,7 @@ fn take(
     names: &BTreeMap<u16, String>,
     places: &Places,
 ) {
-    let place = format!("run as a program of {}", session.prepared.choice.name);
+    let place = format!("run as a program of {}", session.prepared.chosen.choice.name);
     let inch = sheet.units == Some(Units::Inch);
     let shown = |axis: Axis, value: f64| {
         let value = if inch && !axis.is_rotary() { value / 25.4 } else { value };

@@ -2,11 +2,12 @@
 
 use std::ops::Range;
 
+use gcheck_controls::Effect;
 use gcheck_engine::{ArcMove, Axis, Event, Position, TravelKind};
 use gcheck_geometry::Plane;
 
 use crate::declare::declare_rule;
-use crate::{PathCx, PathRule, Report, Run, Watch};
+use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 use crate::{Remembers, remembers};
 
 declare_rule! {
@@ -123,6 +124,10 @@ enum Other {
 impl PathRule for ArcBreaksContour {
     fn memory(&mut self) -> Remembers<'_> {
         Remembers::All(self)
+    }
+
+    fn concerns(&self, program: &Uses<'_>) -> bool {
+        program.may(|effect| matches!(effect, Effect::ArcClockwise | Effect::ArcCounterClockwise))
     }
 
     fn moved(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {

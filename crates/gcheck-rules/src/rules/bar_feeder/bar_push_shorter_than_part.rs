@@ -1,12 +1,13 @@
 //! A part that is longer than the push of the bar.
 
+use gcheck_controls::Effect;
 use gcheck_engine::Event;
 use gcheck_geometry::Mm;
 
 use crate::declare::declare_rule;
 use crate::facts::bar_feed::{Length, bar_feeder, length_range, lengths};
 use crate::facts::parting::Parting;
-use crate::{PathCx, PathRule, Report, Run, Watch};
+use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 use crate::{Remembers, remembers};
 
 declare_rule! {
@@ -65,6 +66,10 @@ remembers!(BarPushShorterThanPart: deepest);
 impl PathRule for BarPushShorterThanPart {
     fn memory(&mut self) -> Remembers<'_> {
         Remembers::All(self)
+    }
+
+    fn concerns(&self, program: &Uses<'_>) -> bool {
+        program.may(|effect| effect == Effect::BarFeed)
     }
 
     fn moved(&mut self, cx: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {

@@ -1,11 +1,12 @@
 //! A part that is cut off, and then cut off again by the bar feed.
 
+use gcheck_controls::Effect;
 use gcheck_engine::{Event, Frame};
 
 use crate::declare::declare_rule;
 use crate::facts::bar_feed::{bar_feeder, lengths};
 use crate::facts::parting::Parting;
-use crate::{PathCx, PathRule, Report, Run, Watch};
+use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 use crate::{Remembers, remembers};
 
 declare_rule! {
@@ -67,6 +68,10 @@ remembers!(PartCutOffTwice: before);
 impl PathRule for PartCutOffTwice {
     fn memory(&mut self) -> Remembers<'_> {
         Remembers::All(self)
+    }
+
+    fn concerns(&self, program: &Uses<'_>) -> bool {
+        program.may(|effect| effect == Effect::BarFeed)
     }
 
     fn moved(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {

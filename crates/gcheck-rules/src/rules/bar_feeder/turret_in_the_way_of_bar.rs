@@ -1,11 +1,12 @@
 //! A tool in the way of the bar that is fed.
 
+use gcheck_controls::Effect;
 use gcheck_engine::{Axis, Event};
 use gcheck_geometry::Mm;
 
 use crate::declare::declare_rule;
 use crate::facts::bar_feed::{bar_feed_range, bar_feeder, lengths};
-use crate::{PathCx, PathRule, Report, Run, Watch};
+use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 use crate::{Remembers, remembers};
 
 declare_rule! {
@@ -61,6 +62,10 @@ remembers!(TurretInTheWayOfBar);
 impl PathRule for TurretInTheWayOfBar {
     fn memory(&mut self) -> Remembers<'_> {
         Remembers::All(self)
+    }
+
+    fn concerns(&self, program: &Uses<'_>) -> bool {
+        program.may(|effect| effect == Effect::BarFeed)
     }
 
     fn moved(&mut self, cx: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {

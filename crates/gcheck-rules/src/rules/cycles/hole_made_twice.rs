@@ -1,5 +1,6 @@
 //! A hole that a cycle makes again, at a place where it has just made it.
 
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 use gcheck_controls::{CodeIx, Effect};
@@ -59,19 +60,21 @@ const MOST: usize = 2_000;
 struct HoleMadeTwice {
     /// The cycle that makes the holes.
     cycle: Option<CodeIx>,
-    /// The holes that it has made.
-    holes: Vec<Hole>,
+    /// The holes that it has made, by their places, with the bytes of the blocks that made them.
+    holes: BTreeMap<Place, Range<u32>>,
     /// The hole that is being made.
     current: Option<Hole>,
 }
 
 remembers!(HoleMadeTwice: holes, current);
 
+/// Where a hole is, in X, Y and the rotary axes, and its bottom: bits of millimetres and degrees.
+type Place = [u64; 6];
+
 /// A hole.
 #[derive(Clone, PartialEq)]
 struct Hole {
-    /// Where it is, in X, Y and the rotary axes, and its bottom: bits of millimetres and degrees.
-    at: [u64; 6],
+    at: Place,
     /// The block that makes it.
     block: At,
     /// Bytes of that block.
@@ -120,7 +123,7 @@ impl HoleMadeTwice {
         let cycle = cx.state().active_cycle(cx.model).filter(|code| is_hole(cx.model.effect(*code)));
         // Of several paths, each may make the hole once.
         if cycle.is_none() || !cx.is_on_every_path() || cx.is_called_only() {
-            (self.holes, self.current) = (Vec::new(), None);
+            (self.holes, self.current) = (BTreeMap::new(), None);
             return;
         }
         if self.cycle != cycle {
@@ -146,16 +149,16 @@ impl HoleMadeTwice {
     /// The hole that is being made is done.
     fn close(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
         let Some(hole) = self.current.take().filter(Hole::is_known) else { return };
-        let Some(before) = self.holes.iter().find(|other| other.at == hole.at) else {
+        let Some(before) = self.holes.get(&hole.at) else {
             if self.holes.len() < MOST {
-                self.holes.push(hole);
+                self.holes.insert(hole.at, hole.bytes);
             }
             return;
         };
         report.add(
             cx.finding(&META, hole.bytes, "the cycle makes the same hole once more")
                 .label("at the same place, and as deep")
-                .also(before.bytes.clone(), "made here before")
+                .also(before.clone(), "made here before")
                 .help("check the coordinates, and their signs"),
         );
     }
@@ -166,7 +169,7 @@ const PLACE: [Axis; 6] = [Axis::X, Axis::Y, Axis::A, Axis::B, Axis::C, Axis::Z];
 
 impl Hole {
     /// The bottom is that of its deepest stroke.
-    fn deepen(&mut self, at: [u64; 6]) {
+    fn deepen(&mut self, at: Place) {
         let ([.., own], [.., other]) = (&mut self.at, at);
         *own = f64::from_bits(*own).min(f64::from_bits(other)).to_bits();
     }

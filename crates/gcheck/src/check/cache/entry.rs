@@ -32,6 +32,8 @@ pub(in crate::check) struct Verdict {
 #[derive(Debug, Serialize, Deserialize)]
 pub(in crate::check) struct Entry {
     pub(in crate::check) asked: Asked,
+    /// The programs beside it may change which control it is for.
+    pub(in crate::check) depends_on_neighbours: bool,
     /// Every text once; the others name it by its place.
     texts: Vec<String>,
     control: (Text, u8, Option<Text>),
@@ -79,7 +81,7 @@ const SOURCES: [ControlSource; 5] = [
 ];
 
 impl Entry {
-    pub(in crate::check) fn new(asked: Asked, verdict: &Verdict) -> Self {
+    pub(in crate::check) fn new(asked: Asked, depends_on_neighbours: bool, verdict: &Verdict) -> Self {
         let Verdict {
             control,
             findings,
@@ -94,6 +96,7 @@ impl Entry {
         let source = SOURCES.iter().position(|source| *source == control.source).unwrap_or_default();
         Self {
             asked,
+            depends_on_neighbours,
             control: (texts.put(&control.name), source as u8, texts.maybe(control.because.as_deref())),
             findings: findings.iter().map(|finding| texts.finding(finding)).collect(),
             omitted: omitted

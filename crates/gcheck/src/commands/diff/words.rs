@@ -326,7 +326,7 @@ impl Sides<'_> {
         let side = |side: usize| {
             self.prepared.get(side).map(|prepared| {
                 let fault = self.faults.get(side).and_then(Option::as_ref).map(|fault| &fault.message);
-                json!({ "file": prepared.shown, "control": prepared.choice, "fault": fault })
+                json!({ "file": prepared.shown, "control": prepared.chosen.choice, "fault": fault })
             })
         };
         json!({

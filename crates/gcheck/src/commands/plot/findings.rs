@@ -6,12 +6,11 @@ use std::sync::Arc;
 
 use gcheck_lint::{Environment, Execution, Job, check};
 use gcheck_program::Dialect;
-use gcheck_report::{ControlSource, LineIndex};
+use gcheck_report::LineIndex;
 use gcheck_toolpath::plot::Finding;
 
 use crate::args::{Global, PlotOptions};
 use crate::config::{Configs, RuleWishes, unknown_rule};
-use crate::control_choice::narrow_for_dialect;
 use crate::execution::Prepared;
 use crate::programs::Reachable;
 use crate::{Problem, in_force};
@@ -59,8 +58,7 @@ pub(super) fn of(global: &Global, options: &PlotOptions, prepared: &Prepared) ->
     let settings = Configs::new(&global.config, global.isolated)?.of_file(path)?.settings(path);
     let mut selection =
         settings.selection(&RuleWishes::default()).map_err(|unknown| Problem::new(unknown_rule(&unknown)))?;
-    let source = prepared.choice.source;
-    let unsupported = narrow_for_dialect(&mut selection, source, path, prepared.source.text());
+    prepared.chosen.narrow(&mut selection);
     let dialect = Dialect::new(&prepared.control);
     let programs = Reachable::new(Arc::default(), path, &prepared.search);
     let machine = in_force::machine(&settings, &prepared.control, &options.execution.set)?;
@@ -70,8 +68,8 @@ pub(super) fn of(global: &Global, options: &PlotOptions, prepared: &Prepared) ->
             dialect: &dialect,
             machine: &machine,
             programs: &programs,
-            control_is_guessed: matches!(source, ControlSource::Detected | ControlSource::Default),
-            unsupported,
+            control_is_guessed: prepared.chosen.is_guessed(),
+            unsupported: prepared.chosen.unsupported,
         },
         selection: &selection,
         suppressions: true,
