@@ -68,6 +68,7 @@ pub(crate) mod cycles {
     pub(crate) mod hole_after_coolant_off;
     pub(crate) mod hole_made_twice;
     pub(crate) mod maybe_cycle_left_on;
+    pub(crate) mod pass_without_end_point;
     pub(crate) mod pattern_without_cycle;
     pub(crate) mod peck_longer_than_hole;
     pub(crate) mod pocket_on_wrong_side;
@@ -259,6 +260,7 @@ pub(crate) mod motion {
     pub(crate) mod rapid_with_feed;
     pub(crate) mod reference_point_never_set;
     pub(crate) mod reference_return_through_point;
+    pub(crate) mod return_level_for_feed_mode;
     pub(crate) mod thread_without_lead;
     pub(crate) mod tolerance_above_feature;
     pub(crate) mod tool_down_at_end;
@@ -298,6 +300,7 @@ pub(crate) mod probing {
     pub(crate) mod shift_of_axis_not_probed;
     pub(crate) mod spindle_turns_while_probing;
     pub(crate) mod touch_code_without_probing;
+    pub(crate) mod touch_read_without_probing;
     pub(crate) mod touches_do_not_meet;
 }
 
@@ -513,6 +516,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &cycles::hole_after_coolant_off::RULE,
     &cycles::hole_made_twice::RULE,
     &cycles::maybe_cycle_left_on::RULE,
+    &cycles::pass_without_end_point::RULE,
     &cycles::pattern_without_cycle::RULE,
     &cycles::peck_longer_than_hole::RULE,
     &cycles::pocket_on_wrong_side::RULE,
@@ -683,6 +687,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &motion::rapid_with_feed::RULE,
     &motion::reference_point_never_set::RULE,
     &motion::reference_return_through_point::RULE,
+    &motion::return_level_for_feed_mode::RULE,
     &motion::thread_without_lead::RULE,
     &motion::tolerance_above_feature::RULE,
     &motion::tool_down_at_end::RULE,
@@ -716,6 +721,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &probing::shift_of_axis_not_probed::RULE,
     &probing::spindle_turns_while_probing::RULE,
     &probing::touch_code_without_probing::RULE,
+    &probing::touch_read_without_probing::RULE,
     &probing::touches_do_not_meet::RULE,
     &program::ambiguous_jump_target::RULE,
     &program::computed_subprogram_missing::RULE,

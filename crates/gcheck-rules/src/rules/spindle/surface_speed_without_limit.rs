@@ -1,6 +1,6 @@
 //! Constant surface speed without a limit.
 
-use gcheck_controls::Effect;
+use gcheck_controls::{Effect, Machine};
 use gcheck_engine::{At, Event, Fact, Role, Spindle};
 
 use crate::declare::declare_rule;
@@ -9,7 +9,8 @@ use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// A block cuts at constant surface speed (`G96`) without a limit of the spindle speed (`G50 S`, `G92 S`, `D`).
+    /// A block cuts at constant surface speed (`G96`) without a limit of the spindle speed (`G50 S`, `G92 S`, `D`), or a lathe
+    /// does so with a limit above 10,000 rpm, which no chuck reaches.
     ///
     /// ## Why it matters
     /// Toward the centre the spindle speed rises to the machine's highest. A chuck that loses its grip throws the part.
@@ -52,6 +53,9 @@ struct SurfaceSpeedWithoutLimit {
 
 remembers!(SurfaceSpeedWithoutLimit: told);
 
+/// No lathe turns a chuck faster: 1/min.
+const MOST: f64 = 10_000.0;
+
 impl PathRule for SurfaceSpeedWithoutLimit {
     fn memory(&mut self) -> Remembers<'_> {
         Remembers::All(self)
@@ -65,7 +69,10 @@ impl PathRule for SurfaceSpeedWithoutLimit {
         let state = cx.state();
         let Some(Effect::SurfaceSpeed) = state.effect(Role::SpindleMode, cx.model) else { return };
         let set_by = cx.trace().set_by(Fact::Mode(Role::SpindleMode));
-        let is_limited = state.speed_limit() != f64::INFINITY;
+        let limit = state.speed_limit();
+        let is_lathe = cx.control().machine() == Machine::Lathe;
+        // An unknown limit is a limit.
+        let is_limited = limit != f64::INFINITY && !(is_lathe && limit > MOST);
         if set_by.is_none() || set_by == self.told || is_limited || state.spindle() == Some(Spindle::Stopped)
         {
             return;
@@ -76,6 +83,15 @@ impl PathRule for SurfaceSpeedWithoutLimit {
         let Some(code) = state.mode(Role::SpindleMode).only() else { return };
         self.told = set_by;
         let name = cx.name_of(code);
+        if limit.is_finite() {
+            let message = format!("the limit of the spindle speed is {limit} rpm (`{name}`)");
+            let finding = cx
+                .finding(&META, cx.range(), message)
+                .label("no chuck turns so fast: this limits nothing")
+                .help("check the limit for a zero too many");
+            report.add(finding);
+            return;
+        }
         let limiter = cx.name_of_effect(Effect::SpeedLimitOrSetPosition);
         let help = match &limiter {
             Some(limiter) => format!("give the limit before this: `{limiter} S2000`"),
@@ -109,6 +125,19 @@ mod tests {
                 9 | G1 X0.
                   | ^^^^^^ warning[surface-speed-without-limit] constant surface speed has no limit (`G96`)
             "#]],
+        );
+    }
+
+    #[test]
+    fn a_limit_with_a_zero_too_many_is_none() {
+        check_rule(
+            &RULE,
+            "fanuc-lathe",
+            "T0101\nG50 S25000\nG96 S200 M3\nG1 X0. F.2\nM30\n",
+            &expect![[r#"
+            4 | G1 X0. F.2
+              | ^^^^^^^^^^ warning[surface-speed-without-limit] the limit of the spindle speed is 25000 rpm (`G96`)
+        "#]],
         );
     }
 
