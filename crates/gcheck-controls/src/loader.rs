@@ -188,6 +188,11 @@ fn add_layer(layers: &mut Layers, source: &Source) -> Result<(), LoadError> {
         head.references.extend(base.references.into_iter().filter(|r| !own.contains(&r.id)));
     }
     layers.codes.retain(|c| !head.removed.contains(&c.code));
+    for entry in &mut layers.codes {
+        for block in entry.setup.iter_mut().chain([&mut entry.example]) {
+            *block = renamed(block, &head.renamed);
+        }
+    }
     layers.head = Some(head);
     if let Some(file) = parse_file::<GroupsFile>(source, "groups.toml")? {
         put_all(&mut layers.groups, file.groups, |g| g.id.clone());
@@ -223,6 +228,12 @@ fn add_layer(layers: &mut Layers, source: &Source) -> Result<(), LoadError> {
         layers.lasting.extend(file.lasting);
     }
     Ok(())
+}
+
+/// A block of an example with the codes as a control calls them.
+fn renamed(block: &str, names: &BTreeMap<String, String>) -> String {
+    let words = block.split(' ').map(|word| names.get(word).map_or(word, String::as_str));
+    words.collect::<Vec<_>>().join(" ")
 }
 
 fn put_all<T, K: Eq + std::hash::Hash>(into: &mut Vec<T>, from: Vec<T>, key: impl Fn(&T) -> K) {
@@ -317,6 +328,16 @@ mod tests {
         AlarmsFile, CodesFile, ControlFile, ExecutionFile, GroupsFile, LettersFile, SettingsFile,
         VariablesFile,
     };
+
+    #[test]
+    fn inherited_examples_name_codes_as_the_control_does() {
+        let setup = |control, code| {
+            let control = crate::load(control).unwrap();
+            control.code(crate::CodeNumber::parse(code).unwrap()).unwrap().entry().setup.join(" | ")
+        };
+        assert_eq!(setup("fanuc-lathe-b", "G0"), "G21 | G54 | T0101 | G97 S800 M3");
+        assert_eq!(setup("fanuc-lathe-c", "G0"), "G71 | G54 | T0101 | G97 S800 M3");
+    }
 
     #[test]
     fn a_variable_is_that_of_the_narrowest_range() {

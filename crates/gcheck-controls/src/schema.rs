@@ -3,6 +3,8 @@
 //! Knows: field names, defaults, the closed vocabularies. Must not know: inheritance, validation, look-up (see
 //! [`crate::loader`] and [`crate::control`]). `data/README.md` explains every field to the authors of data.
 
+use std::collections::BTreeMap;
+
 use serde::Deserialize;
 
 /// `control.toml`: what kind of control this is, and how it reads text and numbers.
@@ -24,6 +26,9 @@ pub(crate) struct ControlFile {
     /// Codes of the base that this control does not have.
     #[serde(default)]
     pub(crate) removed: Vec<String>,
+    /// What this control calls codes that the examples of the base have.
+    #[serde(default)]
+    pub(crate) renamed: BTreeMap<String, String>,
     #[serde(default)]
     pub(crate) syntax: Option<SyntaxRules>,
     #[serde(default)]
