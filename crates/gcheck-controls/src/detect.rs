@@ -60,8 +60,11 @@ pub struct Score {
 
 /// What the evidence is worth for each control, the best first. Controls without any hint found are left out.
 pub fn scores(evidence: &Evidence) -> Vec<Score> {
-    let comments = Comments::of(evidence);
-    let of_control = |file: &'static ControlFile| score(&file.name, &file.detect, evidence, &comments);
+    scores_with(evidence, &Comments::of(evidence))
+}
+
+fn scores_with(evidence: &Evidence, comments: &Comments<'_>) -> Vec<Score> {
+    let of_control = |file: &'static ControlFile| score(&file.name, &file.detect, evidence, comments);
     let mut scores: Vec<Score> = all_control_files().filter_map(of_control).collect();
     scores.sort_by(|a, b| b.points.cmp(&a.points).then_with(|| a.guess.control.cmp(&b.guess.control)));
     scores
@@ -78,6 +81,17 @@ impl<'e> Comments<'e> {
     /// The first one that has a word, as written.
     fn with(&self, word: &str) -> Option<&'e str> {
         self.0.iter().find(|(_, words)| words.have(word)).map(|(comment, _)| *comment)
+    }
+
+    /// The foreign control that one of them names, unless its programs are read as those of `control`.
+    fn foreign_unlike(&self, control: &str) -> Option<Foreign> {
+        let mut others =
+            other_controls().iter().filter(|other| !other.like.iter().any(|like| like == control));
+        let told = |other: &OtherControl| {
+            let comment = other.comments.iter().find_map(|word| self.with(word))?;
+            Some(Foreign { name: other.name.clone(), comment: format!("({comment})") })
+        };
+        others.find_map(told)
     }
 }
 
@@ -122,11 +136,12 @@ pub fn guess(evidence: &Evidence) -> Option<Guess> {
     if evidence.unsupported.is_some() {
         return None;
     }
-    let scores = scores(evidence);
+    let comments = Comments::of(evidence);
+    let scores = scores_with(evidence, &comments);
     let first = scores.first().filter(|first| first.points >= ENOUGH_POINTS)?;
     let second = scores.get(1);
     let lead = second.map_or(i32::MAX, |second| first.points - second.points);
-    if lead == 0 || foreign_unlike(evidence, &first.guess.control).is_some() {
+    if lead == 0 || comments.foreign_unlike(&first.guess.control).is_some() {
         return None;
     }
     let rival = second.filter(|_| lead < LEAD).map(|second| second.guess.control.clone());
@@ -136,26 +151,16 @@ pub fn guess(evidence: &Evidence) -> Option<Guess> {
 
 /// The control or builder that a comment names and that no control here is for.
 pub fn foreign(evidence: &Evidence) -> Option<Foreign> {
-    foreign_unlike(evidence, "")
-}
-
-/// The foreign control that a comment names, unless its programs are read as those of `control`.
-fn foreign_unlike(evidence: &Evidence, control: &str) -> Option<Foreign> {
-    let comments = Comments::of(evidence);
-    let mut others = other_controls().iter().filter(|other| !other.like.iter().any(|like| like == control));
-    let told = |other: &OtherControl| {
-        let comment = other.comments.iter().find_map(|word| comments.with(word))?;
-        Some(Foreign { name: other.name.clone(), comment: format!("({comment})") })
-    };
-    others.find_map(told)
+    Comments::of(evidence).foreign_unlike("")
 }
 
 /// May a program be for a control that its neighbours are for? Not where anything in it speaks against that.
 pub fn may_be_for(evidence: &Evidence, control: &str) -> bool {
     let speaks_against = |score: &Score| score.guess.control == control && score.against > 0;
+    let comments = Comments::of(evidence);
     evidence.unsupported.is_none()
-        && foreign_unlike(evidence, control).is_none()
-        && !scores(evidence).iter().any(speaks_against)
+        && comments.foreign_unlike(control).is_none()
+        && !scores_with(evidence, &comments).iter().any(speaks_against)
 }
 
 #[cfg(test)]

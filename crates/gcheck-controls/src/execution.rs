@@ -334,6 +334,13 @@ pub enum Effect {
     ChuckUnclamp,
 }
 
+impl Effect {
+    /// Circular interpolation, either way round.
+    pub const fn is_arc(self) -> bool {
+        matches!(self, Self::ArcClockwise | Self::ArcCounterClockwise)
+    }
+}
+
 /// Where controls read one thing two ways.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
@@ -973,6 +980,19 @@ pub struct SystemVariable {
     /// letter each (values by axis).
     #[serde(default)]
     pub of: Option<String>,
+}
+
+impl SystemVariable {
+    /// The row and the column of a number, if it is one of these variables.
+    pub const fn cell(&self, number: u32) -> Option<(u32, u32)> {
+        let Some(first) = self.first else { return None };
+        let Some(offset) = number.checked_sub(first) else { return None };
+        let (row, column) = match self.stride {
+            0 => (0, offset),
+            stride => (offset / stride, offset % stride),
+        };
+        if row < self.rows && column < self.count { Some((row, column)) } else { None }
+    }
 }
 
 /// What a system variable holds.

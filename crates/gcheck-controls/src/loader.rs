@@ -188,7 +188,9 @@ fn add_layer(layers: &mut Layers, source: &Source) -> Result<(), LoadError> {
         head.references.extend(base.references.into_iter().filter(|r| !own.contains(&r.id)));
     }
     layers.codes.retain(|c| !head.removed.contains(&c.code));
-    for entry in &mut layers.codes {
+    // Most controls rename nothing.
+    let to_rename = if head.renamed.is_empty() { &mut [] } else { layers.codes.as_mut_slice() };
+    for entry in to_rename {
         for block in entry.setup.iter_mut().chain([&mut entry.example]) {
             *block = renamed(block, &head.renamed);
         }

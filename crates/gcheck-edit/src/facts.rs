@@ -51,7 +51,7 @@ impl Facts {
     /// Do words mean the same places under both?
     pub(crate) fn places_alike(&self, other: &Self) -> bool {
         let of_places = |facts: &Self| {
-            let turns = matches!(facts.motion, Effect::ArcClockwise | Effect::ArcCounterClockwise);
+            let turns = facts.motion.is_arc();
             Self {
                 motion: if turns { Effect::ArcClockwise } else { Effect::Linear },
                 cycle: CodeIx::NONE,
@@ -67,7 +67,7 @@ impl Facts {
 
     /// Is a cut made by a straight line or an arc, and not by a cycle?
     pub(crate) fn is_arc(&self) -> bool {
-        !self.cycle.is_some() && matches!(self.motion, Effect::ArcClockwise | Effect::ArcCounterClockwise)
+        !self.cycle.is_some() && self.motion.is_arc()
     }
 }
 

@@ -33,7 +33,7 @@ impl BlockLines {
         Self { main: Rc::from(main), files: Vec::new() }
     }
 
-    /// The name of the file that a block is in, and its line from 1; no name and line 0 where there is no such file.
+    /// The name of the file that a block is in, and its line from 1; an empty name and line 0 where the file does not exist.
     pub fn of(&mut self, program: &Program<'_>, origin: Origin) -> (Rc<str>, u32) {
         let index = origin.at.file as usize;
         if self.files.len() <= index {

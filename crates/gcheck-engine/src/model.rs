@@ -437,14 +437,10 @@ impl<'c> Model<'c> {
     pub(crate) fn system_variable(&self, number: u32) -> Option<(&'c SystemVariable, u32, u32)> {
         let upto = self.numbered.partition_point(|(first, _)| *first <= number);
         // Rows of different variables may interlock (offsets and their rotations), so the nearest start may not be it.
-        self.numbered.get(..upto)?.iter().rev().find_map(|(first, index)| {
+        self.numbered.get(..upto)?.iter().rev().find_map(|(_, index)| {
             let variable = self.semantics().system_variables.get(*index)?;
-            let offset = number - first;
-            let (row, column) = match variable.stride {
-                0 => (0, offset),
-                stride => (offset / stride, offset % stride),
-            };
-            (row < variable.rows.max(1) && column < variable.count.max(1)).then_some((variable, row, column))
+            let (row, column) = variable.cell(number)?;
+            Some((variable, row, column))
         })
     }
 

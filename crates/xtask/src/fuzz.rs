@@ -216,29 +216,52 @@ fn keep(fuzzer: &Path, target: &str) -> anyhow::Result<()> {
 #[cfg(test)]
 mod tests {
     use std::fs;
+    use std::path::PathBuf;
 
     use super::{Ran, folder, read};
     use crate::workspace;
 
-    /// The lock file of the fuzzer is its own: a crate of ours that is not in it fails `cargo xtask fuzz`, which no test runs.
+    /// The lock file of the fuzzer is its own: a crate that ours use and that is not in it fails `cargo xtask fuzz`, which no test
+    /// runs.
     #[test]
     fn the_lock_of_the_fuzzer_knows_what_our_crates_use() {
-        let table =
-            |path: std::path::PathBuf| fs::read_to_string(path).unwrap().parse::<toml::Table>().unwrap();
+        let table = |path: PathBuf| fs::read_to_string(path).unwrap().parse::<toml::Table>().unwrap();
         let lock = table(folder().join("Cargo.lock"));
-        let packages = lock["package"].as_array().unwrap();
-        let ours = packages.iter().filter_map(|package| package["name"].as_str());
-        for name in ours.filter(|name| name.starts_with("gcheck-") && *name != "gcheck-fuzzer") {
+        let names = |table: &toml::Table, key: &str| -> Vec<String> {
+            let listed = table.get(key).and_then(|listed| listed.as_array()).into_iter().flatten();
+            // A dependency of which there are several versions has its version after its name.
+            let name = |name: &str| name.split(' ').next().unwrap_or_default().to_owned();
+            listed.filter_map(|listed| listed.as_str()).map(name).collect()
+        };
+        let packages = lock["package"].as_array().unwrap().iter().filter_map(|package| package.as_table());
+        let ours = |package: &&toml::Table| {
+            let name = package["name"].as_str().unwrap();
+            name.starts_with("gcheck-") && name != "gcheck-fuzzer"
+        };
+        let workspace = table(workspace::root().join("Cargo.toml"));
+        let versions = workspace["workspace"]["dependencies"].as_table().unwrap();
+        let mut compared = 0;
+        for package in packages.filter(ours) {
+            let name = package["name"].as_str().unwrap();
+            let locked = names(package, "dependencies");
             let manifest = table(workspace::root().join("crates").join(name).join("Cargo.toml"));
             let used = manifest.get("dependencies").and_then(|used| used.as_table()).into_iter().flatten();
-            for (used, _) in used.filter(|(used, _)| used.starts_with("gcheck-")) {
-                let is_locked = packages.iter().any(|package| package["name"].as_str() == Some(used));
+            let is_optional = |told: &toml::Value| {
+                told.get("optional").is_some_and(|optional| optional.as_bool() == Some(true))
+            };
+            for (used, _) in used.filter(|(_, told)| !is_optional(told)) {
+                // The workspace may call a package by another name.
+                let called =
+                    versions.get(used).and_then(|told| told.get("package")).and_then(|name| name.as_str());
+                let used = called.unwrap_or(used);
                 assert!(
-                    is_locked,
+                    locked.iter().any(|locked| locked == used),
                     "{name} uses {used}: `cargo metadata --manifest-path fuzz/Cargo.toml` locks it"
                 );
+                compared += 1;
             }
         }
+        assert!(compared > 30, "{compared} dependencies were compared");
     }
 
     #[test]

@@ -548,9 +548,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         (self.model.contract.strict || self.words.codes().is_empty())
             && self.words.present().intersects(const { LetterSet::of("IJK") })
             && state.active_cycle(self.model).is_some_and(|cycle| !cycle.is_some())
-            && state.mode(Role::Motion).only().is_some_and(|ix| {
-                matches!(self.model.effect(ix), Effect::ArcClockwise | Effect::ArcCounterClockwise)
-            })
+            && state.mode(Role::Motion).only().is_some_and(|ix| self.model.effect(ix).is_arc())
     }
 
     /// Every word is read by a code of the block, or by the motion.

@@ -69,10 +69,15 @@ impl Length {
     }
 }
 
+/// Does the code feed the bar?
+pub(crate) const fn is_bar_feed(effect: Effect) -> bool {
+    matches!(effect, Effect::BarFeed)
+}
+
 /// The variables of the control's bar feeder, for rules about programs that use one. In all others the rule stops watching.
 pub(crate) fn bar_feeder<'a>(cx: &PathCx<'a>) -> Option<&'a BarFeederRules> {
     let rules = cx.model.semantics().bar_feeder.as_ref();
-    if rules.is_none() || !cx.file_may_use(|effect| effect == Effect::BarFeed) {
+    if rules.is_none() || !cx.file_may_use(is_bar_feed) {
         cx.enough();
         return None;
     }
@@ -101,7 +106,7 @@ pub(crate) fn length_range(cx: &PathCx<'_>, length: Length) -> Range<u32> {
 
 /// Bytes of the feed's code.
 pub(crate) fn bar_feed_range(cx: &PathCx<'_>) -> Range<u32> {
-    cx.effect_range(|effect| effect == Effect::BarFeed)
+    cx.effect_range(is_bar_feed)
 }
 
 /// The feed's code as programs write it.

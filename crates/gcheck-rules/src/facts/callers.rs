@@ -3,7 +3,6 @@
 //! Knows: which variables and modes a caller hands over, and that a value which the program itself sets is its own under every
 //! caller. Must not know: any rule.
 
-use gcheck_controls::SystemVariable;
 use gcheck_engine::{Abstract, Domain, Truth};
 use gcheck_program::{BlockFlags, Op};
 
@@ -49,17 +48,10 @@ fn reads_given(cx: &PathCx<'_>) -> bool {
             Abstract::is_vacant(&cx.state().variables().get(*number)) != Truth::False
         }
         Op::Variable(number) => {
-            variables.iter().any(|variable| is_assumed(variable.holds) && holds(variable, *number))
+            variables.iter().any(|variable| is_assumed(variable.holds) && variable.cell(*number).is_some())
         }
         Op::Named { .. } | Op::Indirect => true,
         Op::Number(_) | Op::Negate | Op::Binary(_) | Op::Call(..) => false,
     };
     expressions.iter().any(|expr| table.ops(table.expr(*expr)).iter().any(is_given))
-}
-
-/// Is it one of the variables of the entry?
-fn holds(variable: &SystemVariable, number: u32) -> bool {
-    let rows = variable.stride * variable.rows.saturating_sub(1);
-    let last = |first: u32| first + rows + variable.count.saturating_sub(1);
-    variable.first.is_some_and(|first| (first..=last(first)).contains(&number))
 }

@@ -6,8 +6,7 @@
 use std::ops::Range;
 
 use gcheck_controls::Effect;
-use gcheck_engine::{At, Axis, Event, Fact, Position, Role, Travel, TravelKind, Truth};
-use gcheck_geometry::Plane;
+use gcheck_engine::{At, Axis, Event, Fact, Position, Role, Travel, TravelKind};
 
 use crate::facts::parting::Parting;
 use crate::facts::tool_words::ToolWords;
@@ -106,8 +105,7 @@ impl Turned {
         if self.tool != tool {
             (self.tool, self.chain, self.last) = (tool, None, None);
         }
-        let is_turning =
-            cx.state().plane(cx.model) == Some(Plane::Zx) && cx.state().live_tool() == Truth::False;
+        let is_turning = turns_the_part(cx);
         let (to, is_rapid, is_expanded) = match event {
             Event::Travel(travel) => (end(cx, travel), travel.kind == TravelKind::Rapid, travel.expanded),
             Event::Arc(arc) => (spot(&arc.programmed), false, arc.expanded),

@@ -48,15 +48,9 @@ pub(crate) fn reads_start_state(
         let text = file.loaded.chunk_text(place.chunk);
         place.expressions().any(|expr| {
             place.table.ops(place.table.expr(expr)).iter().any(|op| match op {
-                Op::Variable(number) => variables.iter().any(|variable| {
-                    let last = |first: u32| {
-                        first
-                            + variable.stride * variable.rows.saturating_sub(1)
-                            + variable.count.saturating_sub(1)
-                    };
-                    variable.first.is_some_and(|first| (first..=last(first)).contains(number))
-                        && is_assumed(variable.holds)
-                }),
+                Op::Variable(number) => variables
+                    .iter()
+                    .any(|variable| is_assumed(variable.holds) && variable.cell(*number).is_some()),
                 Op::Named { start, end } => {
                     let name = text.get(*start as usize..*end as usize).unwrap_or_default();
                     variables.iter().any(|variable| {

@@ -1,6 +1,6 @@
-//! What is around a path: how wide tools are, where zeros are, how far the machine goes.
+//! What is around a path: how wide tools are, how far the machine goes.
 //!
-//! Knows: what a machine's description tells, the systems in which something moved. Must not know: points, what is drawn.
+//! Knows: what a machine's description tells. Must not know: points, where zeros are, what is drawn.
 
 use std::collections::BTreeMap;
 

@@ -127,7 +127,7 @@ impl PathRule for ArcBreaksContour {
     }
 
     fn concerns(&self, program: &Uses<'_>) -> bool {
-        program.may(|effect| matches!(effect, Effect::ArcClockwise | Effect::ArcCounterClockwise))
+        program.may(Effect::is_arc)
     }
 
     fn moved(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {

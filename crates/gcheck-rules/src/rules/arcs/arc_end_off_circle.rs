@@ -66,8 +66,7 @@ impl PathRule for ArcEndOffCircle {
     }
 
     fn moved(&mut self, cx: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
-        let is_arc = |effect| matches!(effect, Effect::ArcClockwise | Effect::ArcCounterClockwise);
-        if !*self.has_arcs.get_or_insert_with(|| cx.file_may_use(is_arc)) {
+        if !*self.has_arcs.get_or_insert_with(|| cx.file_may_use(Effect::is_arc)) {
             cx.enough();
             return;
         }

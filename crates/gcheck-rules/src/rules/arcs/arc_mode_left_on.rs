@@ -61,8 +61,9 @@ impl PathRule for ArcModeLeftOn {
             return;
         }
         // In a block that names the arc itself a word is missing: other rules report that.
-        let arc = |effect| matches!(effect, Effect::ArcClockwise | Effect::ArcCounterClockwise);
-        if cx.has_effect(arc) || !cx.state().effect(Role::Motion, cx.model).is_some_and(arc) {
+        if cx.has_effect(Effect::is_arc)
+            || !cx.state().effect(Role::Motion, cx.model).is_some_and(Effect::is_arc)
+        {
             return;
         }
         let Some(code) = cx.code_name(Role::Motion) else { return };

@@ -3,7 +3,7 @@
 use gcheck_engine::Event;
 
 use crate::declare::declare_rule;
-use crate::facts::bar_feed::{bar_feed_name, bar_feed_range, bar_feeder, lengths};
+use crate::facts::bar_feed::{bar_feed_name, bar_feed_range, bar_feeder, is_bar_feed, lengths};
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
 declare_rule! {
@@ -54,7 +54,7 @@ impl PathRule for BarFeedInCutoffProgram {
 
     /// A feed that calls its own program never comes to feed.
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
-        if cx.has_effect(|effect| effect == gcheck_controls::Effect::BarFeed) {
+        if cx.has_effect(is_bar_feed) {
             check(cx, report);
         }
     }

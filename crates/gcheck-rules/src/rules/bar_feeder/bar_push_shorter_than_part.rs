@@ -1,11 +1,10 @@
 //! A part that is longer than the push of the bar.
 
-use gcheck_controls::Effect;
 use gcheck_engine::Event;
 use gcheck_geometry::Mm;
 
 use crate::declare::declare_rule;
-use crate::facts::bar_feed::{Length, bar_feeder, length_range, lengths};
+use crate::facts::bar_feed::{Length, bar_feeder, is_bar_feed, length_range, lengths};
 use crate::facts::parting::Parting;
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 use crate::{Remembers, remembers};
@@ -69,7 +68,7 @@ impl PathRule for BarPushShorterThanPart {
     }
 
     fn concerns(&self, program: &Uses<'_>) -> bool {
-        program.may(|effect| effect == Effect::BarFeed)
+        program.may(is_bar_feed)
     }
 
     fn moved(&mut self, cx: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {

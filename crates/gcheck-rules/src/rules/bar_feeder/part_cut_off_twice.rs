@@ -1,10 +1,9 @@
 //! A part that is cut off, and then cut off again by the bar feed.
 
-use gcheck_controls::Effect;
 use gcheck_engine::{Event, Frame};
 
 use crate::declare::declare_rule;
-use crate::facts::bar_feed::{bar_feeder, lengths};
+use crate::facts::bar_feed::{bar_feeder, is_bar_feed, lengths};
 use crate::facts::parting::Parting;
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 use crate::{Remembers, remembers};
@@ -71,7 +70,7 @@ impl PathRule for PartCutOffTwice {
     }
 
     fn concerns(&self, program: &Uses<'_>) -> bool {
-        program.may(|effect| effect == Effect::BarFeed)
+        program.may(is_bar_feed)
     }
 
     fn moved(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {

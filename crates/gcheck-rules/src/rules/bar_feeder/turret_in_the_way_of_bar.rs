@@ -1,11 +1,10 @@
 //! A tool in the way of the bar that is fed.
 
-use gcheck_controls::Effect;
 use gcheck_engine::{Axis, Event};
 use gcheck_geometry::Mm;
 
 use crate::declare::declare_rule;
-use crate::facts::bar_feed::{bar_feed_range, bar_feeder, lengths};
+use crate::facts::bar_feed::{bar_feed_range, bar_feeder, is_bar_feed, lengths};
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 use crate::{Remembers, remembers};
 
@@ -65,7 +64,7 @@ impl PathRule for TurretInTheWayOfBar {
     }
 
     fn concerns(&self, program: &Uses<'_>) -> bool {
-        program.may(|effect| effect == Effect::BarFeed)
+        program.may(is_bar_feed)
     }
 
     fn moved(&mut self, cx: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {

@@ -101,10 +101,13 @@ impl CompensationOffInArc {
 
 fn tell(cx: &PathCx<'_>, ended: At, report: &mut Report<'_>) {
     let code = cx.find_word(ended, |word| cx.model.effect(word.code) == Effect::CompensationOff);
-    let is_arc = |effect| matches!(effect, Effect::ArcClockwise | Effect::ArcCounterClockwise);
     let name = cx.name_of_effect(Effect::CompensationOff).unwrap_or_default();
     let mut finding = cx
-        .finding(&META, cx.effect_range(is_arc), format!("cutter compensation ends on an arc (`{name}`)"))
+        .finding(
+            &META,
+            cx.effect_range(Effect::is_arc),
+            format!("cutter compensation ends on an arc (`{name}`)"),
+        )
         .label("the first move after compensation")
         .help(format!("leave the contour on a straight move, longer than the tool's radius, with `{name}`"));
     if let Some(range) = code {

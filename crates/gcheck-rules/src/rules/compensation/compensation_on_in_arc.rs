@@ -95,10 +95,13 @@ impl CompensationOnInArc {
 
 fn tell(cx: &PathCx<'_>, begun: At, report: &mut Report<'_>) {
     let code = cx.find_word(begun, |word| is_on(cx.model.effect(word.code)));
-    let is_arc = |effect| matches!(effect, Effect::ArcClockwise | Effect::ArcCounterClockwise);
     let name = cx.code_name(Role::Compensation).unwrap_or_default();
     let mut finding = cx
-        .finding(&META, cx.effect_range(is_arc), format!("cutter compensation begins on an arc (`{name}`)"))
+        .finding(
+            &META,
+            cx.effect_range(Effect::is_arc),
+            format!("cutter compensation begins on an arc (`{name}`)"),
+        )
         .label("the first move under compensation")
         .help(format!("put a straight move, longer than the tool's radius, between `{name}` and the arc"));
     if let Some(range) = code {

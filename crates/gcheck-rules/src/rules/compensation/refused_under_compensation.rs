@@ -166,8 +166,7 @@ fn refused_in_block(cx: &PathCx<'_>, refusals: &CompensationRefusals, begins: bo
         Some(code) => Some(cx.model.effect(code)),
         None => cx.state().effect(Role::Motion, cx.model),
     };
-    let is_arc =
-        matches!(motion, Some(Effect::ArcClockwise | Effect::ArcCounterClockwise)) && cx.names_axes();
+    let is_arc = motion.is_some_and(Effect::is_arc) && cx.names_axes();
     let elsewhere = matches!(plane, Some(Effect::PlaneZx | Effect::PlaneYz | Effect::PlaneSecondary));
     if refusals.other_planes && elsewhere && is_arc && !begins {
         return Some((

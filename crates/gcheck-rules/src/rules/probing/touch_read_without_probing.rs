@@ -57,10 +57,8 @@ impl PathRule for TouchReadWithoutProbing {
         let Some((table, expressions)) = cx.expressions() else { return };
         let variables = &cx.control().semantics().system_variables;
         let touches = |number: u32| {
-            let holds = |variable: &&SystemVariable| {
-                variable.first.is_some_and(|first| (first..first + variable.count).contains(&number))
-            };
-            variables.iter().find(holds).is_some_and(is_touch)
+            let of_touch = |variable: &SystemVariable| is_touch(variable) && variable.cell(number).is_some();
+            variables.iter().any(of_touch)
         };
         let ops = expressions.iter().flat_map(|expr| table.ops(table.expr(*expr)));
         let read = ops.filter_map(|op| match op {
