@@ -169,6 +169,12 @@ mod tests {
         check("G15 H1\nVC1=12\nG0 X=VC1\n", Some("an OSP control"));
         check("%FLANGE,MX--,\nN10 (P1=5)\n", Some("a Fagor control"));
         check("%PM\nN9001\n", Some("a MAHO control"));
+        check(
+            "dlgmsg \"hole\" \"diameter\" 100\nif [#100 < 1]\n  errmsg \"too small\"\nendif\n",
+            Some("an EdingCNC control"),
+        );
+        check("sub hole\n  g1 x#100\nendsub\ngosub hole\n", Some("an EdingCNC control"));
+        check("o<hole> sub\ng1 x#1\no<hole> endsub\n", None);
         check("//WEDM\nE001=10 17\n", Some("a wire erosion machine"));
         check("M48\nMETRIC,TZ\nT01C0.8\n%\nX10Y10\n", Some("a drilling machine for circuit boards"));
     }

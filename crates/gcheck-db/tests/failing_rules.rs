@@ -23,6 +23,7 @@ const fn meta(id: &'static str, tier: Tier) -> RuleMeta {
         tier,
         recommended: true,
         other_sets: &[],
+        control_specific: false,
         fixability: Fixability::Never,
         since: "0.1.0",
         aliases: &[],

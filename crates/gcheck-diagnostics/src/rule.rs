@@ -98,6 +98,9 @@ pub struct RuleMeta {
     pub summary: &'static str,
     /// Severity when nothing weakens it.
     pub severity: Severity,
+    /// It judges by what this control has and reads; another control may read the same text without a fault. So it is no more
+    /// than an info on a control that nobody chose and that nothing in the program speaks for.
+    pub control_specific: bool,
     /// On by default.
     pub recommended: bool,
     /// The sets that it is in besides `recommended`; see [`RuleMeta::sets`].

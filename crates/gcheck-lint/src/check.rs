@@ -194,8 +194,8 @@ impl Plan {
 /// Keeps findings up to the limit.
 pub(crate) struct Collector<'c> {
     control: &'c Control,
-    /// Nothing is above this: a control that nobody chose, and that nothing in the program speaks for, may be the wrong one.
-    most: Severity,
+    /// Nobody chose the control, and nothing in the program speaks for it: it may be the wrong one.
+    is_unsure: bool,
     findings: Vec<Finding>,
     omitted: Omitted,
 }
@@ -204,8 +204,7 @@ impl<'c> Collector<'c> {
     pub(crate) fn new(environment: Environment<'c>) -> Self {
         let control = environment.control();
         let is_unsure = environment.control_is_guessed && control.name() == gcheck_controls::fallback();
-        let most = if is_unsure { Severity::Warning } else { Severity::Error };
-        Self { control, most, findings: Vec::new(), omitted: Omitted::default() }
+        Self { control, is_unsure, findings: Vec::new(), omitted: Omitted::default() }
     }
 
     /// What is kept and counted so far.
@@ -224,7 +223,12 @@ impl<'c> Collector<'c> {
     }
 
     pub(crate) fn add(&mut self, severity: Option<Severity>, finding: Finding) {
-        let mut finding = finding.at_most(self.most);
+        let most = match (self.is_unsure, finding.rule.control_specific) {
+            (false, _) => Severity::Error,
+            (true, false) => Severity::Warning,
+            (true, true) => Severity::Info,
+        };
+        let mut finding = finding.at_most(most);
         // Only what is certainly a mistake predicts an alarm.
         if finding.severity != Severity::Error {
             finding.alarm = None;

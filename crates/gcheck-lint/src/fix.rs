@@ -122,6 +122,7 @@ mod tests {
         tier: Tier::Block,
         recommended: true,
         other_sets: &[],
+        control_specific: false,
         fixability: Fixability::Never,
         since: "0.1.0",
         aliases: &[],

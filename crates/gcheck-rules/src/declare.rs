@@ -12,6 +12,7 @@ macro_rules! declare_rule {
             summary: $summary:literal,
             severity: $severity:ident,
             tier: $tier:ident,
+            $(control_specific: $control_specific:literal,)?
             $(recommended: $recommended:literal,)?
             $(sets: [$($set:ident),+],)?
             $(fixable: $fixable:ident,)?
@@ -25,6 +26,7 @@ macro_rules! declare_rule {
             group: $group,
             summary: $summary,
             severity: ::gcheck_diagnostics::Severity::$severity,
+            control_specific: false $(|| $control_specific)?,
             recommended: true $(&& $recommended)?,
             other_sets: &[$($(::gcheck_diagnostics::RuleSet::$set),+)?],
             fixability: declare_rule!(@fixable $($fixable)?),

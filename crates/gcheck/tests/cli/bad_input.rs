@@ -488,7 +488,7 @@ fn an_unknown_control_in_a_program() {
     let shop =
         Shop::with(&[("part.nc", "%\nO0001\n(gcheck: control=nonsense)\nM30\n%\n"), ("other.nc", BAD)]);
     expect![[r#"
-        other.nc:3:1: warning[unknown-code] unknown code `G999`
+        other.nc:3:1: info[unknown-code] unknown code `G999`
         ! error: part.nc:3:18: no control is called `nonsense`; there are fanuc-lathe, fanuc-lathe-b, fanuc-lathe-c, fanuc-mill, generic-mill, grbl, haas-lathe, haas-mill, linuxcnc, tsnc-yh-a1m
         !   |
         ! 3 | (gcheck: control=nonsense)

@@ -44,6 +44,11 @@ fn page(rule: &RuleMeta) -> String {
     if !rule.aliases.is_empty() {
         let _ = writeln!(text, "\nFormer names, still accepted: {}.", markdown::codes(rule.aliases));
     }
+    if rule.control_specific {
+        text.push_str(
+            "\nAn info where nobody chose the control and nothing in the program speaks for one.\n",
+        );
+    }
     text.push('\n');
     text.push_str(&with_plainsides(&rule.docs()));
     text

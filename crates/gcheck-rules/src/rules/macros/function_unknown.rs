@@ -37,6 +37,7 @@ declare_rule! {
         summary: "function that the control does not have in this form",
         severity: Error,
         tier: Block,
+        control_specific: true,
         since: "0.1.0",
         run: Run::Block { trigger: BlockFlags::STATEMENT.union(BlockFlags::EXPRESSION), check },
     }

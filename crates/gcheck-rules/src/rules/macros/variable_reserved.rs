@@ -30,6 +30,7 @@ declare_rule! {
         summary: "variable that the manual reserves",
         severity: Warning,
         tier: Block,
+        control_specific: true,
         since: "0.1.0",
         run: Run::Block { trigger: BlockFlags::STATEMENT.union(BlockFlags::EXPRESSION), check },
     }

@@ -38,6 +38,7 @@ declare_rule! {
         summary: "code that has to open its block does not",
         severity: Warning,
         tier: Block,
+        control_specific: true,
         since: "0.1.0",
         run: Run::Block { trigger: BlockFlags::CODE, check },
     }

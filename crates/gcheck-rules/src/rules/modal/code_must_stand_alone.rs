@@ -24,6 +24,7 @@ declare_rule! {
         summary: "code that needs a block of its own shares one",
         severity: Error,
         tier: Block,
+        control_specific: true,
         since: "0.1.0",
         run: Run::BlockAndValues { trigger: BlockFlags::CODE, reads: Reads::Codes, check },
     }

@@ -27,6 +27,7 @@ declare_rule! {
         summary: "codes that cannot share a block",
         severity: Error,
         tier: Block,
+        control_specific: true,
         since: "0.1.0",
         run: Run::BlockAndValues { trigger: BlockFlags::CODE, reads: Reads::Codes, check },
     }

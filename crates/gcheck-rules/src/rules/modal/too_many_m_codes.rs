@@ -24,6 +24,7 @@ declare_rule! {
         summary: "more M codes in a block than the control accepts",
         severity: Error,
         tier: Block,
+        control_specific: true,
         since: "0.1.0",
         run: Run::Block { trigger: BlockFlags::CODE, check },
     }

@@ -209,7 +209,9 @@ impl PathRule for SpindleStoppedWhileCutting {
         let is_mill =
             is_ever_started || has_length || has_speed || cx.file_uses(|effect| effect == Effect::ToolChange);
         // Held at an angle, a tool may broach.
-        if !is_mill && !needs_turns || self.is_oriented || cx.file_uses(probes) {
+        // What starts the spindle may be in a program of another file.
+        let is_elsewhere = !is_ever_started && cx.survey.calls_other_files();
+        if !is_mill && !needs_turns || self.is_oriented || is_elsewhere || cx.file_uses(probes) {
             finding = finding.at_most(Severity::Info);
         }
         if needs_turns && let Some(name) = cx.code_name(Role::FeedMode) {
@@ -377,6 +379,30 @@ mod tests {
             &expect![[r#"
             4 | G1 X10 F500
               | ^^^^^^^^^^^ info[spindle-stopped-while-cutting] cut, and the spindle was not started (no `M3`)
+        "#]],
+        );
+    }
+
+    #[test]
+    fn a_called_file_may_start_the_spindle() {
+        let program =
+            |call: &str| format!("G21 G90 T5 M6\nG54 G1 X0. Y0. F5000.\nG43 Z5. H5\n{call}\nM30\nO77\nM99\n");
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            &program("M98 P78"),
+            &expect![[r#"
+            2 | G54 G1 X0. Y0. F5000.
+              | ^^^^^^^^^^^^^^^^^^^^^ info[spindle-stopped-while-cutting] no `M3` since the tool change (`M6` stopped the spindle)
+        "#]],
+        );
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            &program("M98 P77"),
+            &expect![[r#"
+            2 | G54 G1 X0. Y0. F5000.
+              | ^^^^^^^^^^^^^^^^^^^^^ warning[spindle-stopped-while-cutting] no `M3` since the tool change (`M6` stopped the spindle)
         "#]],
         );
     }

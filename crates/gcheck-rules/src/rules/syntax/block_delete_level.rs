@@ -32,6 +32,7 @@ declare_rule! {
         summary: "form of block delete that the control does not have",
         severity: Error,
         tier: Block,
+        control_specific: true,
         fixable: OnRequest,
         since: "0.1.0",
         run: Run::Block { trigger: BlockFlags::BLOCK_DELETE, check },

@@ -28,6 +28,7 @@ declare_rule! {
         summary: "block-delete sign that the control ignores",
         severity: Warning,
         tier: Block,
+        control_specific: true,
         since: "0.1.0",
         run: Run::Block { trigger: BlockFlags::BLOCK_DELETE, check },
     }

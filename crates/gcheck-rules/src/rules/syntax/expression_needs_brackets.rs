@@ -28,6 +28,7 @@ declare_rule! {
         summary: "expression is not in brackets",
         severity: Error,
         tier: Token,
+        control_specific: true,
         fixable: OnRequest,
         since: "0.1.0",
         run: Run::Token { on: |kind| kind == SyntaxErrorKind::NeedsBrackets, check },

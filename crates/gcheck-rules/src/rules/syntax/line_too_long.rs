@@ -32,6 +32,7 @@ declare_rule! {
         summary: "line longer than the control reads",
         severity: Error,
         tier: Block,
+        control_specific: true,
         since: "0.1.0",
         run: Run::Block { trigger: BlockFlags::LONG_LINE, check },
     }

@@ -35,6 +35,7 @@ declare_rule! {
         summary: "statement of another control",
         severity: Error,
         tier: Token,
+        control_specific: true,
         since: "0.1.0",
         run: Run::Token { on: |kind| matches!(kind, SyntaxErrorKind::Foreign(_)), check },
     }

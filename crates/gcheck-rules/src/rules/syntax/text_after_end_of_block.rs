@@ -28,6 +28,7 @@ declare_rule! {
         summary: "text after the end-of-block character",
         severity: Warning,
         tier: Token,
+        control_specific: true,
         fixable: OnRequest,
         since: "0.1.0",
         run: Run::Token { on: |kind| kind == SyntaxErrorKind::TextAfterEndOfBlock, check },

@@ -45,6 +45,7 @@ declare_rule! {
         summary: "computed value that its code cannot use",
         severity: Error,
         tier: Path,
+        control_specific: true,
         since: "0.1.0",
         run: Run::Path {
             watch: Watch::FAULTS.union(Watch::ALL_BLOCKS),

@@ -28,6 +28,7 @@ declare_rule! {
         summary: "decimal point on an address that takes whole numbers",
         severity: Error,
         tier: Block,
+        control_specific: true,
         fixable: Safely,
         since: "0.1.0",
         run: Run::BlockAndValues { trigger: BlockFlags::POINT_ON_INTEGER, reads: Reads::Numbers, check },

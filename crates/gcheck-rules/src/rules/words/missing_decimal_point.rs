@@ -46,8 +46,10 @@ declare_rule! {
     }
 }
 
-/// With so many blocks without a point, a file may count as written without points throughout.
+/// With so many blocks without a point, a file may count as written without points throughout; a short one with so few, where
+/// fewer have points.
 const HABIT: usize = 10;
+const HABIT_OF_SHORT: usize = 4;
 
 fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
     if cx.control().numbers().unpointed == Unpointed::AsWritten {
@@ -59,7 +61,8 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
         cx.reread(block.clone(), |block| count += usize::from(!scaled(block, in_steps).is_empty()));
     }
     // Single blocks may be slips; a quarter of all blocks is not a slip.
-    let is_habit = count >= HABIT && count * 4 > cx.survey.pointed;
+    let pointed = cx.survey.pointed;
+    let is_habit = count >= HABIT && count * 4 > pointed || count >= HABIT_OF_SHORT && count > pointed;
     let mut is_told = false;
     for block in &cx.survey.unpointed {
         cx.reread(block.clone(), |block| {

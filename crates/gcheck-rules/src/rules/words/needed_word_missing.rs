@@ -29,6 +29,7 @@ declare_rule! {
         summary: "word that the block needs is missing",
         severity: Error,
         tier: Path,
+        control_specific: true,
         since: "0.1.0",
         run: Run::Path { watch: Watch::FAULTS, make: || Box::new(NeededWordMissing) },
     }

@@ -33,6 +33,7 @@ declare_rule! {
         summary: "value outside the range of its word",
         severity: Error,
         tier: Block,
+        control_specific: true,
         since: "0.1.0",
         run: Run::BlockAndValues { trigger: BlockFlags::CODE.union(BlockFlags::OUT_OF_RANGE), reads: Reads::Numbers, check },
     }

@@ -38,6 +38,7 @@ declare_rule! {
         summary: "digits of a packed number that the control does not accept",
         severity: Error,
         tier: Path,
+        control_specific: true,
         since: "0.1.0",
         run: Run::Path { watch: Watch::BLOCKS, make: || Box::new(PackedDigitsNotAllowed::default()) },
     }

@@ -35,6 +35,7 @@ declare_rule! {
         summary: "radius or angle where the control does not take it",
         severity: Error,
         tier: Path,
+        control_specific: true,
         since: "0.1.0",
         run: Run::Path { watch: Watch::FAULTS, make: || Box::new(PolarWordRefused) },
     }

@@ -33,6 +33,7 @@ declare_rule! {
         summary: "code without a word that it needs",
         severity: Error,
         tier: Block,
+        control_specific: true,
         since: "0.1.0",
         run: Run::BlockAndValues { trigger: BlockFlags::CODE, reads: Reads::Numbers, check },
     }

@@ -28,6 +28,7 @@ declare_rule! {
         summary: "minus sign on a word that does not accept one",
         severity: Error,
         tier: Block,
+        control_specific: true,
         fixable: OnRequest,
         since: "0.1.0",
         run: Run::BlockAndValues { trigger: BlockFlags::NEGATIVE, reads: Reads::Numbers, check },

@@ -27,6 +27,7 @@ declare_rule! {
         summary: "number has more digits than the control accepts",
         severity: Error,
         tier: Program,
+        control_specific: true,
         since: "0.1.0",
         run: Run::Program { check },
     }

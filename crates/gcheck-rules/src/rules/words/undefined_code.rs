@@ -25,6 +25,7 @@ declare_rule! {
         summary: "code whose effect is not defined",
         severity: Warning,
         tier: Block,
+        control_specific: true,
         since: "0.1.0",
         run: Run::Block { trigger: BlockFlags::CODE, check },
     }

@@ -26,6 +26,7 @@ declare_rule! {
         summary: "address that the control does not have",
         severity: Error,
         tier: Block,
+        control_specific: true,
         since: "0.1.0",
         run: Run::Block { trigger: BlockFlags::UNKNOWN_ADDRESS, check },
     }

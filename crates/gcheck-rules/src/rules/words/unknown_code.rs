@@ -33,6 +33,7 @@ declare_rule! {
         summary: "code that the control does not have",
         severity: Error,
         tier: Block,
+        control_specific: true,
         since: "0.1.0",
         run: Run::BlockAndValues { trigger: BlockFlags::UNKNOWN_CODE, reads: Reads::Codes, check },
     }
@@ -137,7 +138,7 @@ mod tests {
     use gcheck_controls::{CodeNumber, UserCode};
 
     use super::RULE;
-    use crate::testing::{World, check_rule, findings, only, words};
+    use crate::testing::{World, check_rule, check_rule_in, findings, only, words};
 
     #[test]
     fn each_unknown_code_is_marked() {
@@ -215,6 +216,23 @@ mod tests {
         let user = UserCode { number: CodeNumber::g(154), title: "our offsets".to_owned(), alias: None };
         let control = gcheck_controls::load("linuxcnc").unwrap().with_user_codes(&[user]);
         assert!(control.code(CodeNumber::g(154)).unwrap().is_user());
+    }
+
+    #[test]
+    fn where_nothing_speaks_for_a_control_another_one_may_have_it() {
+        let guessed = World { control_is_guessed: true, ..World::default() };
+        check_rule_in(&RULE, "generic-mill", "G91.1\n", &guessed, &expect![[r#"
+            1 | G91.1
+              | ^^^^^ info[unknown-code] unknown code `G91.1`
+        "#]]);
+        check_rule(&RULE, "generic-mill", "G91.1\n", &expect![[r#"
+            1 | G91.1
+              | ^^^^^ warning[unknown-code] unknown code `G91.1`
+        "#]]);
+        check_rule_in(&RULE, "linuxcnc", "G154\n", &guessed, &expect![[r#"
+            1 | G154
+              | ^^^^ warning[unknown-code] unknown code `G154`
+        "#]]);
     }
 
     #[test]

@@ -31,6 +31,7 @@ declare_rule! {
         summary: "word that does not belong to its code",
         severity: Warning,
         tier: Block,
+        control_specific: true,
         since: "0.1.0",
         run: Run::Block { trigger: BlockFlags::CODE, check },
     }

@@ -28,6 +28,7 @@ declare_rule! {
         summary: "code without any of the words of which it needs one",
         severity: Error,
         tier: Block,
+        control_specific: true,
         since: "0.1.0",
         run: Run::BlockAndValues { trigger: BlockFlags::CODE, reads: Reads::Codes, check },
     }

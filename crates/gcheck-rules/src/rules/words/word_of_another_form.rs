@@ -27,6 +27,7 @@ declare_rule! {
         summary: "word of the other form of a cycle",
         severity: Info,
         tier: Block,
+        control_specific: true,
         since: "0.1.0",
         run: Run::Block { trigger: BlockFlags::CODE, check },
     }

@@ -42,6 +42,7 @@ declare_rule! {
         summary: "word that does not go with the value of another word",
         severity: Error,
         tier: Path,
+        control_specific: true,
         since: "0.1.0",
         run: Run::Path { watch: Watch::ALL_BLOCKS, make: || Box::new(WordUnfitForAnother::default()) },
     }

@@ -24,6 +24,7 @@ declare_rule! {
         summary: "words that a code does not accept together",
         severity: Error,
         tier: Block,
+        control_specific: true,
         since: "0.1.0",
         run: Run::BlockAndValues { trigger: BlockFlags::CODE, reads: Reads::Numbers, check },
     }
