@@ -89,6 +89,12 @@ impl Change {
         )
     }
 
+    /// How close moves stay to what it claims unless somebody asks for something else: millimetres. Words in inches are rounded
+    /// to 0.0001 inch on most controls.
+    pub const fn tolerance(&self) -> f64 {
+        if matches!(self, Self::Convert(Units::Inch)) { 0.002 } else { 0.001 }
+    }
+
     /// What it does, in words that follow "cannot".
     pub const fn verb(&self) -> &'static str {
         match self {

@@ -8,7 +8,7 @@
 use std::collections::VecDeque;
 
 use gcheck_controls::Effect;
-use gcheck_engine::{At, Model, Position, Units};
+use gcheck_engine::{At, Axis, Model, Position, Units};
 use gcheck_geometry::{Arc, Plane};
 use gcheck_toolpath::{Act, Doing, Move};
 
@@ -42,6 +42,7 @@ struct Passed {
     start: u32,
     end: u32,
     class: Class,
+    is_selected: bool,
     depth: usize,
     before: [Owner; 3],
     after: [Owner; 3],
@@ -109,6 +110,7 @@ impl<'c> Course<'c> {
             start: block.start,
             end: block.end,
             class: read.class,
+            is_selected: block.is_selected,
             depth: read.depth,
             before,
             after: self.owners,
@@ -150,6 +152,12 @@ impl<'c> Course<'c> {
             );
             return Err(block.refusal(reason).help("select lines outside of it"));
         }
+        let rotation = block.state.work_offset().rotation;
+        if rotation.is_nan() || rotation.abs() > 0.0 {
+            let reason =
+                "the work coordinate system is turned about Z here, so X and Y are not those of the machine";
+            return Err(block.refusal(reason).help("select lines in a system that is not turned"));
+        }
         let (rigid, units) = self.settled(block)?;
         if facts.units != Some(units) {
             let reason = "this block is in another unit than the ones before it";
@@ -178,6 +186,10 @@ impl<'c> Course<'c> {
                     let help = "begin the selection at a block that gives absolute coordinates";
                     return Err(block.refusal(reason).help(help));
                 }
+                Meaning::Polar => {
+                    let reason = "this block gives a distance and an angle as seen from the zero of the program, which stays where it is";
+                    return Err(block.refusal(reason));
+                }
                 Meaning::Direction if !rigid.is_shift() => {
                     return Err(block.refusal("this block gives a direction, which is not turned"));
                 }
@@ -200,9 +212,8 @@ impl<'c> Course<'c> {
         if !read.cuts {
             return Ok(());
         }
-        let position = block.state.position();
         for (axis, letter) in LINEAR.iter().enumerate() {
-            if !rigid.keeps(axis) && self.owner(axis) != Owner::Moved && !position.raw(*letter).is_nan() {
+            if !rigid.keeps(axis) && self.owner(axis) != Owner::Moved {
                 let reason =
                     format!("this block cuts, and no block of the selection has given {}", letter.name());
                 return Err(block.refusal(reason).help(begin));
@@ -320,6 +331,17 @@ impl<'c> Course<'c> {
                 }
             }
         }
+        // What the words of such a block are is not known here, and they move something all the same.
+        if let Some(passed) = passed.filter(|passed| passed.class == Class::Other && passed.is_selected) {
+            let moves = |(axis, letter): (usize, &Axis)| {
+                !rigid.keeps(axis) && (made.to.raw(*letter) - made.from().raw(*letter)).abs() > SAME
+            };
+            if LINEAR.iter().enumerate().any(moves) {
+                let reason =
+                    "a code of this block takes its words for something else than places, and it moves";
+                return Err(Refusal::at(passed.start..passed.end, reason));
+            }
+        }
         let from = place(&rigid, made.from(), self.last, &self.reached);
         let to = place(&rigid, &made.to, owners, &self.reached);
         let along = made.arc().filter(|arc| self.goes_along(&rigid, arc.plane(), owners));
@@ -353,6 +375,7 @@ fn goes_along_with(block: &Executed<'_>, read: &Read, rigid: &Rigid) -> Result<(
         | Meaning::Height { axis, incremental }
         | Meaning::Centre { axis, incremental } => !(rigid.keeps(*axis) || *incremental && rigid.is_shift()),
         Meaning::Vector { .. } | Meaning::Direction => !rigid.is_shift(),
+        Meaning::Polar => true,
         Meaning::Feed | Meaning::Speed | Meaning::Other => false,
     });
     if !stays {

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 
 use gcheck_controls::{Effect, Letter};
 use gcheck_engine::{Axis, Model, Position, Role, Units};
-use gcheck_program::Place;
+use gcheck_program::{Place, Word};
 
 use crate::facts::Facts;
 use crate::meaning::{Class, Meaning, Read, read};
@@ -49,17 +49,22 @@ impl<'c> Distance<'c> {
         let Some(was) = block.facts.incremental else {
             return refuse("whether words are increments here is not known");
         };
-        let changes = block.is_selected && matches!(read.class, Class::Moves | Class::Operation);
+        let counts = !self.to_increments || was || self.is_from_known(block, &read);
+        let changes = block.is_selected && counts && matches!(read.class, Class::Moves | Class::Operation);
         if block.is_selected && read.class == Class::Computed {
             return refuse("a code of this block is computed, so what its words mean is not certain");
         }
-        let needs = read.has_places().then_some(if changes { self.to_increments } else { was });
-        self.modal.executed(block, was, needs, if block.is_selected { self.to_increments } else { was })?;
-        if !changes || was == self.to_increments || !read.has_places() {
+        let needs = read.has_ways(self.model).then_some(if changes { self.to_increments } else { was });
+        let otherwise = if block.is_selected && counts { self.to_increments } else { was };
+        self.modal.executed(block, was, needs, otherwise)?;
+        if !changes || was == self.to_increments || !read.has_ways(self.model) {
             return Ok(());
         }
         if block.facts.mapped.is_some() {
             return refuse("a mode in effect here puts the axes elsewhere than the words say");
+        }
+        if read.words.iter().any(|(_, meaning)| *meaning == Meaning::Polar) {
+            return refuse("this block gives a distance and an angle as seen from the zero of the program");
         }
         if read.class == Class::Operation {
             return refuse(
@@ -85,6 +90,27 @@ impl<'c> Distance<'c> {
         }
         self.blocks.insert(block.at.block, new);
         Ok(())
+    }
+
+    /// Is every axis of the block somewhere that is known before it? A block that goes on from an unknown place stays absolute: so
+    /// the first one of a program, and one that switches the length of a tool.
+    fn is_from_known(&self, block: &Executed<'_>, read: &Read) -> bool {
+        let axes = self.model.control().axes();
+        let place = |(word, meaning): &(Word, Meaning)| match meaning {
+            Meaning::Place { axis, incremental: false } => LINEAR.get(*axis).copied(),
+            _ => Axis::of(word.letter).filter(|axis| axis.is_rotary() && axes.contains(word.letter)),
+        };
+        let words = block.place.table.words(block.place.block()).iter();
+        let moves_zero = |word: &Word| {
+            matches!(self.model.role(word.code), Some(Role::Length | Role::WorkOffset | Role::DynamicOffset))
+        };
+        let is_known = |axis: Axis| !block.before.raw(axis).is_nan();
+        let mut named = read.words.iter().filter_map(place).peekable();
+        if named.peek().is_none() {
+            return LINEAR.into_iter().any(is_known);
+        }
+        // A code of the block may put the same point elsewhere before it moves.
+        !{ words }.any(moves_zero) && named.all(is_known)
     }
 
     /// Rewrites a block.
@@ -179,8 +205,16 @@ pub(crate) fn codes(
         }
     }
     if let Some(new) = modal.inserted.get(&number) {
-        let name = sheet.name_of(effect(*new)).ok_or_else(missing)?;
-        sheet.prepend(place, &name);
+        let effect = effect(*new);
+        let name = sheet.name_of(effect).ok_or_else(missing)?;
+        // A control may read the feed of a block before its units.
+        let comes_late = matches!(effect, Effect::Inch | Effect::Millimetre)
+            && place.block().letters.contains(Letter::of('F'));
+        if comes_late {
+            sheet.insert(place.range().start, format!("{name}{}", sheet.line_end()));
+        } else {
+            sheet.prepend(place, &name);
+        }
     }
     Ok(())
 }

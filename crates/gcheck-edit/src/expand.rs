@@ -5,7 +5,7 @@
 use std::collections::BTreeMap;
 
 use gcheck_controls::{CodeIx, DwellWord, Effect, LetterSet};
-use gcheck_engine::{Axis, Event, Model, Position, Role, TravelKind, Units};
+use gcheck_engine::{Axis, Event, Model, PathMode, Position, Role, TravelKind, Units};
 use gcheck_program::{BlockFlags, Place};
 
 use crate::facts::Facts;
@@ -25,6 +25,8 @@ enum Stroke {
     Rapid(Position, Position),
     Feed(Position, Position),
     Dwell(f64),
+    /// The cycle takes corners otherwise than the program says, or does so no more.
+    Corners(PathMode),
 }
 
 /// What a block of a cycle did.
@@ -32,6 +34,22 @@ enum Stroke {
 struct Expansion {
     facts: Facts,
     strokes: Vec<Stroke>,
+}
+
+impl Expansion {
+    /// Without what a cycle says of corners at its end and the next one takes back at its begin.
+    fn joined(&self, before: Option<&Self>, after: Option<&Self>) -> Self {
+        let ends = |expansion: &Self| matches!(expansion.strokes.last(), Some(Stroke::Corners(_)));
+        let begins = |expansion: &Self| matches!(expansion.strokes.first(), Some(Stroke::Corners(_)));
+        let mut strokes = self.strokes.clone();
+        if ends(self) && after.is_some_and(begins) {
+            strokes.pop();
+        }
+        if begins(self) && before.is_some_and(ends) {
+            strokes.remove(0);
+        }
+        Self { facts: self.facts, strokes }
+    }
 }
 
 /// The cycles of a run. Has to see every block and event.
@@ -104,8 +122,13 @@ impl<'c> Cycles<'c> {
             );
         }
         let mut strokes = Vec::new();
+        // What the block itself says of corners stays where it is.
+        let words = block.place.table.words(block.place.block()).iter();
+        let mut own = words.filter(|word| self.model.role(word.code) == Some(Role::PathControl)).count();
         for event in &self.events {
             match event {
+                Event::PathMode(_) if own > 0 => own -= 1,
+                Event::PathMode(mode) => strokes.push(Stroke::Corners(*mode)),
                 Event::Travel(travel) => match travel.kind {
                     TravelKind::Rapid => strokes.push(Stroke::Rapid(travel.from, travel.to)),
                     TravelKind::Feed => strokes.push(Stroke::Feed(travel.from, travel.to)),
@@ -126,8 +149,10 @@ impl<'c> Cycles<'c> {
     /// Writes the moves in the place of the cycles.
     pub(crate) fn write(&self, sheet: &mut Sheet<'_, '_>, number: u32, place: &Place) -> Result<(), Refusal> {
         let Some(expansion) = self.found.get(&number) else { return Ok(()) };
+        let before = number.checked_sub(1).and_then(|number| self.found.get(&number));
+        let expansion = expansion.joined(before, self.found.get(&(number + 1)));
         let refusal = |reason: &str| Refusal::at(place.range(), reason);
-        let lines = lines(sheet, place, expansion).ok_or_else(|| {
+        let lines = lines(sheet, place, &expansion).ok_or_else(|| {
             refusal("a coordinate of this cycle's moves is not known, or the control has no code for a move of it")
         })?;
         let text = lines.join(sheet.line_end());
@@ -152,6 +177,7 @@ fn is_same(a: &Expansion, b: &Expansion) -> bool {
             (Stroke::Rapid(from, to), Stroke::Rapid(other, end))
             | (Stroke::Feed(from, to), Stroke::Feed(other, end)) => alike([from, to], [other, end]),
             (Stroke::Dwell(a), Stroke::Dwell(b)) => near(*a, *b),
+            (Stroke::Corners(a), Stroke::Corners(b)) => a == b,
             _ => false,
         })
 }
@@ -187,6 +213,7 @@ fn lines(sheet: &mut Sheet<'_, '_>, place: &Place, expansion: &Expansion) -> Opt
                 (!words.is_empty()).then(|| format!("{cut}{gap}{words}{feed}"))
             }
             Stroke::Dwell(seconds) => Some(dwell(sheet, *seconds)?),
+            Stroke::Corners(mode) => Some(corners(sheet, *mode, facts)?),
         };
         if let Some(text) = text {
             lines.push(format!("{}{text}", std::mem::take(&mut head)));
@@ -262,6 +289,26 @@ fn dwell(sheet: &Sheet<'_, '_>, seconds: f64) -> Option<String> {
         }
         DwellWord::Milliseconds => format!("{code}{gap}{letter}{}", (seconds * 1000.0).round()),
     })
+}
+
+/// The code for a way to take corners.
+fn corners(sheet: &Sheet<'_, '_>, mode: PathMode, facts: &Facts) -> Option<String> {
+    let (tolerance, naive) = match mode {
+        PathMode::ExactPath => return code(sheet, Effect::ExactPath),
+        PathMode::ExactStop => return code(sheet, Effect::ExactStop),
+        PathMode::Blending { tolerance, naive } => {
+            (Some(tolerance).filter(|tolerance| tolerance.0 > 0.0), naive)
+        }
+    };
+    let unit = facts.units.map(Units::in_mm)?;
+    let decimals = sheet.decimals(facts.units);
+    let mut words = vec![code(sheet, Effect::PathBlending)?];
+    for (letter, length) in [('P', tolerance), ('Q', naive)] {
+        let Some(length) = length else { continue };
+        let number = sheet.hand.write(sheet.hand.form(sheet.model.control()), length.0 / unit, decimals);
+        words.push(format!("{letter}{number}"));
+    }
+    Some(words.join(sheet.hand.gap()))
 }
 
 /// The first code with an effect, written with a zero in front where the program does that.

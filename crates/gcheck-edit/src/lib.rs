@@ -9,7 +9,6 @@
 
 mod change;
 mod course;
-mod cutters;
 mod distance;
 mod expand;
 mod expecting;
@@ -28,12 +27,13 @@ mod scope;
 mod sheet;
 mod units;
 mod unroll;
+mod untold;
 mod witness;
 
 pub use change::{Amount, Change};
-pub use cutters::{ASSUMED_RADIUS, assume_cutters};
 pub use expecting::{Expected, expected, plainly};
 pub use plan::{Plan, gaps, plan};
 pub use refusal::Refusal;
 pub use scope::Scope;
+pub use untold::{ASSUMED_RADIUS, assume_cutters, assume_places};
 pub use witness::{Witness, witness};

@@ -59,6 +59,8 @@ pub(crate) enum Meaning {
     },
     /// A word that a turned path would need to have changed in a way that is not known.
     Direction,
+    /// A distance from the zero of the program, or the angle at which it is seen from there.
+    Polar,
     Feed,
     Speed,
     Other,
@@ -80,6 +82,15 @@ pub(crate) struct Read {
 }
 
 impl Read {
+    /// Do its words say where it goes, or to what angle an axis turns?
+    pub(crate) fn has_ways(&self, model: &Model<'_>) -> bool {
+        let axes = model.control().axes();
+        let turns =
+            |word: &Word| Axis::of(word.letter).is_some_and(Axis::is_rotary) && axes.contains(word.letter);
+        let goes = matches!(self.class, Class::Moves | Class::Operation);
+        self.has_places() || goes && self.words.iter().any(|(word, _)| turns(word))
+    }
+
     /// Do its words say where it goes?
     pub(crate) fn has_places(&self) -> bool {
         self.words.iter().any(|(_, meaning)| {
@@ -90,6 +101,7 @@ impl Read {
                     | Meaning::Centre { .. }
                     | Meaning::Vector { .. }
                     | Meaning::Direction
+                    | Meaning::Polar
             )
         })
     }
@@ -174,6 +186,11 @@ fn class(codes: &[CodeIx], words: &[Word], model: &Model<'_>) -> Class {
             | Effect::DynamicOffsetOn
             | Effect::TiltedPlaneOn => Role::of(effect).map_or(Class::Other, Class::Mapping),
             Effect::MacroCall | Effect::MacroModal | Effect::CallProgram | Effect::CallLocal => Class::Call,
+            Effect::WriteOffsets if names_axis && writes_by_point(words, model) => {
+                Class::Origin { by_point: true }
+            }
+            // A dwell that takes no word of an axis leaves those to the motion.
+            Effect::Dwell if !dwells_by_axis(words, model) => continue,
             Effect::Dwell | Effect::WriteOffsets | Effect::UserCommand => Class::Other,
             _ if code.entry().any_words => Class::Call,
             _ => {
@@ -188,6 +205,20 @@ fn class(codes: &[CodeIx], words: &[Word], model: &Model<'_>) -> Class {
         break;
     }
     class
+}
+
+/// Is the time of a dwell given by the word of an axis, as lathes do?
+fn dwells_by_axis(words: &[Word], model: &Model<'_>) -> bool {
+    let mut times = model.semantics().dwell.keys().filter_map(|letter| Letter::parse(letter));
+    times.any(|letter| Axis::of(letter).is_some() && words.iter().any(|word| word.letter == letter))
+}
+
+/// Does a block that writes offsets give the coordinates that the present point is to have? A strict control has forms for
+/// that.
+fn writes_by_point(words: &[Word], model: &Model<'_>) -> bool {
+    let form = words.iter().find(|word| word.letter == Letter::of('L'));
+    model.semantics().strict
+        && form.is_some_and(|form| form.number().is_none_or(|form| [10.0, 11.0, 20.0].contains(&form)))
 }
 
 /// What a word is; `kind` is that of its value, as its code says or else its address.
@@ -222,7 +253,7 @@ fn meaning(
         return Meaning::Other;
     }
     if word.letter == Letter::AT || word.letter == Letter::CARET {
-        return Meaning::Direction;
+        return Meaning::Polar;
     }
     let vector = match word.letter.ascii() {
         b'I' => Some(0),

@@ -5,6 +5,9 @@
 use gcheck_controls::{Control, Letter, Unpointed};
 use gcheck_program::{Dialect, Loaded, Value};
 
+/// Decimals beyond which no machine goes.
+const FINEST: usize = 6;
+
 /// How a program writes its numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[expect(clippy::struct_excessive_bools, reason = "independent habits of a writer")]
@@ -21,6 +24,8 @@ pub(crate) struct Hand {
     points: bool,
     /// Codes below 10 have a zero in front: `G01`.
     zeros: bool,
+    /// The most decimals of a coordinate.
+    decimals: u8,
 }
 
 impl Hand {
@@ -42,6 +47,9 @@ impl Hand {
                 }
                 let range = place.base + word.range().start..place.base + word.range().end;
                 let text = loaded.slice(range);
+                if matches!(word.letter.ascii(), b'X' | b'Y' | b'Z') {
+                    hand.decimals = hand.decimals.max(word.shape.decimals);
+                }
                 hand.pads |= word.shape.decimals > 1 && text.ends_with('0');
                 hand.bare |= word.shape.whole_digits == 0 && word.shape.decimals > 0;
                 hand.points_feeds |= word.letter == Letter::of('F');
@@ -54,6 +62,11 @@ impl Hand {
     /// Do codes below 10 have a zero in front?
     pub(crate) const fn zeros(self) -> bool {
         self.zeros
+    }
+
+    /// The most decimals of a coordinate, as far as numbers of the machine have a meaning.
+    pub(crate) fn decimals(self) -> usize {
+        usize::from(self.decimals).min(FINEST)
     }
 
     /// What is between words.

@@ -4,7 +4,7 @@
 
 use std::ops::Range;
 
-use gcheck_controls::{Effect, Letter};
+use gcheck_controls::{Effect, Letter, Unpointed};
 use gcheck_diagnostics::Edit;
 use gcheck_engine::{Look, Machine, Model, Program, Units};
 use gcheck_program::{Loaded, Place, Value, Word};
@@ -65,8 +65,10 @@ impl<'a, 'p> Sheet<'a, 'p> {
     pub(crate) fn value(&self, place: &Place, word: &Word) -> (Range<u32>, &str) {
         let range = Self::range(place, word);
         let text = self.loaded.slice(range.clone());
-        let skipped = text.find(|c: char| !c.is_ascii_alphabetic() && !c.is_whitespace() && c != ',');
-        let start = range.start + skipped.unwrap_or(text.len()) as u32;
+        // One letter is the address: a function may come after it.
+        let after = text.trim_start_matches(|c: char| c == ',' || c.is_whitespace());
+        let value = after.get(1..).unwrap_or_default().trim_start();
+        let start = range.end - value.len() as u32;
         (start..range.end, self.loaded.slice(start..range.end))
     }
 
@@ -75,8 +77,30 @@ impl<'a, 'p> Sheet<'a, 'p> {
         self.look.counted(letter, 1.0, units)
     }
 
-    /// Decimals that the control resolves in lengths.
+    /// Decimals that the control resolves in lengths. One that reads all digits gets as many as the program has, and those that
+    /// make an inch as fine as a millimetre.
     pub(crate) fn decimals(&self, units: Option<Units>) -> usize {
+        let least = self.least(units);
+        if !self.reads_all_digits() {
+            return least;
+        }
+        let fine = if units == Some(Units::Inch) { least + 1 } else { least };
+        fine.max(self.hand.decimals())
+    }
+
+    /// Decimals of a length that was in other units.
+    fn decimals_from(&self, from: Option<Units>, to: Units) -> usize {
+        let own = self.hand.decimals().saturating_sub(self.least(from));
+        let fine = usize::from(to == Units::Inch);
+        self.least(Some(to)) + if self.reads_all_digits() { own.max(fine) } else { 0 }
+    }
+
+    fn reads_all_digits(&self) -> bool {
+        self.model.control().numbers().unpointed == Unpointed::AsWritten
+    }
+
+    /// Decimals of the least increment.
+    fn least(&self, units: Option<Units>) -> usize {
         let numbers = self.model.control().numbers();
         let least = if units == Some(Units::Inch) { numbers.least_inch } else { numbers.least_mm };
         #[expect(clippy::cast_sign_loss, reason = "clamped")]
@@ -115,7 +139,7 @@ impl<'a, 'p> Sheet<'a, 'p> {
         to: Units,
         factor: f64,
     ) -> Result<String, Refusal> {
-        let decimals = self.decimals(Some(to));
+        let decimals = self.decimals_from(from, to);
         let count = if word.shape.point { 1.0 } else { self.count(word.letter, from) };
         match word.value {
             Value::Number(number) => {

@@ -113,7 +113,7 @@ fn factor(place: &Place, word: &Word, facts: &Facts, model: &Model<'_>, to: Unit
         Meaning::Place { .. } | Meaning::Height { .. } | Meaning::Centre { .. } | Meaning::Vector { .. } => {
             return Some(length);
         }
-        Meaning::Direction | Meaning::Other => {}
+        Meaning::Direction | Meaning::Polar | Meaning::Other => {}
     }
     let control = model.control();
     let codes = place.table.words(place.block()).iter().filter_map(|word| control.code_at(word.code));

@@ -324,13 +324,15 @@ mod tests {
             text,
             &[ActionKind::Rewrite],
             &expect![[r#"
-                # Rewrite: Write this cycle as 5 plain moves
+                # Rewrite: Write this cycle as 7 plain moves
                 G21 G90 G0 X0 Y0 Z10
-                G98 G0 X1. Y2.
+                G98 G61
+                G0 X1. Y2.
                 G0 Z2.
                 G1 Z-6. F100.
                 G4 P0.5
                 G0 Z10.
+                G64
                 G80
                 G0 Z50
                 M2

@@ -15,7 +15,7 @@ mod stands;
 use std::iter::Peekable;
 use std::sync::Arc as Shared;
 
-use gcheck_engine::Position;
+use gcheck_engine::{Axis, Position};
 
 use crate::trail::{Act, Doing, Driven, Feed, Setting, Stand};
 use corner::{Leaving, Off};
@@ -210,7 +210,12 @@ impl<A: Iterator<Item = Act>, B: Iterator<Item = Act>> Comparison<A, B> {
         };
         let parted = if a.curve.is_open() || b.curve.is_open() {
             // From an unknown place only the end is known, and everything before it may be a part of the way there.
-            let apart = curve::apart(&a.curve.end(), &b.curve.end());
+            let ends = [a.curve.end(), b.curve.end()];
+            let [known, other] = ends.map(|end| Axis::ALL.map(|axis| !end.raw(axis).is_nan()));
+            if known != other {
+                self.found.half_known.get_or_insert_with(|| [a.place(), b.place()]);
+            }
+            let apart = curve::apart(&ends[0], &ends[1]);
             (a.done, b.done) = (1.0, 1.0);
             let parts = apart > self.tolerance || !Curve::go_for_the_same(&a.curve, &b.curve);
             parts.then(|| parting(a, b, self.a.at, apart))

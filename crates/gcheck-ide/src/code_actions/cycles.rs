@@ -6,7 +6,7 @@
 use gcheck_controls::{CodeIx, DwellWord, Effect, Letter, LetterSet};
 use gcheck_db::{BlockPlace, Cancelled, Database, DocumentId, Snapshot, StateAt};
 use gcheck_diagnostics::Edit;
-use gcheck_engine::{At, Axis, Event, Look, Position, Role, Transform, TravelKind, Units};
+use gcheck_engine::{At, Axis, Event, Look, PathMode, Position, Role, Transform, TravelKind, Units};
 use gcheck_geometry::Seconds;
 use gcheck_program::BlockFlags;
 
@@ -37,27 +37,49 @@ pub(super) fn offer(
     };
     let Some(series) = series(snapshot, &first) else { return Ok(()) };
     let numbers = first.number..first.number + series.len() as u32;
-    let mut texts: Vec<String> = Vec::new();
+    let mut texts: Vec<Vec<Line>> = Vec::new();
     let mut is_done = true;
-    let mut count = 0;
     database.look(document, numbers, stop, &mut |state, look| {
         let place = series.iter().find(|place| place.number == state.block);
         let lines = place.and_then(|place| expanded(snapshot, place, state, look, texts.is_empty()));
         match lines {
-            Some(lines) => {
-                count += lines.len();
-                texts.push(lines.join(line_end(snapshot)));
-            }
+            Some(lines) => join(&mut texts, lines),
             None => is_done = false,
         }
     })?;
+    let count: usize = texts.iter().map(Vec::len).sum();
     if !is_done || texts.len() != series.len() || count > MOST_LINES {
         return Ok(());
     }
-    let edits = series.iter().zip(texts).map(|(place, text)| Edit { range: place.range(), text }).collect();
+    let text = |lines: Vec<Line>| {
+        lines.into_iter().map(|line| line.text).collect::<Vec<_>>().join(line_end(snapshot))
+    };
+    let edits =
+        series.iter().zip(texts).map(|(place, lines)| Edit { range: place.range(), text: text(lines) });
+    let edits = edits.collect();
     let title = format!("Write this cycle as {count} plain moves");
     actions.push(CodeAction::change(title, ActionKind::Rewrite, edits));
     Ok(())
+}
+
+/// A line of an expanded cycle.
+struct Line {
+    text: String,
+    /// It says how corners are taken.
+    is_of_corners: bool,
+}
+
+/// Adds the lines of the next block. What the one before says of corners at its end, and this one takes back, is left out.
+fn join(texts: &mut Vec<Vec<Line>>, mut lines: Vec<Line>) {
+    if let Some(before) = texts.last_mut()
+        && before.len() > 1
+        && before.last().is_some_and(|line| line.is_of_corners)
+        && lines.first().is_some_and(|line| line.is_of_corners)
+    {
+        before.pop();
+        lines.remove(0);
+    }
+    texts.push(lines);
 }
 
 /// The block that begins a cycle and those that go on with it, when it is certain where it ends and what goes on then.
@@ -157,7 +179,7 @@ fn expanded(
     state: &StateAt,
     look: &mut Look<'_, '_>,
     is_first: bool,
-) -> Option<Vec<String>> {
+) -> Option<Vec<Line>> {
     let model = look.model();
     let reading = Reading::new(snapshot, model);
     let before = &state.before;
@@ -189,7 +211,7 @@ fn expanded(
         }
     }
     let mut feed_word = is_first.then(|| reading.feed(after)).flatten();
-    let mut lines: Vec<String> = Vec::new();
+    let mut lines: Vec<Line> = Vec::new();
     for event in &trial.events {
         let text = match event {
             Event::Travel(travel) => {
@@ -210,10 +232,13 @@ fn expanded(
                 }
             }
             Event::Dwell(seconds) => dwell(snapshot, *seconds)?,
-            Event::Modal(_) | Event::FeedRate(_) | Event::FeedMode(_) | Event::PathMode(_) => continue,
+            // The cycle takes corners otherwise than the program says, or does so no more.
+            Event::PathMode(mode) => corners(snapshot, *mode, units)?,
+            Event::Modal(_) | Event::FeedRate(_) | Event::FeedMode(_) => continue,
             _ => return None,
         };
-        lines.push(format!("{}{text}", std::mem::take(&mut head)));
+        let is_of_corners = matches!(event, Event::PathMode(_));
+        lines.push(Line { text: format!("{}{text}", std::mem::take(&mut head)), is_of_corners });
         if lines.len() > MOST_LINES {
             return None;
         }
@@ -251,6 +276,24 @@ fn dwell(snapshot: &Snapshot, seconds: Seconds) -> Option<String> {
         }
         DwellWord::Milliseconds => format!("{code} {letter}{}", (seconds.0 * 1000.0).round()),
     })
+}
+
+/// The code for a way to take corners.
+fn corners(snapshot: &Snapshot, mode: PathMode, units: Units) -> Option<String> {
+    let (tolerance, naive) = match mode {
+        PathMode::ExactPath => return code(snapshot, Effect::ExactPath).map(str::to_owned),
+        PathMode::ExactStop => return code(snapshot, Effect::ExactStop).map(str::to_owned),
+        PathMode::Blending { tolerance, naive } => {
+            (Some(tolerance).filter(|tolerance| tolerance.0 > 0.0), naive)
+        }
+    };
+    let mut text = code(snapshot, Effect::PathBlending)?.to_owned();
+    for (letter, length) in [('P', tolerance), ('Q', naive)] {
+        let Some(length) = length else { continue };
+        // Finer than any tolerance is given.
+        text = format!("{text} {letter}{}", pointed((length.0 / units.in_mm() * 1e5).round() / 1e5));
+    }
+    Some(text)
 }
 
 /// The first code with an effect.

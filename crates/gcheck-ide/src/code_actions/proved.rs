@@ -12,12 +12,12 @@ use gcheck_controls::{Effect, Machine as MachineKind};
 use gcheck_db::{Cancelled, Snapshot};
 use gcheck_diagnostics::{Edit, apply};
 use gcheck_edit::{
-    Amount, Change, Refusal, Scope, Witness, assume_cutters, expected, gaps, plainly, plan, witness,
+    Amount, Change, Refusal, Scope, Witness, assume_cutters, assume_places, expected, gaps, plainly, plan,
+    witness,
 };
-use gcheck_engine::{Axis, Ending, Machine, Options, Role, RunResult, Stopped, Units};
+use gcheck_engine::{Assumption, Axis, Ending, Machine, Options, Role, RunResult, Stopped, Units};
 use gcheck_toolpath::{Act, Aspect, Differences, compare};
-/// The moves are as promised while they stay this close, millimetres.
-const TOLERANCE: f64 = 0.001;
+
 /// Acts of a run that are kept; of longer programs the command line proves changes.
 const MOST_ACTS: usize = 200_000;
 /// Bytes of a document whose changes are offered.
@@ -140,7 +140,7 @@ pub fn proved(
     let mut machine = snapshot.settings().machine.engine.clone();
     let runs = runs(snapshot);
     let proving = Proving { snapshot, change: &change, scope: &scope, fuel, stop };
-    proving.assume(&mut machine, &runs)?;
+    let untold = proving.assume(&mut machine, &runs)?;
     let text = snapshot.text();
     let edits = match proving.plan(&machine, &runs)? {
         Ok(edits) => edits,
@@ -150,6 +150,7 @@ pub fn proved(
         return Ok(Ok(Proved { edits, claim: "there is nothing to change".to_owned() }));
     }
     let after = apply(&text, &edits);
+    assume_places(&mut machine, &untold);
     let mut moves = 0;
     for options in &runs {
         match proving.compare(&machine, *options, &after)? {
@@ -157,7 +158,7 @@ pub fn proved(
             Err(reason) => return Ok(Err(format!("cannot {}: {reason}", change.verb()))),
         }
     }
-    let claim = format!("{}, within {TOLERANCE} mm ({moves} moves compared)", change.claim());
+    let claim = format!("{}, within {} mm ({moves} moves compared)", change.claim(), change.tolerance());
     Ok(Ok(Proved { edits, claim }))
 }
 
@@ -176,19 +177,21 @@ struct Proving<'a> {
 }
 
 impl Proving<'_> {
-    /// Gives cutters of unknown size a small one, so that their paths can be compared.
-    fn assume(&self, machine: &mut Machine, runs: &[Options]) -> Result<(), Cancelled> {
+    /// Gives cutters of unknown size a small one, so that their paths can be compared. The answer is what runs rest on.
+    fn assume(&self, machine: &mut Machine, runs: &[Options]) -> Result<BTreeSet<Assumption>, Cancelled> {
+        let mut untold = BTreeSet::new();
         for options in runs {
             let unknown = self.snapshot.with_program(|program, model| {
                 let mut none = |_: Act| !(self.stop)();
                 plainly(program, model, machine, *options, self.fuel, &mut none).assumptions
             });
             assume_cutters(machine, &unknown);
+            untold.extend(unknown);
             if (self.stop)() {
                 return Err(Cancelled);
             }
         }
-        Ok(())
+        Ok(untold)
     }
 
     fn plan(&self, machine: &Machine, runs: &[Options]) -> Result<Result<Vec<Edit>, String>, Cancelled> {
@@ -243,16 +246,16 @@ impl Proving<'_> {
         if let Some(reason) = self.end(&ran.result) {
             return Ok(Err(reason));
         }
-        let differences = compare(promised.acts, made.acts, TOLERANCE);
+        let differences = compare(promised.acts, made.acts, self.change.tolerance());
         if let Some(reason) = different(&differences) {
             return Ok(Err(reason));
         }
         if !ended.stopped.is_program_end() {
             return Ok(Err("the changed program does not run to its end".to_owned()));
         }
-        if differences.unknown {
+        if differences.unknown || differences.half_known.is_some() {
             return Ok(Err(
-                "a cut starts or ends at a coordinate that is not known, so nothing is proved of it"
+                "a move starts or ends at a coordinate that is not known, so nothing is proved of it"
                     .to_owned(),
             ));
         }

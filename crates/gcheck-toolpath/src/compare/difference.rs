@@ -180,6 +180,8 @@ pub struct Differences {
     pub moves: u64,
     /// A coordinate was unknown and not compared.
     pub unknown: bool,
+    /// The first moves of which one ends at a coordinate that is known, and the other one at one that is not.
+    pub half_known: Option<[Place; 2]>,
     /// The corner at which the paths may differ most.
     pub corner: Option<Corner>,
     kept: Vec<Difference>,

@@ -121,7 +121,7 @@ pub enum EditCommand {
     /// Write a program in millimetres as one in inches
     ///
     /// Lengths, feeds and surface speeds change, with the digits that the control resolves. A ten-thousandth of an inch is
-    /// more than a thousandth of a millimetre, so most programs need `--tolerance 0.002`.
+    /// more than a thousandth of a millimetre, so moves are compared within 0.002 mm.
     Inch {
         /// The program and the part of it that changes.
         #[command(flatten)]
@@ -197,9 +197,10 @@ pub struct EditTarget {
     /// Change nothing; print what would change and exit with 1 if anything would
     #[arg(long)]
     pub diff: bool,
-    /// The moves are as the change says while they stay this close on every axis: millimetres, or degrees on rotary axes
-    #[arg(long, value_name = "MM", value_parser = tolerance, default_value = "0.001")]
-    pub tolerance: f64,
+    /// The moves are as the change says while they stay this close on every axis: millimetres, or degrees on rotary axes;
+    /// 0.001 without it, and 0.002 for `inch`
+    #[arg(long, value_name = "MM", value_parser = tolerance)]
+    pub tolerance: Option<f64>,
     /// A variable's value before the program starts: `--set '#100=2.5'`, `--set '#<name>=1'` (may be repeated)
     #[arg(long, value_name = "VARIABLE=VALUE", value_parser = assignment)]
     pub set: Vec<Assignment>,

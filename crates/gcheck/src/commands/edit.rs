@@ -9,7 +9,7 @@ mod refusing;
 use std::collections::BTreeSet;
 
 use gcheck_diagnostics::{Edit, apply_to_bytes};
-use gcheck_edit::{Amount, Change, Refusal, Scope, Witness, plan, witness};
+use gcheck_edit::{Amount, Change, Refusal, Scope, Witness, assume_places, plan, witness};
 use gcheck_engine::{Assumption, Axis, Nobody, Options, Units};
 use gcheck_program::BlockFlags;
 
@@ -23,6 +23,9 @@ pub(crate) fn run(global: &Global, command: &EditCommand) -> Result<u8, Problem>
     let target = command.target();
     let change = change(command)?;
     let mut prepared = execution::prepare(global, &execution(target))?;
+    // A program runs from where the last one left the machine: nothing may rest on a control that was just switched on.
+    prepared.equipment.machine.fresh = false;
+    prepared.equipment.machine.start = None;
     let scope = scope(target, &prepared)?;
     if matches!(change, Change::Convert(_)) && scope != Scope::All {
         return Err(Problem::new("a program is converted as a whole, as the feed and other words stay in effect from block to block")
@@ -38,6 +41,15 @@ pub(crate) fn run(global: &Global, command: &EditCommand) -> Result<u8, Problem>
     let after = apply_to_bytes(&before, &planned.edits);
     let is_dry = target.check || target.diff;
     let is_standard_input = target.file.as_os_str() == "-";
+    let tolerance = target.tolerance.unwrap_or(change.tolerance());
+    let asked = proof::Asked { change: &change, scope: &scope, tolerance, units: planned.units };
+    // Also where no word changes: the moves may not be as the change says for that very reason.
+    let mut proving = prepared.with_text(prepared.source.clone(), prepared.shown.clone());
+    assume_places(&mut proving.equipment.machine, &planned.untold);
+    let proof = match proof::prove(&proving, &after, &asked, &runs) {
+        Ok(proof) => proof,
+        Err(problem) => return Ok(refused(&prepared, problem)),
+    };
     if after == before {
         if is_standard_input && !is_dry {
             output::to_stdout(|out| out.write_all(&before))?;
@@ -47,12 +59,6 @@ pub(crate) fn run(global: &Global, command: &EditCommand) -> Result<u8, Problem>
         }
         return Ok(0);
     }
-    let asked =
-        proof::Asked { change: &change, scope: &scope, tolerance: target.tolerance, units: planned.units };
-    let proof = match proof::prove(&prepared, &after, &asked, &runs) {
-        Ok(proof) => proof,
-        Err(problem) => return Ok(refused(&prepared, problem)),
-    };
     if target.diff {
         output::print(&rewriting::difference(&prepared.shown, &before, &after))?;
     } else if target.check {
@@ -63,7 +69,7 @@ pub(crate) fn run(global: &Global, command: &EditCommand) -> Result<u8, Problem>
         rewriting::write(&prepared.path, "write the change", &before, &after)?;
     }
     if !global.quiet {
-        say(&closing(&prepared, &change, target, &proof, is_dry));
+        say(&closing(&asked, &prepared, target, &proof, is_dry));
         for note in planned.notes.iter().chain(&cutters) {
             say(&format!("note: {note}"));
         }
@@ -149,6 +155,8 @@ struct Planned {
     notes: Vec<String>,
     /// What the runs rest on, as text.
     rests: String,
+    /// What the runs rest on.
+    untold: BTreeSet<Assumption>,
     /// The units in which messages show lengths.
     units: Units,
 }
@@ -165,6 +173,7 @@ fn planned(
     let machine = &prepared.equipment.machine;
     let mut seen = Witness::new(change, scope, session.model);
     let mut rests = String::new();
+    let mut untold = BTreeSet::new();
     for options in runs {
         let ran =
             witness(&mut seen, session.program, session.model, machine, *options, prepared.fuel(), scope);
@@ -179,6 +188,7 @@ fn planned(
             return Err(Problem::with_file(&prepared.path, format!("cannot {}: {gap}", change.verb())));
         }
         rests = Rests::new(session, &ran).text();
+        untold.extend(ran.assumptions);
     }
     let refusal = |refusal: &Refusal| refusing::problem(prepared, change, refusal);
     let (edits, notes) = if let EditCommand::Renumber { numbering, .. } = command {
@@ -196,7 +206,7 @@ fn planned(
         (plan.edits, plan.notes)
     };
     let units = seen.units().unwrap_or(prepared.equipment.units);
-    Ok(Planned { edits, notes, rests: rests.trim_end().to_owned(), units })
+    Ok(Planned { edits, notes, rests: rests.trim_end().to_owned(), untold, units })
 }
 
 /// The switches that a change is proved for: as told, else block delete off and, where a block has one, also on.
@@ -244,14 +254,14 @@ fn gap(session: &Session<'_>, assumptions: &BTreeSet<Assumption>) -> Option<Stri
 
 /// What was done and what is proved, in one line.
 fn closing(
+    asked: &proof::Asked<'_>,
     prepared: &Prepared,
-    change: &Change,
     target: &EditTarget,
     proof: &proof::Proof,
     is_dry: bool,
 ) -> String {
     let part = match (target.lines, target.tool) {
-        _ if change.keeps_moves() => String::new(),
+        _ if asked.change.keeps_moves() => String::new(),
         (Some(lines), _) if lines.first == lines.last => format!("in line {} ", lines.first),
         (Some(lines), _) => format!("in lines {} to {} ", lines.first, lines.last),
         (None, Some(tool)) => format!("with T{tool} "),
@@ -264,8 +274,8 @@ fn closing(
         prepared.shown,
         if is_dry { "would change" } else { "changed" },
         prepared.chosen.choice.name,
-        change.claim(),
-        target.tolerance,
+        asked.change.claim(),
+        asked.tolerance,
         if proof.moves == 1 { "1 move".to_owned() } else { format!("{} moves", proof.moves) },
     )
 }

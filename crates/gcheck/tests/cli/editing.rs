@@ -81,13 +81,13 @@ fn feeds_of_the_whole_program() {
         "haas-mill",
         "scale-feeds 0.8",
         &expect![[r#"
-         8 G1 Z-2. F240.
-         9 G41 D1 X0. Y0. F640.
-        22 G99 G83 X10. Y10. Z-12. R2. Q4. F96.
-        ! part.nc: changed for haas-mill: every feed is 0.8 times what it was, within 0.001 mm (37 moves compared)
-        ! note: the size of cutter 1 is not known; the proof takes a radius of 0.01 mm
-        exit 0
-    "#]],
+             8 G1 Z-2. F240.
+             9 G41 D1 X0. Y0. F640.
+            22 G99 G83 X10. Y10. Z-12. R2. Q4. F96.
+            ! part.nc: changed for haas-mill: every feed is 0.8 times what it was, within 0.001 mm (39 moves compared)
+            ! note: the size of cutter 1 is not known; the proof takes a radius of 0.01 mm
+            exit 0
+        "#]],
     );
 }
 
@@ -98,12 +98,12 @@ fn feeds_of_some_lines_get_words_where_the_selection_begins_and_ends() {
         "haas-mill",
         "scale-feeds 50% --lines 11-12",
         &expect![[r#"
-        11 G2 X10. Y50. I10. J0. F400.
-        13 Y0. F800.
-        ! part.nc: changed for haas-mill: in lines 11 to 12 every feed is 0.5 times what it was, and every other move is as before, within 0.001 mm (37 moves compared)
-        ! note: the size of cutter 1 is not known; the proof takes a radius of 0.01 mm
-        exit 0
-    "#]],
+            11 G2 X10. Y50. I10. J0. F400.
+            13 Y0. F800.
+            ! part.nc: changed for haas-mill: in lines 11 to 12 every feed is 0.5 times what it was, and every other move is as before, within 0.001 mm (39 moves compared)
+            ! note: the size of cutter 1 is not known; the proof takes a radius of 0.01 mm
+            exit 0
+        "#]],
     );
 }
 
@@ -114,11 +114,11 @@ fn feeds_of_a_tool() {
         "haas-mill",
         "scale-feeds 1.25 --tool 2",
         &expect![[r#"
-        22 G99 G83 X10. Y10. Z-12. R2. Q4. F150.
-        ! part.nc: changed for haas-mill: with T2 every feed is 1.25 times what it was, and every other move is as before, within 0.001 mm (37 moves compared)
-        ! note: the size of cutter 1 is not known; the proof takes a radius of 0.01 mm
-        exit 0
-    "#]],
+            22 G99 G83 X10. Y10. Z-12. R2. Q4. F150.
+            ! part.nc: changed for haas-mill: with T2 every feed is 1.25 times what it was, and every other move is as before, within 0.001 mm (39 moves compared)
+            ! note: the size of cutter 1 is not known; the proof takes a radius of 0.01 mm
+            exit 0
+        "#]],
     );
 }
 
@@ -129,11 +129,11 @@ fn speeds_of_a_tool() {
         "haas-mill",
         "scale-speeds 1.1 --tool 1",
         &expect![[r#"
-         5 S4400 M3
-        ! part.nc: changed for haas-mill: with T1 every spindle speed is 1.1 times what it was, and every other move is as before, within 0.001 mm (37 moves compared)
-        ! note: the size of cutter 1 is not known; the proof takes a radius of 0.01 mm
-        exit 0
-    "#]],
+             5 S4400 M3
+            ! part.nc: changed for haas-mill: with T1 every spindle speed is 1.1 times what it was, and every other move is as before, within 0.001 mm (39 moves compared)
+            ! note: the size of cutter 1 is not known; the proof takes a radius of 0.01 mm
+            exit 0
+        "#]],
     );
 }
 
@@ -144,25 +144,25 @@ fn a_path_is_shifted() {
         "haas-mill",
         "translate --x 100 --y -2.5 --z 1",
         &expect![[r#"
-         6 G0 X90. Y-12.5
-         7 G43 H1 Z11.
-         8 G1 Z-1. F300.
-         9 G41 D1 X100. Y-2.5 F800.
-        10 Y37.5
-        11 G2 X110. Y47.5 I10. J0.
-        12 G1 X160.
-        13 Y-2.5
-        14 X100.
-        15 G40 X90. Y-12.5
-        16 G0 Z11.
-        20 G0 X110. Y7.5
-        21 G43 H2 Z11.
-        22 G99 G83 X110. Y7.5 Z-11. R3. Q4. F120.
-        23 X150.
-        ! part.nc: changed for haas-mill: every move is shifted by X100 Y-2.5 Z1, within 0.001 mm (37 moves compared)
-        ! note: the size of cutter 1 is not known; the proof takes a radius of 0.01 mm
-        exit 0
-    "#]],
+             6 G0 X90. Y-12.5
+             7 G43 H1 Z11.
+             8 G1 Z-1. F300.
+             9 G41 D1 X100. Y-2.5 F800.
+            10 Y37.5
+            11 G2 X110. Y47.5 I10. J0.
+            12 G1 X160.
+            13 Y-2.5
+            14 X100.
+            15 G40 X90. Y-12.5
+            16 G0 Z11.
+            20 G0 X110. Y7.5
+            21 G43 H2 Z11.
+            22 G99 G83 X110. Y7.5 Z-11. R3. Q4. F120.
+            23 X150.
+            ! part.nc: changed for haas-mill: every move is shifted by X100 Y-2.5 Z1, within 0.001 mm (39 moves compared)
+            ! note: the size of cutter 1 is not known; the proof takes a radius of 0.01 mm
+            exit 0
+        "#]],
     );
 }
 
@@ -173,13 +173,13 @@ fn the_path_of_a_tool_is_shifted_and_the_other_stays() {
         "haas-mill",
         "translate --x 5 --tool 2",
         &expect![[r#"
-        20 G0 X15. Y10.
-        22 G99 G83 X15. Y10. Z-12. R2. Q4. F120.
-        23 X55.
-        ! part.nc: changed for haas-mill: with T2 every move is shifted by X5, and every other move is as before, within 0.001 mm (37 moves compared)
-        ! note: the size of cutter 1 is not known; the proof takes a radius of 0.01 mm
-        exit 0
-    "#]],
+            20 G0 X15. Y10.
+            22 G99 G83 X15. Y10. Z-12. R2. Q4. F120.
+            23 X55.
+            ! part.nc: changed for haas-mill: with T2 every move is shifted by X5, and every other move is as before, within 0.001 mm (39 moves compared)
+            ! note: the size of cutter 1 is not known; the proof takes a radius of 0.01 mm
+            exit 0
+        "#]],
     );
 }
 
@@ -190,20 +190,20 @@ fn a_path_is_mirrored_with_its_arcs_and_compensation() {
         "haas-mill",
         "mirror X --at 25",
         &expect![[r#"
-         6 G0 X60. Y-10.
-         9 G42 D1 X50. Y0. F800.
-        11 G3 X40. Y50. I-10. J0.
-        12 G1 X-10.
-        14 X50.
-        15 G40 X60. Y-10.
-        20 G0 X40. Y10.
-        22 G99 G83 X40. Y10. Z-12. R2. Q4. F120.
-        23 X0.
-        ! part.nc: changed for haas-mill: every move is mirrored at X25, within 0.001 mm (37 moves compared)
-        ! note: climb milling becomes conventional milling, and the other way round: the spindle still turns as before
-        ! note: the size of cutter 1 is not known; the proof takes a radius of 0.01 mm
-        exit 0
-    "#]],
+             6 G0 X60. Y-10.
+             9 G42 D1 X50. Y0. F800.
+            11 G3 X40. Y50. I-10. J0.
+            12 G1 X-10.
+            14 X50.
+            15 G40 X60. Y-10.
+            20 G0 X40. Y10.
+            22 G99 G83 X40. Y10. Z-12. R2. Q4. F120.
+            23 X0.
+            ! part.nc: changed for haas-mill: every move is mirrored at X25, within 0.001 mm (39 moves compared)
+            ! note: climb milling becomes conventional milling, and the other way round: the spindle still turns as before
+            ! note: the size of cutter 1 is not known; the proof takes a radius of 0.01 mm
+            exit 0
+        "#]],
     );
 }
 
@@ -214,19 +214,19 @@ fn a_path_is_rotated() {
         "haas-mill",
         "rotate 90 --about 10,10",
         &expect![[r#"
-         6 G0 X30. Y-10.
-         9 G41 D1 X20. Y0. F800.
-        10 X-20.
-        11 G2 X-30. Y10. I0. J10.
-        12 G1 Y60.
-        13 X20.
-        14 Y0.
-        15 G40 X30. Y-10.
-        23 Y50.
-        ! part.nc: changed for haas-mill: every move is rotated by 90° about X10 Y10, within 0.001 mm (37 moves compared)
-        ! note: the size of cutter 1 is not known; the proof takes a radius of 0.01 mm
-        exit 0
-    "#]],
+             6 G0 X30. Y-10.
+             9 G41 D1 X20. Y0. F800.
+            10 X-20.
+            11 G2 X-30. Y10. I0. J10.
+            12 G1 Y60.
+            13 X20.
+            14 Y0.
+            15 G40 X30. Y-10.
+            23 Y50.
+            ! part.nc: changed for haas-mill: every move is rotated by 90° about X10 Y10, within 0.001 mm (39 moves compared)
+            ! note: the size of cutter 1 is not known; the proof takes a radius of 0.01 mm
+            exit 0
+        "#]],
     );
 }
 
@@ -238,35 +238,35 @@ fn increments_and_places_of_the_machine_stay() {
         "fanuc-mill",
         "translate --x 1 --y 2",
         &expect![[r#"
-         5 G0 X1. Y2. S900 M3
-        10 G90 G3 X31. Y2. R10.
-        ! part.nc: changed for fanuc-mill: every move is shifted by X1 Y2, within 0.001 mm (7 moves compared)
-        exit 0
-    "#]],
+             5 G0 X1. Y2. S900 M3
+            10 G90 G3 X31. Y2. R10.
+            ! part.nc: changed for fanuc-mill: every move is shifted by X1 Y2, within 0.001 mm (8 moves compared)
+            exit 0
+        "#]],
     );
     changes(
         program,
         "fanuc-mill",
         "mirror y",
         &expect![[r#"
-         9 G3 X10. Y-10. I10.
-        10 G90 G2 X30. Y0. R10.
-        ! part.nc: changed for fanuc-mill: every move is mirrored at Y0, within 0.001 mm (7 moves compared)
-        ! note: climb milling becomes conventional milling, and the other way round: the spindle still turns as before
-        exit 0
-    "#]],
+             9 G3 X10. Y-10. I10.
+            10 G90 G2 X30. Y0. R10.
+            ! part.nc: changed for fanuc-mill: every move is mirrored at Y0, within 0.001 mm (8 moves compared)
+            ! note: climb milling becomes conventional milling, and the other way round: the spindle still turns as before
+            exit 0
+        "#]],
     );
     changes(
         program,
         "fanuc-mill",
         "rotate 180",
         &expect![[r#"
-         8 G91 X-10.
-         9 G2 X-10. Y-10. I-10.
-        10 G90 G3 X-30. Y0. R10.
-        ! part.nc: changed for fanuc-mill: every move is rotated by 180° about X0 Y0, within 0.001 mm (7 moves compared)
-        exit 0
-    "#]],
+             8 G91 X-10.
+             9 G2 X-10. Y-10. I-10.
+            10 G90 G3 X-30. Y0. R10.
+            ! part.nc: changed for fanuc-mill: every move is rotated by 180° about X0 Y0, within 0.001 mm (8 moves compared)
+            exit 0
+        "#]],
     );
 }
 
@@ -914,40 +914,44 @@ fn cycles_become_plain_moves() {
         "haas-mill",
         "expand-cycle",
         &expect![[r#"
-        22 G99
-        23 G0 Z2.
-        24 G1 Z-2. F120.
-        25 G0 Z2.
-        26 G0 Z0.54
-        27 G1 Z-6.
-        28 G0 Z2.
-        29 G0 Z-3.46
-        30 G1 Z-10.
-        31 G0 Z2.
-        32 G0 Z-7.46
-        33 G1 Z-12.
-        34 G0 Z2.
-        35 G0 X50.
-        36 G1 Z-2.
-        37 G0 Z2.
-        38 G0 Z0.54
-        39 G1 Z-6.
-        40 G0 Z2.
-        41 G0 Z-3.46
-        42 G1 Z-10.
-        43 G0 Z2.
-        44 G0 Z-7.46
-        45 G1 Z-12.
-        46 G0 Z2.
-        47 G80
-        48 G91 G28 Z0. M5
-        49 M30
-        50 %
-        ! part.nc: changed for haas-mill: every move is as before, within 0.001 mm (37 moves compared)
-        ! note: the size of cutter 1 is not known; the proof takes a radius of 0.01 mm
-        exit 0
-    "#]],
+            22 G99
+            23 G0 Z2.
+            24 G1 Z-2. F120.
+            25 G0 Z2.
+            26 G0 Z0.54
+            27 G1 Z-6.
+            28 G0 Z2.
+            29 G0 Z-3.46
+            30 G1 Z-10.
+            31 G0 Z2.
+            32 G0 Z-7.46
+            33 G1 Z-12.
+            34 G0 Z2.
+            35 G0 X50.
+            36 G1 Z-2.
+            37 G0 Z2.
+            38 G0 Z0.54
+            39 G1 Z-6.
+            40 G0 Z2.
+            41 G0 Z-3.46
+            42 G1 Z-10.
+            43 G0 Z2.
+            44 G0 Z-7.46
+            45 G1 Z-12.
+            46 G0 Z2.
+            47 G80
+            48 G91 G28 Z0. M5
+            49 M30
+            50 %
+            ! part.nc: changed for haas-mill: every move is as before, within 0.001 mm (39 moves compared)
+            ! note: the size of cutter 1 is not known; the proof takes a radius of 0.01 mm
+            exit 0
+        "#]],
     );
+}
+
+#[test]
+fn cycles_become_plain_moves_in_the_hand_of_the_writer() {
     let program = "%\r\nO1\r\nG21G17G90G54G40G80\r\nG00X0.Y0.Z10.\r\nN5G98G82X1.Y2.Z-6.R2.P500F100.(SPOT)\r\nN6X5.\r\nG91X3.L2\r\nG90G80\r\nG00Z50.\r\nM30\r\n%\r\n";
     changes(
         program,
@@ -990,23 +994,25 @@ fn cycles_become_plain_moves() {
         "linuxcnc",
         "expand-cycle",
         &expect![[r#"
-         3 G98
-         4 G0 X1. Y2.
-         5 G0 Z.2
-         6 G1 Z-.6 F10
-         7 G4 P.5
-         8 G0 Z1.
-         9 G0 X3.
-        10 G0 Z.2
-        11 G1 Z-.6
-        12 G4 P.5
-        13 G0 Z1.
-        14 G80
-        15 G0 Z5
-        16 M2
-        ! part.nc: changed for linuxcnc: every move is as before, within 0.001 mm (10 moves compared)
-        exit 0
-    "#]],
+             3 G98
+             4 G61
+             5 G0 X1. Y2.
+             6 G0 Z.2
+             7 G1 Z-.6 F10
+             8 G4 P.5
+             9 G0 Z1.
+            10 G0 X3.
+            11 G0 Z.2
+            12 G1 Z-.6
+            13 G4 P.5
+            14 G0 Z1.
+            15 G64
+            16 G80
+            17 G0 Z5
+            18 M2
+            ! part.nc: changed for linuxcnc: every move is as before, within 0.001 mm (10 moves compared)
+            exit 0
+        "#]],
     );
 }
 
@@ -1145,13 +1151,13 @@ fn loops_whose_turns_are_not_certain_stay() {
         "fanuc-mill",
         "unroll-loop",
         &expect![[r#"
-        error: part.nc: cannot unroll the loop: the proof failed
-        the paths part at X0 Y0 Z5
-          - part.nc:12  to X5 Y0 Z5   | G0 X[#1*5.]
-          + part.nc (changed):12  has no moves left   | G0 X[#1*5.]
-          note: `-` is what the change promises, `+` is what the changed program does
-        part.nc: nothing is changed
-    "#]],
+            error: part.nc: cannot unroll the loop: the proof failed
+            the paths part at X0 Y0 Z5
+              - part.nc:12  to X5 Y0 Z5   | G0 X[#1*5.]
+              + part.nc (changed):5  has no moves left   | G0 X0. Y0. Z5.
+              note: `-` is what the change promises, `+` is what the changed program does
+            part.nc: nothing is changed
+        "#]],
     );
 }
 
@@ -1164,15 +1170,15 @@ fn absolute_coordinates_become_increments_and_come_back() {
         "fanuc-mill",
         "incremental --lines 6-10",
         &expect![[r#"
-         6 G91 X10. Y5.
-         7 G2 X10. Y10. I10. (ARC)
-         8 G0 Z6.
-         9 G99 G81 X-15. Y-10. Z-8. R-3. F80.
-        10 X3.
-        12 G90 G53 Z0.
-        ! part.nc: changed for fanuc-mill: every move is as before, within 0.001 mm (13 moves compared)
-        exit 0
-    "#]],
+             6 G91 X10. Y5.
+             7 G2 X10. Y10. I10. (ARC)
+             8 G0 Z6.
+             9 G99 G81 X-15. Y-10. Z-8. R-3. F80.
+            10 X3.
+            12 G90 G53 Z0.
+            ! part.nc: changed for fanuc-mill: every move is as before, within 0.001 mm (14 moves compared)
+            exit 0
+        "#]],
     );
     let (_, text) = edit(WAYS, "fanuc-mill", "incremental --lines 6-10");
     changes(
@@ -1180,14 +1186,14 @@ fn absolute_coordinates_become_increments_and_come_back() {
         "fanuc-mill",
         "absolute",
         &expect![[r#"
-         6 G90 X10. Y5.
-         7 G2 X20. Y15. I10. (ARC)
-         8 G0 Z5.
-         9 G99 G81 X5. Y5. Z-6. R2. F80.
-        10 X8.
-        ! part.nc: changed for fanuc-mill: every move is as before, within 0.001 mm (13 moves compared)
-        exit 0
-    "#]],
+             6 G90 X10. Y5.
+             7 G2 X20. Y15. I10. (ARC)
+             8 G0 Z5.
+             9 G99 G81 X5. Y5. Z-6. R2. F80.
+            10 X8.
+            ! part.nc: changed for fanuc-mill: every move is as before, within 0.001 mm (14 moves compared)
+            exit 0
+        "#]],
     );
     let (_, back) = edit(&text, "fanuc-mill", "absolute");
     let (run, _) = edit(&back, "fanuc-mill", "absolute");
@@ -1196,19 +1202,17 @@ fn absolute_coordinates_become_increments_and_come_back() {
 
 #[test]
 fn increments_whose_begin_is_not_known_stay() {
-    let program = "%\nO1\nG21 G17 G90 G54 G40 G80\nG0 X0. Z5.\nY5.\nM30\n%\n";
-    refuses(
-        program,
+    changes(
+        "%\nO1\nG21 G17 G90 G54 G40 G80\nG0 X0. Z5.\nY5.\nX1. Y6.\nG43 H1 Z3.\nZ2.\nM30\n%\n",
         "fanuc-mill",
         "incremental",
         &expect![[r#"
-        error: part.nc:4:4: cannot write increments: where X is before this block is not known
-          |
-        4 | G0 X0. Z5.
-          |    ^^^
-          help: begin the selection at a later block
-        part.nc: nothing is changed
-    "#]],
+             6 G91 X1. Y1.
+             7 G90 G43 H1 Z3.
+             8 G91 Z-1.
+            ! part.nc: changed for fanuc-mill: every move is as before, within 0.001 mm (5 moves compared)
+            exit 0
+        "#]],
     );
     let program = "%\nO1\nG21 G17 G90 G54 G40 G80\nG0 X0. Y0. Z5.\nG91\nG99 G81 X5. Z-6. R-3. K3 F80.\nG80\nG90\nM30\n%\n";
     refuses(
@@ -1247,17 +1251,17 @@ fn inches_become_millimetres() {
         "haas-mill",
         "mm",
         &expect![[r#"
-         3 G21 G17 G90 G94 G54 G40 G80
-         6 G0 X25.4 Y-12.7
-         7 G43 H1 Z2.54
-         8 G1 Z-1.27 F304.8
-         9 G2 X50.8 Y12.7 I0. J25.4
-        10 X63.5 Y25.4 R12.7
-        11 G0 Z2.54
-        12 G99 G83 X25.4 Y25.4 Z-15.24 R2.54 Q3.175 F215.9
-        ! part.nc: changed for haas-mill: every move is as before, within 0.001 mm (24 moves compared)
-        exit 0
-    "#]],
+             3 G21 G17 G90 G94 G54 G40 G80
+             6 G0 X25.4 Y-12.7
+             7 G43 H1 Z2.54
+             8 G1 Z-1.27 F304.8
+             9 G2 X50.8 Y12.7 I0. J25.4
+            10 X63.5 Y25.4 R12.7
+            11 G0 Z2.54
+            12 G99 G83 X25.4 Y25.4 Z-15.24 R2.54 Q3.175 F215.9
+            ! part.nc: changed for haas-mill: every move is as before, within 0.001 mm (25 moves compared)
+            exit 0
+        "#]],
     );
     let program = "%\nO1\nG20 G18 G40 G99 G54\nT0101\nG96 S600 M3\nG0 X2. Z.1\nG1 X1.5 F.008\nZ-1.\nU.25 W-.1\nG0 X3.\nG28 U0. W0.\nM30\n%\n";
     changes(
@@ -1283,32 +1287,32 @@ fn millimetres_become_inches_within_what_an_inch_resolves() {
     changes(
         WAYS,
         "haas-mill",
-        "inch --tolerance 0.0015",
+        "inch",
         &expect![[r#"
-         3 G20 G17 G90 G94 G54 G40 G80
-         4 G0 X0. Y0. Z0.1969
-         5 G1 Z-0.0394 F3.937
-         6 X0.3937 Y0.1969
-         7 G2 X0.7874 Y0.5906 I0.3937 (ARC)
-         8 G0 Z0.1969
-         9 G99 G81 X0.1969 Y0.1969 Z-0.2362 R0.0787 F3.1496
-        10 X0.315
-        13 G0 X0.0394 Y0.0394
-        ! part.nc: changed for haas-mill: every move is as before, within 0.0015 mm (14 moves compared)
-        exit 0
-    "#]],
+             3 G20 G17 G90 G94 G54 G40 G80
+             4 G0 X0. Y0. Z0.1969
+             5 G1 Z-0.0394 F3.937
+             6 X0.3937 Y0.1969
+             7 G2 X0.7874 Y0.5906 I0.3937 (ARC)
+             8 G0 Z0.1969
+             9 G99 G81 X0.1969 Y0.1969 Z-0.2362 R0.0787 F3.1496
+            10 X0.315
+            13 G0 X0.0394 Y0.0394
+            ! part.nc: changed for haas-mill: every move is as before, within 0.002 mm (14 moves compared)
+            exit 0
+        "#]],
     );
     refuses(
         WAYS,
         "haas-mill",
-        "inch",
+        "inch --tolerance 0.0005",
         &expect![[r#"
             error: part.nc: cannot write the program in inches: the proof failed
-            the paths part at an unknown place
+            the paths part at X1.7341 Y2.3534 Z2.9727
               - part.nc:4  to X0 Y0 Z5   | G0 X0. Y0. Z5.
               + part.nc (changed):4  to X0 Y0 Z5.0013   | G0 X0. Y0. Z0.1969
               note: `-` is what the change promises, `+` is what the changed program does
-              help: the last digit of an inch is 0.00254 mm: `--tolerance 0.002` allows the rounding of single words
+              help: the last digit of an inch is 0.00254 mm, and roundings of increments and arcs add up: `--tolerance` allows more
             part.nc: nothing is changed
         "#]],
     );
@@ -1420,7 +1424,7 @@ fn safe_start_lines_say_what_is_in_effect() {
             26 G91 G28 Z0. M5
             27 M30
             28 %
-            ! part.nc: changed for haas-mill: every move is as before, within 0.001 mm (37 moves compared)
+            ! part.nc: changed for haas-mill: every move is as before, within 0.001 mm (39 moves compared)
             ! note: the size of cutter 1 is not known; the proof takes a radius of 0.01 mm
             exit 0
         "#]],
@@ -1454,13 +1458,13 @@ fn safe_start_lines_say_what_is_in_effect() {
         "haas-mill",
         "safe-start",
         &expect![[r#"
-        error: part.nc: cannot insert safe start lines: the proof failed
-        the paths part at X5 Y0
-          - part.nc:7  to X6 Y0   | X5.
-          + part.nc (changed):8  has no moves left   | X5.
-          note: `-` is what the change promises, `+` is what the changed program does
-        part.nc: nothing is changed
-    "#]],
+            error: part.nc: cannot insert safe start lines: the proof failed
+            the paths part at X5 Y0 Z-3.0564
+              - part.nc:7  to X6 Y0 Z-3.0564   | X5.
+              + part.nc (changed):8  has no moves left   | X5.
+              note: `-` is what the change promises, `+` is what the changed program does
+            part.nc: nothing is changed
+        "#]],
     );
 }
 
@@ -1489,4 +1493,178 @@ fn programs_that_are_written_otherwise_are_the_same_for_diff() {
         }
     }
     assert!(changed > 10, "{changed} programs changed");
+}
+
+/// LinuxCNC passes all points of a canned cycle exactly, whatever `G64` says of the moves around it.
+#[test]
+fn moves_of_a_cycle_take_corners_as_the_cycle_did() {
+    changes(
+        "G21 G90 G64 P0.05 Q0.02\nG0 X0 Y0 Z10\nG98 G81 X10 Y0 Z-5 R2 F100\nX20\nG80\nG1 X30\nM2\n",
+        "linuxcnc",
+        "expand-cycle",
+        &expect![[r#"
+             3 G98
+             4 G61
+             5 G0 X10
+             6 G0 Z2
+             7 G1 Z-5 F100
+             8 G0 Z10
+             9 G0 X20
+            10 G0 Z2
+            11 G1 Z-5
+            12 G0 Z10
+            13 G64 P0.05 Q0.02
+            14 G80
+            15 G1 X30
+            16 M2
+            ! part.nc: changed for linuxcnc: every move is as before, within 0.001 mm (10 moves compared)
+            exit 0
+        "#]],
+    );
+    changes(
+        "G21 G90 G0 X0 Y0 Z10\nG61 G98 G81 X10 Y0 Z-5 R2 F100\nG80\nM2\n",
+        "linuxcnc",
+        "expand-cycle",
+        &expect![[r#"
+             2 G61 G98
+             3 G0 X10
+             4 G0 Z2
+             5 G1 Z-5 F100
+             6 G0 Z10
+             7 G80
+             8 M2
+            ! part.nc: changed for linuxcnc: every move is as before, within 0.001 mm (5 moves compared)
+            exit 0
+        "#]],
+    );
+}
+
+#[test]
+fn words_beside_a_dwell_move_where_the_dwell_does_not_take_them() {
+    changes(
+        "G21 G90 G0 X1 Y2 Z5\nG4 P0.5 G0 X10 Y20\nM2\n",
+        "linuxcnc",
+        "mirror x",
+        &expect![[r#"
+             1 G21 G90 G0 X-1 Y2 Z5
+             2 G4 P0.5 G0 X-10 Y20
+            ! part.nc: changed for linuxcnc: every move is mirrored at X0, within 0.001 mm (2 moves compared)
+            exit 0
+        "#]],
+    );
+}
+
+#[test]
+fn offsets_written_by_the_present_point_stay() {
+    for form in ["L10 P1", "L20 P1"] {
+        let program = format!("G21 G90 G54 S900 M3\nG0 X10 Y0 Z5\nG10 {form} X0\nG43 H1 G1 X5 F100\nM2\n");
+        for change in ["translate --x 10", "mirror x"] {
+            let (run, text) = edit(&program, "linuxcnc", change);
+            assert_eq!((run.code, text), (2, program.clone()));
+            let why = "moves the zero of the program to or from where the tool is";
+            assert!(run.stderr.contains(why), "{}", run.stderr);
+        }
+    }
+    // The number of the form means extra work offsets here.
+    changes(
+        "%\nO1\nG21 G90 G54 S900 M3\nG0 X10. Y0 Z5.\nG10 L20 P1 X0\nG1 X5. F100.\nM30\n%\n",
+        "haas-mill",
+        "translate --x 10",
+        &expect![[r#"
+             4 G0 X20. Y0 Z5.
+             6 G1 X15. F100.
+            ! part.nc: changed for haas-mill: every move is shifted by X10, within 0.001 mm (2 moves compared)
+            exit 0
+        "#]],
+    );
+}
+
+#[test]
+fn places_seen_from_the_zero_of_the_program_or_in_a_turned_system_stay() {
+    refuses(
+        "G21 G90 G0 X0 Y0 Z5\nG0 @10 ^30\nM2\n",
+        "linuxcnc",
+        "translate --x 10",
+        &expect![[r#"
+        error: part.nc:2:1: cannot shift the path: this block gives a distance and an angle as seen from the zero of the program, which stays where it is
+          |
+        2 | G0 @10 ^30
+          | ^^^^^^^^^^
+        part.nc: nothing is changed
+    "#]],
+    );
+    refuses(
+        "G21 G90 G0 X0 Y0 Z5\nG0 @10 ^30\nM2\n",
+        "linuxcnc",
+        "incremental",
+        &expect![[r#"
+        error: part.nc:2:1: cannot write increments: this block gives a distance and an angle as seen from the zero of the program
+          |
+        2 | G0 @10 ^30
+          | ^^^^^^^^^^
+        part.nc: nothing is changed
+    "#]],
+    );
+    refuses(
+        "G21 G90 G54\nG10 L2 P1 R30\nG0 X1 Y2 Z5\nM2\n",
+        "linuxcnc",
+        "translate --x 10",
+        &expect![[r#"
+        error: part.nc:3:1: cannot shift the path: the work coordinate system is turned about Z here, so X and Y are not those of the machine
+          |
+        3 | G0 X1 Y2 Z5
+          | ^^^^^^^^^^^
+          help: select lines in a system that is not turned
+        part.nc: nothing is changed
+    "#]],
+    );
+}
+
+#[test]
+fn functions_are_values_as_a_whole() {
+    changes(
+        "G21 G90 G0 X0 Y0 Z5\nG1 X SIN[30] Y[1+1] F100\nM2\n",
+        "linuxcnc",
+        "translate --x 10 --y 1",
+        &expect![[r#"
+             1 G21 G90 G0 X10 Y1 Z5
+             2 G1 X [[SIN[30]]+10.] Y[[1+1]+1.] F100
+            ! part.nc: changed for linuxcnc: every move is shifted by X10 Y1, within 0.001 mm (2 moves compared)
+            exit 0
+        "#]],
+    );
+}
+
+#[test]
+fn turns_become_increments_too() {
+    changes(
+        "G21 G90 G0 X0 Y0 Z5 A0\nG1 X5 F100\nA-30\nX7 A10\nM2\n",
+        "linuxcnc",
+        "incremental",
+        &expect![[r#"
+             2 G91 G1 X5 F100
+             4 X2 A40
+            ! part.nc: changed for linuxcnc: every move is as before, within 0.001 mm (4 moves compared)
+            exit 0
+        "#]],
+    );
+}
+
+/// LinuxCNC reads a feed before the units of its block.
+#[test]
+fn units_come_before_the_first_feed() {
+    changes(
+        "F100\nG90 G0 X5 Y5 Z5\nG1 X10\nM2\n",
+        "linuxcnc",
+        "inch",
+        &expect![[r#"
+             1 G20
+             2 F3.93701
+             3 G90 G0 X0.19685 Y0.19685 Z0.19685
+             4 G1 X0.3937
+             5 M2
+            ! part.nc: changed for linuxcnc: every move is as before, within 0.002 mm (2 moves compared)
+            exit 0
+        "#]],
+    );
 }

@@ -221,18 +221,35 @@ mod tests {
     #[test]
     fn where_nothing_speaks_for_a_control_another_one_may_have_it() {
         let guessed = World { control_is_guessed: true, ..World::default() };
-        check_rule_in(&RULE, "generic-mill", "G91.1\n", &guessed, &expect![[r#"
+        check_rule_in(
+            &RULE,
+            "generic-mill",
+            "G91.1\n",
+            &guessed,
+            &expect![[r#"
             1 | G91.1
               | ^^^^^ info[unknown-code] unknown code `G91.1`
-        "#]]);
-        check_rule(&RULE, "generic-mill", "G91.1\n", &expect![[r#"
+        "#]],
+        );
+        check_rule(
+            &RULE,
+            "generic-mill",
+            "G91.1\n",
+            &expect![[r#"
             1 | G91.1
               | ^^^^^ warning[unknown-code] unknown code `G91.1`
-        "#]]);
-        check_rule_in(&RULE, "linuxcnc", "G154\n", &guessed, &expect![[r#"
+        "#]],
+        );
+        check_rule_in(
+            &RULE,
+            "linuxcnc",
+            "G154\n",
+            &guessed,
+            &expect![[r#"
             1 | G154
               | ^^^^ warning[unknown-code] unknown code `G154`
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]

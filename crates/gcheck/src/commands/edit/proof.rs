@@ -79,6 +79,16 @@ pub(super) fn prove(
             return Err(Problem::with_file(&before.path, message)
                 .help("let the program give X, Y and Z before it cuts"));
         }
+        if let Some([of_promise, of_run]) = &differences.half_known {
+            let message = format!(
+                "cannot {}: the move of line {} ends at a coordinate that is known before the change or after it (line {}), and not both, so nothing is proved of it",
+                change.verb(),
+                of_promise.line,
+                of_run.line
+            );
+            return Err(Problem::with_file(&before.path, message)
+                .help("let the program give X, Y and Z before, or tell the lengths of its tools and its offsets in `gcheck.toml`"));
+        }
         moves = differences.moves.max(moves);
     }
     Ok(Proof { moves, runs: runs.len() })
@@ -96,7 +106,7 @@ fn different(before: &Prepared, after: &Prepared, asked: &Asked<'_>, differences
     let problem = Problem::with_file(&before.path, message);
     let problem = match asked.change {
         Change::Convert(Units::Inch) => {
-            problem.help("the last digit of an inch is 0.00254 mm: `--tolerance 0.002` allows the rounding of single words")
+            problem.help("the last digit of an inch is 0.00254 mm, and roundings of increments and arcs add up: `--tolerance` allows more")
         }
         _ => problem,
     };
