@@ -12,6 +12,7 @@
 //! * [`generated`]: random programs from fixed seeds (300 a run, `GCHECK_ORACLE_LONG=N` for N), one in eight with a mistake
 //!   made on purpose. A difference is minimised, printed with both outputs, and with `GCHECK_ORACLE_KEEP=1` written to
 //!   `fixtures/oracle/found`.
+//! * [`edits`]: our own programs after `gcheck edit`, beside what they did before.
 //! * [`corpus`]: the LinuxCNC regression cases of the real-program corpus (`GCHECK_CORPUS`), with a committed list of what
 //!   agrees, differs or is out of scope (`tests/oracle-corpus.tsv`); `UPDATE_EXPECT=1` rewrites it.
 //!
@@ -28,6 +29,7 @@
 
 mod corpus;
 mod deliberate;
+mod edits;
 mod generated;
 mod generator;
 mod minimise;
