@@ -26,8 +26,8 @@ mod safe_start;
 mod scope;
 mod sheet;
 mod units;
+mod unknown;
 mod unroll;
-mod untold;
 mod witness;
 
 pub use change::{Amount, Change};
@@ -35,5 +35,5 @@ pub use expecting::{Expected, expected, plainly};
 pub use plan::{Plan, gaps, plan};
 pub use refusal::Refusal;
 pub use scope::Scope;
-pub use untold::{ASSUMED_RADIUS, assume_cutters, assume_places};
+pub use unknown::{ASSUMED_RADIUS, assume_cutters, assume_places};
 pub use witness::{Witness, witness};

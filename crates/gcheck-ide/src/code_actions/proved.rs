@@ -140,7 +140,7 @@ pub fn proved(
     let mut machine = snapshot.settings().machine.engine.clone();
     let runs = runs(snapshot);
     let proving = Proving { snapshot, change: &change, scope: &scope, fuel, stop };
-    let untold = proving.assume(&mut machine, &runs)?;
+    let unknown = proving.assume(&mut machine, &runs)?;
     let text = snapshot.text();
     let edits = match proving.plan(&machine, &runs)? {
         Ok(edits) => edits,
@@ -150,7 +150,7 @@ pub fn proved(
         return Ok(Ok(Proved { edits, claim: "there is nothing to change".to_owned() }));
     }
     let after = apply(&text, &edits);
-    assume_places(&mut machine, &untold);
+    assume_places(&mut machine, &unknown);
     let mut moves = 0;
     for options in &runs {
         match proving.compare(&machine, *options, &after)? {
@@ -179,19 +179,19 @@ struct Proving<'a> {
 impl Proving<'_> {
     /// Gives cutters of unknown size a small one, so that their paths can be compared. The answer is what runs rest on.
     fn assume(&self, machine: &mut Machine, runs: &[Options]) -> Result<BTreeSet<Assumption>, Cancelled> {
-        let mut untold = BTreeSet::new();
+        let mut all = BTreeSet::new();
         for options in runs {
             let unknown = self.snapshot.with_program(|program, model| {
                 let mut none = |_: Act| !(self.stop)();
                 plainly(program, model, machine, *options, self.fuel, &mut none).assumptions
             });
             assume_cutters(machine, &unknown);
-            untold.extend(unknown);
+            all.extend(unknown);
             if (self.stop)() {
                 return Err(Cancelled);
             }
         }
-        Ok(untold)
+        Ok(all)
     }
 
     fn plan(&self, machine: &Machine, runs: &[Options]) -> Result<Result<Vec<Edit>, String>, Cancelled> {

@@ -45,7 +45,7 @@ pub(crate) fn run(global: &Global, command: &EditCommand) -> Result<u8, Problem>
     let asked = proof::Asked { change: &change, scope: &scope, tolerance, units: planned.units };
     // Also where no word changes: the moves may not be as the change says for that very reason.
     let mut proving = prepared.with_text(prepared.source.clone(), prepared.shown.clone());
-    assume_places(&mut proving.equipment.machine, &planned.untold);
+    assume_places(&mut proving.equipment.machine, &planned.unknown);
     let proof = match proof::prove(&proving, &after, &asked, &runs) {
         Ok(proof) => proof,
         Err(problem) => return Ok(refused(&prepared, problem)),
@@ -156,7 +156,7 @@ struct Planned {
     /// What the runs rest on, as text.
     rests: String,
     /// What the runs rest on.
-    untold: BTreeSet<Assumption>,
+    unknown: BTreeSet<Assumption>,
     /// The units in which messages show lengths.
     units: Units,
 }
@@ -173,7 +173,7 @@ fn planned(
     let machine = &prepared.equipment.machine;
     let mut seen = Witness::new(change, scope, session.model);
     let mut rests = String::new();
-    let mut untold = BTreeSet::new();
+    let mut unknown = BTreeSet::new();
     for options in runs {
         let ran =
             witness(&mut seen, session.program, session.model, machine, *options, prepared.fuel(), scope);
@@ -188,7 +188,7 @@ fn planned(
             return Err(Problem::with_file(&prepared.path, format!("cannot {}: {gap}", change.verb())));
         }
         rests = Rests::new(session, &ran).text();
-        untold.extend(ran.assumptions);
+        unknown.extend(ran.assumptions);
     }
     let refusal = |refusal: &Refusal| refusing::problem(prepared, change, refusal);
     let (edits, notes) = if let EditCommand::Renumber { numbering, .. } = command {
@@ -206,7 +206,7 @@ fn planned(
         (plan.edits, plan.notes)
     };
     let units = seen.units().unwrap_or(prepared.equipment.units);
-    Ok(Planned { edits, notes, rests: rests.trim_end().to_owned(), untold, units })
+    Ok(Planned { edits, notes, rests: rests.trim_end().to_owned(), unknown, units })
 }
 
 /// The switches that a change is proved for: as told, else block delete off and, where a block has one, also on.

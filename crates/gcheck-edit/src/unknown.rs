@@ -1,4 +1,4 @@
-//! What a proof takes for what nobody told of the machine.
+//! What a proof takes for what is unknown of the machine.
 //!
 //! Knows: that a path is compared only where it is known, and that a change may not rest on how things happen to be. Must not
 //! know: tool tables, how paths are compared.
