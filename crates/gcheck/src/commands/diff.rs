@@ -34,7 +34,7 @@ pub(crate) fn run(global: &Global, options: &DiffOptions) -> Result<u8, Problem>
     if is_standard_input(&options.a) && is_standard_input(&options.b) {
         return Err(Problem::new("both programs cannot come from standard input"));
     }
-    let a = execution::prepare(global, &of_one(options, &options.a))?;
+    let a = execution::prepare(global, &of_one(options, &options.a), execution::Start::Fresh)?;
     let second = Global {
         control: options.control_b.clone().or_else(|| global.control.clone()),
         config: global.config.clone(),
@@ -42,7 +42,7 @@ pub(crate) fn run(global: &Global, options: &DiffOptions) -> Result<u8, Problem>
         color: global.color,
         quiet: global.quiet,
     };
-    let b = execution::prepare(&second, &of_one(options, &options.b))?;
+    let b = execution::prepare(&second, &of_one(options, &options.b), execution::Start::Fresh)?;
     let (differences, ran_a, ran_b) = run_both(&a, &b, options.tolerance)?;
     // A run that was cut off because the paths had parted before ended nowhere of its own.
     let goes_on =

@@ -15,17 +15,15 @@ use gcheck_program::BlockFlags;
 
 use crate::args::{BlockSkip, EditCommand, EditTarget, ExecutionOptions, Global, MirrorAxis, QuarterTurns};
 use crate::console::{finish, say};
-use crate::execution::{self, Prepared, Rests, Session};
+use crate::execution::{self, Prepared, Rests, Session, Start};
 use crate::{Problem, output, rewriting};
 
 /// Runs the command; the exit code is its result.
 pub(crate) fn run(global: &Global, command: &EditCommand) -> Result<u8, Problem> {
     let target = command.target();
     let change = change(command)?;
-    let mut prepared = execution::prepare(global, &execution(target))?;
-    // A program runs from where the last one left the machine: nothing may rest on a control that was just switched on.
-    prepared.equipment.machine.fresh = false;
-    prepared.equipment.machine.start = None;
+    // Nothing may rest on a control that was just switched on.
+    let mut prepared = execution::prepare(global, &execution(target), Start::Any)?;
     let scope = scope(target, &prepared)?;
     if matches!(change, Change::Convert(_)) && scope != Scope::All {
         return Err(Problem::new("a program is converted as a whole, as the feed and other words stay in effect from block to block")

@@ -41,7 +41,7 @@ impl Form {
 /// Runs the command; the exit code is its result.
 pub(crate) fn run(global: &Global, options: &PlotOptions) -> Result<u8, Problem> {
     let form = Form::of(&options.output_file)?;
-    let prepared = execution::prepare(global, &options.execution)?;
+    let prepared = execution::prepare(global, &options.execution, execution::Start::Fresh)?;
     let found = match form {
         Form::Html => findings::of(global, options, &prepared)?,
         Form::Svg => Found::default(),

@@ -14,7 +14,7 @@ use crate::{Problem, output};
 
 /// Runs the command; the exit code is its result.
 pub(crate) fn run(global: &Global, options: &RunOptions) -> Result<u8, Problem> {
-    let prepared = execution::prepare(global, &options.execution)?;
+    let prepared = execution::prepare(global, &options.execution, execution::Start::Fresh)?;
     prepared.session(|session| {
         if !global.quiet {
             say(&execution::control_line(session));

@@ -22,7 +22,7 @@ const VERSION: u32 = 1;
 
 /// Runs the command; the exit code is its result.
 pub(crate) fn run(global: &Global, options: &StatsOptions) -> Result<u8, Problem> {
-    let prepared = execution::prepare(global, &options.execution)?;
+    let prepared = execution::prepare(global, &options.execution, execution::Start::Fresh)?;
     prepared.session(|session| {
         if !global.quiet && options.output_format == ListFormat::Text {
             say(&execution::control_line(session));

@@ -36,7 +36,11 @@ pub(crate) struct Prepared {
 }
 
 /// Reads the program and what is in force for it.
-pub(crate) fn prepare(global: &Global, options: &ExecutionOptions) -> Result<Prepared, Problem> {
+pub(crate) fn prepare(
+    global: &Global,
+    options: &ExecutionOptions,
+    start: Start,
+) -> Result<Prepared, Problem> {
     if let Some(name) = &global.control {
         validate_control(name).map_err(Problem::new)?;
     }
@@ -58,7 +62,7 @@ pub(crate) fn prepare(global: &Global, options: &ExecutionOptions) -> Result<Pre
     let plain = plain.map_err(|error| Problem::new(error.to_string()))?;
     let control =
         if settings.codes.is_empty() { plain } else { Arc::new(plain.with_user_codes(&settings.codes)) };
-    let mut equipment = Equipment::new(&settings, &Model::new(&control), Start::Fresh)?;
+    let mut equipment = Equipment::new(&settings, &Model::new(&control), start)?;
     equipment.set(&options.set);
     Ok(Prepared {
         shown: paths::shown(&path),

@@ -160,7 +160,7 @@ pub(super) fn read(sheet: &mut Sheet<'_>, path: &Path, request: Request<'_>) {
         optional_stop: Switch::Off,
         fuel: FUEL,
     };
-    let mut prepared = match execution::prepare(&global, &options) {
+    let mut prepared = match execution::prepare(&global, &options, execution::Start::Fresh) {
         Ok(prepared) => prepared,
         Err(problem) => return sheet.problems.push(problem),
     };

@@ -1668,3 +1668,13 @@ fn units_come_before_the_first_feed() {
         "#]],
     );
 }
+
+/// A tool of which only the size is configured has an unknown length, and not none.
+#[test]
+fn a_length_that_is_not_configured_is_unknown() {
+    let program = "G21 G90 G54\nT1 M6\nG0 X0 Y0 Z50\nG43 H1\nG0 Z5\nZ3\nM2\n";
+    let shop = Shop::with(&[("part.nc", program), ("gcheck.toml", "[tools]\n1.diameter = 6\n")]);
+    let run = shop.gcheck("edit incremental part.nc --control linuxcnc");
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    assert_eq!(shop.read("part.nc"), "G21 G90 G54\nT1 M6\nG0 X0 Y0 Z50\nG43 H1\nG0 Z5\nG91 Z-2\nM2\n");
+}

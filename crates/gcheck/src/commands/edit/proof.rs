@@ -81,13 +81,13 @@ pub(super) fn prove(
         }
         if let Some([of_promise, of_run]) = &differences.half_known {
             let message = format!(
-                "cannot {}: the move of line {} ends at a coordinate that is known before the change or after it (line {}), and not both, so nothing is proved of it",
+                "cannot {}: where the move of line {} ends is known in one run only, before the change or after it (there line {})",
                 change.verb(),
                 of_promise.line,
                 of_run.line
             );
             return Err(Problem::with_file(&before.path, message)
-                .help("let the program give X, Y and Z before, or tell the lengths of its tools and its offsets in `gcheck.toml`"));
+                .help("give X, Y and Z in the program before this move, or the tool lengths and work offsets in `gcheck.toml`"));
         }
         moves = differences.moves.max(moves);
     }
