@@ -85,6 +85,11 @@ impl Call {
         &self.name
     }
 
+    /// Its arguments that are numbers.
+    pub fn numbers(&self) -> Vec<f64> {
+        self.arguments.iter().filter_map(|argument| argument.parse().ok()).collect()
+    }
+
     /// Whether it stops at the end of every block.
     pub fn is_exact_stop(&self) -> bool {
         self.arguments.first().is_some_and(|argument| argument == "CANON_EXACT_STOP")

@@ -98,8 +98,8 @@ pub struct RuleMeta {
     pub summary: &'static str,
     /// Severity when nothing weakens it.
     pub severity: Severity,
-    /// It judges by what this control has and reads; another control may read the same text without a fault. So it is no more
-    /// than an info on a control that nobody chose and that nothing in the program speaks for.
+    /// It judges by what this control has and reads, and another control may accept the same text. So a finding is an info at
+    /// most where the control is only the fallback.
     pub control_specific: bool,
     /// On by default.
     pub recommended: bool,

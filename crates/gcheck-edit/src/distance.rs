@@ -9,7 +9,7 @@ use gcheck_engine::{Axis, Model, Position, Role, Units};
 use gcheck_program::{Place, Word};
 
 use crate::facts::Facts;
-use crate::meaning::{Class, Meaning, Read, read};
+use crate::meaning::{Class, Meaning, Read, read, rotary_axis};
 use crate::modal::Modal;
 use crate::refusal::Refusal;
 use crate::rigid::LINEAR;
@@ -54,10 +54,11 @@ impl<'c> Distance<'c> {
         if block.is_selected && read.class == Class::Computed {
             return refuse("a code of this block is computed, so what its words mean is not certain");
         }
-        let needs = read.has_ways(self.model).then_some(if changes { self.to_increments } else { was });
+        let has_ways = read.has_ways(self.model);
+        let needs = has_ways.then_some(if changes { self.to_increments } else { was });
         let otherwise = if block.is_selected && counts { self.to_increments } else { was };
         self.modal.executed(block, was, needs, otherwise)?;
-        if !changes || was == self.to_increments || !read.has_ways(self.model) {
+        if !changes || was == self.to_increments || !has_ways {
             return Ok(());
         }
         if block.facts.mapped.is_some() {
@@ -95,10 +96,9 @@ impl<'c> Distance<'c> {
     /// Is every axis of the block somewhere that is known before it? A block that goes on from an unknown place stays absolute: so
     /// the first one of a program, and one that switches the length of a tool.
     fn is_from_known(&self, block: &Executed<'_>, read: &Read) -> bool {
-        let axes = self.model.control().axes();
         let place = |(word, meaning): &(Word, Meaning)| match meaning {
             Meaning::Place { axis, incremental: false } => LINEAR.get(*axis).copied(),
-            _ => Axis::of(word.letter).filter(|axis| axis.is_rotary() && axes.contains(word.letter)),
+            _ => rotary_axis(word, self.model),
         };
         let words = block.place.table.words(block.place.block()).iter();
         let moves_zero = |word: &Word| {
@@ -156,10 +156,7 @@ impl<'c> Distance<'c> {
     fn rotary(&self, sheet: &mut Sheet<'_, '_>, place: &Place, bases: &Bases) -> Result<(), Refusal> {
         let words: Vec<_> = place.table.words(place.block()).to_vec();
         for word in &words {
-            let Some(axis) = Axis::of(word.letter).filter(|axis| axis.is_rotary()) else { continue };
-            if !self.model.control().axes().contains(word.letter) {
-                continue;
-            }
+            let Some(axis) = rotary_axis(word, self.model) else { continue };
             let base = bases.point.raw(axis);
             if base.is_nan() {
                 let reason = format!("where {} is before this block is not known", axis.name());

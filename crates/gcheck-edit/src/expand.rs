@@ -293,20 +293,12 @@ fn dwell(sheet: &Sheet<'_, '_>, seconds: f64) -> Option<String> {
 
 /// The code for a way to take corners.
 fn corners(sheet: &Sheet<'_, '_>, mode: PathMode, facts: &Facts) -> Option<String> {
-    let (tolerance, naive) = match mode {
-        PathMode::ExactPath => return code(sheet, Effect::ExactPath),
-        PathMode::ExactStop => return code(sheet, Effect::ExactStop),
-        PathMode::Blending { tolerance, naive } => {
-            (Some(tolerance).filter(|tolerance| tolerance.0 > 0.0), naive)
-        }
-    };
+    let (effect, lengths) = mode.written();
     let unit = facts.units.map(Units::in_mm)?;
-    let decimals = sheet.decimals(facts.units);
-    let mut words = vec![code(sheet, Effect::PathBlending)?];
-    for (letter, length) in [('P', tolerance), ('Q', naive)] {
-        let Some(length) = length else { continue };
-        let number = sheet.hand.write(sheet.hand.form(sheet.model.control()), length.0 / unit, decimals);
-        words.push(format!("{letter}{number}"));
+    let (form, decimals) = (sheet.hand.form(sheet.model.control()), sheet.decimals(facts.units));
+    let mut words = vec![code(sheet, effect)?];
+    for (letter, length) in lengths {
+        words.push(format!("{letter}{}", sheet.hand.write(form, length.0 / unit, decimals)));
     }
     Some(words.join(sheet.hand.gap()))
 }

@@ -84,11 +84,8 @@ pub(crate) struct Read {
 impl Read {
     /// Do its words say where it goes, or to what angle an axis turns?
     pub(crate) fn has_ways(&self, model: &Model<'_>) -> bool {
-        let axes = model.control().axes();
-        let turns =
-            |word: &Word| Axis::of(word.letter).is_some_and(Axis::is_rotary) && axes.contains(word.letter);
         let goes = matches!(self.class, Class::Moves | Class::Operation);
-        self.has_places() || goes && self.words.iter().any(|(word, _)| turns(word))
+        self.has_places() || goes && self.words.iter().any(|(word, _)| rotary_axis(word, model).is_some())
     }
 
     /// Do its words say where it goes?
@@ -105,6 +102,12 @@ impl Read {
             )
         })
     }
+}
+
+/// The rotary axis that a word turns, on a control that has it.
+pub(crate) fn rotary_axis(word: &Word, model: &Model<'_>) -> Option<Axis> {
+    let is_there = model.control().axes().contains(word.letter);
+    Axis::of(word.letter).filter(|axis| axis.is_rotary() && is_there)
 }
 
 /// Reads a block in its modes.

@@ -6,7 +6,7 @@
 
 use std::rc::Rc;
 
-use gcheck_controls::CodeIx;
+use gcheck_controls::{CodeIx, Effect};
 use gcheck_geometry::{Mm, Plane, Seconds};
 
 use crate::cylinder::Cylinder;
@@ -400,6 +400,21 @@ pub enum PathMode {
         /// Tolerance of joining nearly straight moves; `None` when not given.
         naive: Option<Mm>,
     },
+}
+
+impl PathMode {
+    /// The effect of the code that switches it on, and the lengths that the code takes, by their addresses.
+    pub fn written(self) -> (Effect, impl Iterator<Item = (char, Mm)>) {
+        let (effect, tolerance, naive) = match self {
+            Self::ExactPath => (Effect::ExactPath, None, None),
+            Self::ExactStop => (Effect::ExactStop, None, None),
+            Self::Blending { tolerance, naive } => {
+                (Effect::PathBlending, Some(tolerance).filter(|tolerance| tolerance.0 > 0.0), naive)
+            }
+        };
+        let words = [('P', tolerance), ('Q', naive)].into_iter();
+        (effect, words.filter_map(|(letter, length)| Some((letter, length?))))
+    }
 }
 
 /// How exactly corners are taken. Without level and tolerance the control's settings count again; with one of them the

@@ -246,24 +246,11 @@ impl PartialEq for Answer {
     }
 }
 
-/// Some controls take a number of repeats before the last four digits of the program that is called.
-const PACKED: u32 = 10_000;
-
 impl Survey {
     /// The first program of the file returns (`M99`) before it ends the job, if it does: other programs call it, and give
     /// it its variables and modes.
     pub fn is_called_from_elsewhere(&self) -> bool {
         *self.is_called.0.get_or_init(|| self.returns_first())
-    }
-
-    /// A program is called by a number that no program and no block of the file has.
-    pub fn calls_other_files(&self) -> bool {
-        let is_here = |number: u32| {
-            let is = |known: u32| known == number || known == number % PACKED;
-            self.programs.iter().filter_map(|program| program.number).any(is)
-                || self.labels.iter().any(|label| is(label.number))
-        };
-        self.calls.iter().any(|call| matches!(call.target, CallKind::Program(number) if !is_here(number)))
     }
 
     fn returns_first(&self) -> bool {

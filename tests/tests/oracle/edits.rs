@@ -56,9 +56,7 @@ fn steps(calls: &[Call], claim: Claim) -> Vec<Step> {
     let mut feed = 0.0;
     let mut at: Option<Vec<f64>> = None;
     for call in calls {
-        let text = call.to_string();
-        let arguments = text.split_once('(').map_or("", |(_, rest)| rest.trim_end_matches(')'));
-        let numbers: Vec<f64> = arguments.split(", ").filter_map(|number| number.parse().ok()).collect();
+        let numbers = call.numbers();
         match call.name() {
             "SET_FEED_RATE" => feed = numbers.first().copied().unwrap_or(f64::NAN),
             "STRAIGHT_TRAVERSE" | "STRAIGHT_FEED" | "STRAIGHT_PROBE" => {

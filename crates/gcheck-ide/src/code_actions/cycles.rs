@@ -280,16 +280,9 @@ fn dwell(snapshot: &Snapshot, seconds: Seconds) -> Option<String> {
 
 /// The code for a way to take corners.
 fn corners(snapshot: &Snapshot, mode: PathMode, units: Units) -> Option<String> {
-    let (tolerance, naive) = match mode {
-        PathMode::ExactPath => return code(snapshot, Effect::ExactPath).map(str::to_owned),
-        PathMode::ExactStop => return code(snapshot, Effect::ExactStop).map(str::to_owned),
-        PathMode::Blending { tolerance, naive } => {
-            (Some(tolerance).filter(|tolerance| tolerance.0 > 0.0), naive)
-        }
-    };
-    let mut text = code(snapshot, Effect::PathBlending)?.to_owned();
-    for (letter, length) in [('P', tolerance), ('Q', naive)] {
-        let Some(length) = length else { continue };
+    let (effect, lengths) = mode.written();
+    let mut text = code(snapshot, effect)?.to_owned();
+    for (letter, length) in lengths {
         // Finer than any tolerance is given.
         text = format!("{text} {letter}{}", pointed((length.0 / units.in_mm() * 1e5).round() / 1e5));
     }

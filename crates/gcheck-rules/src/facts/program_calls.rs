@@ -6,9 +6,12 @@
 use std::collections::BTreeSet;
 
 use gcheck_controls::WordEntry;
-use gcheck_program::Survey;
+use gcheck_program::{CallKind, Survey};
 
 use crate::Environment;
+
+/// Some controls take a number of repeats before the last four digits of the program that is called.
+const PACKED: u32 = 10_000;
 
 /// The programs and labels of a file, as calls ask for them.
 pub(crate) struct Programs<'a> {
@@ -29,7 +32,7 @@ impl<'a> Programs<'a> {
         if word.elsewhere || self.is_known(number) || is_label() {
             return None;
         }
-        let packed = if word.packed_repeats && number > 9999 { Some(number % 10_000) } else { None };
+        let packed = if word.packed_repeats && number >= PACKED { Some(number % PACKED) } else { None };
         (!packed.is_some_and(|packed| self.is_known(packed))).then_some(packed.unwrap_or(number))
     }
 
@@ -40,6 +43,16 @@ impl<'a> Programs<'a> {
             || programs.has_number(number)
             || programs.has_name(&number.to_string())
     }
+}
+
+/// Is a program called by a number that no program and no block of the file has?
+pub(crate) fn calls_other_files(survey: &Survey) -> bool {
+    let is_here = |number: u32| {
+        let is = |known: u32| known == number || known == number % PACKED;
+        survey.programs.iter().filter_map(|program| program.number).any(is)
+            || survey.labels.iter().any(|label| is(label.number))
+    };
+    survey.calls.iter().any(|call| matches!(call.target, CallKind::Program(number) if !is_here(number)))
 }
 
 /// Numbers that begin with 8 or 9 belong to builders and makers of probes by custom: 8000 to 9999, and longer ones alike.

@@ -46,7 +46,7 @@ fn page(rule: &RuleMeta) -> String {
     }
     if rule.control_specific {
         text.push_str(
-            "\nAn info where nobody chose the control and nothing in the program speaks for one.\n",
+            "\nAn info at most where the control is only [the fallback](../guide.md#which-control).\n",
         );
     }
     text.push('\n');

@@ -9,6 +9,7 @@ use crate::facts::cycles::cycle_code;
 use crate::facts::feed::goes_by_feed;
 use crate::facts::live_tool::{LiveTool, live_tool};
 use crate::facts::probing::is_near;
+use crate::facts::program_calls::calls_other_files;
 use crate::facts::tool_words::ToolWords;
 use crate::{Finding, PathCx, PathRule, Report, Run, Severity, Watch, limit};
 use crate::{Remembers, remembers};
@@ -210,7 +211,7 @@ impl PathRule for SpindleStoppedWhileCutting {
             is_ever_started || has_length || has_speed || cx.file_uses(|effect| effect == Effect::ToolChange);
         // Held at an angle, a tool may broach.
         // What starts the spindle may be in a program of another file.
-        let is_elsewhere = !is_ever_started && cx.survey.calls_other_files();
+        let is_elsewhere = !is_ever_started && calls_other_files(cx.survey);
         if !is_mill && !needs_turns || self.is_oriented || is_elsewhere || cx.file_uses(probes) {
             finding = finding.at_most(Severity::Info);
         }
