@@ -166,6 +166,11 @@ impl MistakeSet {
         )
     }
 
+    /// Has a reader judged every row of the first look? Before that nothing can be counted.
+    pub fn is_judged(&self) -> bool {
+        self.found.as_ref().is_some_and(|found| found.iter().all(|one| one.names_it.is_some()))
+    }
+
     /// The findings that name a mistake.
     pub fn naming(&self, mistake: &Mistake) -> impl Iterator<Item = &NewFinding> {
         let found = self.found.iter().flatten();
@@ -193,7 +198,7 @@ fn found(path: &Path) -> Result<Vec<NewFinding>, Unreadable> {
 
 #[cfg(test)]
 mod tests {
-    use super::{ComesOfIt, Mistake};
+    use super::{ComesOfIt, Mistake, MistakeSet, NewFinding};
 
     fn edit(line: usize, delete: usize, insert: &[&str]) -> Mistake {
         Mistake {
@@ -215,6 +220,24 @@ mod tests {
         assert_eq!(edit(2, 1, &["G00 Z-5."]).apply("A\r\nB\r\nC\r\n").unwrap(), "A\r\nG00 Z-5.\r\nC\r\n");
         assert_eq!(edit(2, 0, &["X1.", "X2."]).apply("A\nB\n").unwrap(), "A\nX1.\nX2.\nB\n");
         assert_eq!(edit(1, 2, &[]).apply("A\nB\nC").unwrap(), "C");
+    }
+
+    #[test]
+    fn a_first_look_counts_when_every_row_is_judged() {
+        let finding = |names_it| NewFinding {
+            mistake: "B1-01".to_owned(),
+            line: 2,
+            severity: "warning".to_owned(),
+            certainty: "always".to_owned(),
+            rule: "rapid-plunge".to_owned(),
+            names_it,
+            reason: String::new(),
+            message: String::new(),
+        };
+        let set = |found| MistakeSet { number: 1, mistakes: vec![edit(2, 1, &[])], found };
+        assert!(!set(None).is_judged());
+        assert!(!set(Some(vec![finding(Some(true)), finding(None)])).is_judged());
+        assert!(set(Some(vec![finding(Some(true)), finding(Some(false))])).is_judged());
     }
 
     #[test]

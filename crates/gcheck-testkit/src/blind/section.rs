@@ -65,9 +65,9 @@ pub fn precision(draws: &[Draw]) -> String {
     text
 }
 
-/// The section about mistakes that are found. Empty, while no set has a first look.
+/// The section about mistakes that are found. Empty, while no set has a judged first look.
 pub fn recall(sets: &[MistakeSet]) -> String {
-    let looked: Vec<&MistakeSet> = sets.iter().filter(|set| set.found.is_some()).collect();
+    let looked: Vec<&MistakeSet> = sets.iter().filter(|set| set.is_judged()).collect();
     if looked.is_empty() {
         return String::new();
     }
