@@ -799,6 +799,9 @@ pub struct CompensationRules {
     /// The plane must not change while it is on.
     #[serde(default)]
     pub freezes_plane: bool,
+    /// A rotation of its plane may begin and end while it is on, but not while scaling is on too.
+    #[serde(default)]
+    pub rotates_within: bool,
     /// The setting that decides between radius and diameter, where one does.
     pub setting: Option<String>,
     /// What the control refuses while it is on, where a manual says so.

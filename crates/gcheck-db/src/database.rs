@@ -86,7 +86,7 @@ impl Open {
         self.snapshot.get_or_insert_with(new).clone()
     }
 
-    fn outlined(&mut self, storage: &mut Storage) -> Snapshot {
+    fn indexed(&mut self, storage: &mut Storage) -> Snapshot {
         let snapshot = self.snapshot();
         if !snapshot.is_outlined() {
             let known = self.incremental.whole_of(self.document.chunks()).cloned();
@@ -254,11 +254,11 @@ impl Database {
         self.documents.get_mut(&id).map(Open::snapshot)
     }
 
-    /// The document as it is now, with survey and outline joined from what is kept of its chunks: after an edit they cost the
+    /// The document as it is now, with index and flow graph joined from what is kept of its chunks: after an edit they cost the
     /// chunks that it changed, where a [`Database::snapshot`] reads the whole text when it is asked for them.
-    pub fn outlined(&mut self, id: DocumentId) -> Option<Snapshot> {
+    pub fn indexed(&mut self, id: DocumentId) -> Option<Snapshot> {
         let open = self.documents.get_mut(&id)?;
-        Some(open.outlined(&mut self.storage))
+        Some(open.indexed(&mut self.storage))
     }
 
     /// Findings and the like, up to date. `stop` is asked now and then; when it says yes the work is given up, and what was

@@ -1,4 +1,4 @@
-//! A document as it was at one moment: text by chunks, lines, trees, block tables, survey and outline.
+//! A document as it was at one moment: text by chunks, lines, trees, block tables, index and flow graph.
 //!
 //! Knows: how a place in the file becomes a place in a chunk. Must not know: states, findings.
 
@@ -9,7 +9,7 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use gcheck_controls::Control;
 use gcheck_lint::{ChunkFacts, FileFacts};
-use gcheck_program::{Block, BlockIx, BlockTable, Dialect, Outline, Survey, lower, profile};
+use gcheck_program::{Block, BlockIx, BlockTable, ControlFlowGraph, Dialect, FileIndex, lower, profile};
 use gcheck_syntax::{Document, Parse, line_len, parse};
 
 use crate::Settings;
@@ -251,21 +251,21 @@ impl Snapshot {
     }
 
     /// Labels, jumps, calls, loops, ends of the file.
-    pub fn survey(&self) -> &Survey {
-        &self.whole().survey
+    pub fn file_index(&self) -> &FileIndex {
+        &self.whole().file_index
     }
 
     /// The control flow of the file as far as the text decides it.
-    pub fn outline(&self) -> &Outline {
-        &self.whole().outline
+    pub fn flow_graph(&self) -> &ControlFlowGraph {
+        &self.whole().graph
     }
 
-    /// Are survey and outline known?
+    /// Are index and flow graph known?
     pub(crate) fn is_outlined(&self) -> bool {
         self.0.whole.get().is_some()
     }
 
-    /// Takes survey and outline from somewhere else than the text, unless they are known.
+    /// Takes index and flow graph from somewhere else than the text, unless they are known.
     pub(crate) fn outline_by(&self, whole: Arc<FileFacts>) {
         self.0.whole.get_or_init(|| whole);
     }
@@ -287,15 +287,15 @@ impl Snapshot {
 
     /// The last block that begins at a byte or before it, on the byte's line or an earlier one.
     pub fn block_at(&self, offset: u32) -> Option<BlockPlace> {
-        let outline = self.outline();
-        let table = self.table(outline.chunk_at(offset)?)?;
-        self.place(outline.block_at_offset(offset, |_| Some(&*table))?)
+        let graph = self.flow_graph();
+        let table = self.table(graph.chunk_at(offset)?)?;
+        self.place(graph.block_at_offset(offset, |_| Some(&*table))?)
     }
 
     /// A block by its number.
     pub fn place(&self, number: u32) -> Option<BlockPlace> {
-        let (chunk, index) = self.outline().chunk_of(number)?;
-        let base = self.outline().base_of(chunk)?;
+        let (chunk, index) = self.flow_graph().chunk_of(number)?;
+        let base = self.flow_graph().base_of(chunk)?;
         let table = self.table(chunk)?;
         let ix = table.ix(index)?;
         Some(BlockPlace { number, table, ix, chunk, base })

@@ -5,7 +5,7 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use gcheck_engine::{Abstract, FlowCx, FlowObserver, Look, State, Trace};
+use gcheck_engine::{Abstract, FlowCx, FlowObserver, Look, ReachingDefinitions, State};
 
 /// What was seen of a block.
 #[derive(Debug, Clone)]
@@ -15,9 +15,9 @@ pub struct StateAt {
     /// What may be the state before it.
     pub before: State<Abstract>,
     /// Where the facts before it were set.
-    pub trace: Trace,
+    pub definitions: ReachingDefinitions,
     /// Where the facts after it were set.
-    pub trace_after: Trace,
+    pub definitions_after: ReachingDefinitions,
     /// What may be the state after it; `None` when the program never goes on from here.
     pub after: Option<State<Abstract>>,
     /// Every path comes here.
@@ -70,8 +70,8 @@ impl FlowObserver for Keeper {
                 let seen = StateAt {
                     block,
                     before: cx.state.clone(),
-                    trace: cx.trace.clone(),
-                    trace_after: cx.trace.clone(),
+                    definitions: cx.definitions.clone(),
+                    definitions_after: cx.definitions.clone(),
                     after: None,
                     on_every_path: cx.solo,
                     visits: 1,
@@ -88,7 +88,7 @@ impl FlowObserver for Keeper {
         if let Some(seen) = self.seen.get_mut(&cx.origin.at.block) {
             let after = seen.after.as_ref().map_or_else(|| cx.state.clone(), |after| after.union(cx.state));
             seen.after = Some(after);
-            seen.trace_after = cx.trace.clone();
+            seen.definitions_after = cx.definitions.clone();
         }
     }
 }

@@ -19,6 +19,19 @@ const MOST_STROKES: usize = 2_000;
 /// Words that belong to a cycle.
 const OWN: LetterSet = LetterSet::of("XYZRQPFLKIJ");
 
+/// Is a cycle made of moves and dwells alone, so that it can be written as such?
+pub fn is_moves_and_dwells(cycle: Effect) -> bool {
+    matches!(
+        cycle,
+        Effect::CycleDrill
+            | Effect::CycleDrillDwell
+            | Effect::CyclePeck
+            | Effect::CycleChipBreak
+            | Effect::CycleBoreFeedOut
+            | Effect::CycleBoreDwell
+    )
+}
+
 /// A move of a cycle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Stroke {
@@ -97,16 +110,7 @@ impl<'c> Cycles<'c> {
 
     fn strokes(&self, block: &Executed<'_>) -> Result<Vec<Stroke>, String> {
         let facts = &block.facts;
-        let is_plain = matches!(
-            self.model.effect(facts.cycle),
-            Effect::CycleDrill
-                | Effect::CycleDrillDwell
-                | Effect::CyclePeck
-                | Effect::CycleChipBreak
-                | Effect::CycleBoreFeedOut
-                | Effect::CycleBoreDwell
-        );
-        if !is_plain {
+        if !is_moves_and_dwells(self.model.effect(facts.cycle)) {
             return Err("this cycle is more than moves and dwells: it taps, or stops and turns the spindle"
                 .to_owned());
         }

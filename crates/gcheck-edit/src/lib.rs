@@ -31,6 +31,7 @@ mod unroll;
 mod witness;
 
 pub use change::{Amount, Change};
+pub use expand::is_moves_and_dwells;
 pub use expecting::{Expected, expected, plainly};
 pub use plan::{Plan, gaps, plan};
 pub use refusal::Refusal;

@@ -32,7 +32,7 @@ impl Hand {
     /// Looks at all words of a program.
     pub(crate) fn of(loaded: &Loaded<'_>, dialect: &Dialect<'_>) -> Self {
         let mut hand = Self::default();
-        for number in 0..loaded.outline().blocks() {
+        for number in 0..loaded.flow_graph().blocks() {
             let Some(place) = loaded.place(number, dialect) else { continue };
             let words = place.table.words(place.block());
             let pairs = words.iter().zip(words.iter().skip(1));

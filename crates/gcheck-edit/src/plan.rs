@@ -44,7 +44,7 @@ pub fn plan(
     let Some(file) = program.file(0) else { return Err(Refusal::whole("the text has no program")) };
     let mut sheet = Sheet::new(program, &file.loaded, model, machine);
     let mut planner = Planner { change, scope, witness, model, cuts: false };
-    for number in 0..file.loaded.outline().blocks() {
+    for number in 0..file.loaded.flow_graph().blocks() {
         let Some(place) = file.loaded.place(number, program.dialect()) else { continue };
         match &witness.following.tracker {
             Tracker::Cycles(cycles) => cycles.write(&mut sheet, number, &place)?,

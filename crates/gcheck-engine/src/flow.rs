@@ -20,7 +20,7 @@ mod budget;
 mod checkpoint;
 mod heads;
 mod marks;
-mod trace;
+mod reaching_definitions;
 
 use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet};
@@ -35,7 +35,7 @@ pub use budget::{Budget, GivenUp, Limit};
 pub use checkpoint::{Checkpoint, Leg};
 use heads::Heads;
 use marks::Marks;
-pub use trace::{Choice, Decision, Fact, Facts, Parting, Trace};
+pub use reaching_definitions::{Choice, Decision, Fact, Facts, Parting, ReachingDefinitions};
 
 use crate::assumption::Assumption;
 use crate::event::Event;
@@ -59,7 +59,7 @@ pub struct FlowCx<'a> {
     /// What may be the state.
     pub state: &'a State<Abstract>,
     /// Where its facts were set.
-    pub trace: &'a Trace,
+    pub definitions: &'a ReachingDefinitions,
     /// Every path comes here in this state.
     pub solo: bool,
 }
@@ -258,14 +258,14 @@ fn calls(state: &State<Abstract>) -> Rc<[At]> {
 struct Pending {
     /// Shared with what is kept of the block: states are large, and most are joined with others before they are executed.
     state: Rc<State<Abstract>>,
-    trace: Trace,
+    definitions: ReachingDefinitions,
 }
 
 /// A state that stands for all that came to a block since the last solo stretch.
 #[derive(Debug)]
 struct Met {
     state: Rc<State<Abstract>>,
-    trace: Trace,
+    definitions: ReachingDefinitions,
     visits: u32,
 }
 
@@ -333,9 +333,9 @@ pub fn flow_branch<O: FlowObserver>(
     branch: Branch,
     observer: &mut O,
 ) -> FlowResult {
-    let Branch { choice: _, to, state, trace, before } = branch;
-    trace.begin_leg();
-    let facts = trace.clone();
+    let Branch { choice: _, to, state, definitions, before } = branch;
+    definitions.begin_leg();
+    let facts = definitions.clone();
     let mut flow = Flow::new(program, model, machine, task, observer, to);
     flow.taken = before.taken + 1;
     flow.work = before.work;
@@ -344,7 +344,7 @@ pub fn flow_branch<O: FlowObserver>(
     flow.forks = before.forks;
     flow.lost_ways.clone_from(&before.lost_ways);
     flow.lost = before.lost;
-    flow.arrive(to, state, trace);
+    flow.arrive(to, state, definitions);
     flow.explore();
     FlowResult::of(flow.end_leg(&facts))
 }
@@ -361,12 +361,12 @@ pub fn flow_from<O: FlowObserver>(
 ) -> Leg {
     let at = from.as_ref().map_or(At { file: 0, block: 0 }, |checkpoint| checkpoint.at);
     let mut flow = Flow::new(program, model, machine, task, observer, at);
-    let Checkpoint { at: _, state, trace, parted, taken } = from.unwrap_or_else(|| flow.beginning());
-    trace.begin_leg();
-    let facts = trace.clone();
+    let Checkpoint { at: _, state, definitions, parted, taken } = from.unwrap_or_else(|| flow.beginning());
+    definitions.begin_leg();
+    let facts = definitions.clone();
     flow.parted = parted;
     flow.taken = taken;
-    flow.pending.insert(Key::of(at, &state), Pending { state: Rc::new(state), trace });
+    flow.pending.insert(Key::of(at, &state), Pending { state: Rc::new(state), definitions });
     flow.explore();
     flow.end_leg(&facts)
 }
@@ -451,7 +451,7 @@ impl<'a, 'p, 'o, 'd, O: FlowObserver> Flow<'a, 'p, 'o, 'd, O> {
         let shown = Shown {
             observer,
             model,
-            trace: Trace::default(),
+            definitions: ReachingDefinitions::default(),
             solo: true,
             muted: false,
             also: Vec::new(),
@@ -460,7 +460,7 @@ impl<'a, 'p, 'o, 'd, O: FlowObserver> Flow<'a, 'p, 'o, 'd, O> {
         };
         let mut executor = Executor::new(program, model, machine, task.options, shown);
         executor.lenient = true;
-        let blocks = executor.file(0).map_or(0, |file| file.loaded.outline().blocks() as usize);
+        let blocks = executor.file(0).map_or(0, |file| file.loaded.flow_graph().blocks() as usize);
         Flow {
             chunk: executor.chunk_of(at.block),
             executor,
@@ -498,7 +498,7 @@ impl<'a, 'p, 'o, 'd, O: FlowObserver> Flow<'a, 'p, 'o, 'd, O> {
                 self.executor.machine,
                 &mut self.executor.assumptions,
             ),
-            trace: Trace::default(),
+            definitions: ReachingDefinitions::default(),
             parted: false,
             taken: 0,
         }
@@ -548,7 +548,10 @@ impl<'a, 'p, 'o, 'd, O: FlowObserver> Flow<'a, 'p, 'o, 'd, O> {
         let may_offer = self.offers
             && at.block == self.chunk.start
             && state.is_in_main_program_alone()
-            && self.executor.file(0).is_some_and(|file| file.loaded.outline().is_passed_for_good(at.block));
+            && self
+                .executor
+                .file(0)
+                .is_some_and(|file| file.loaded.flow_graph().is_passed_for_good(at.block));
         if !may_offer {
             return true;
         }
@@ -556,22 +559,22 @@ impl<'a, 'p, 'o, 'd, O: FlowObserver> Flow<'a, 'p, 'o, 'd, O> {
         self.heads.clear();
         self.lost_ways.clear();
         self.last_offer = at.block;
-        let leg = self.end_leg(&self.executor.observer.trace.clone());
-        self.executor.observer.trace.begin_leg();
-        let trace = self.executor.observer.trace.clone();
+        let leg = self.end_leg(&self.executor.observer.definitions.clone());
+        self.executor.observer.definitions.begin_leg();
+        let definitions = self.executor.observer.definitions.clone();
         let checkpoint =
-            Checkpoint { at, state: state.clone(), trace, parted: self.parted, taken: self.taken };
+            Checkpoint { at, state: state.clone(), definitions, parted: self.parted, taken: self.taken };
         self.executor.observer.observer.checkpoint(leg, checkpoint)
     }
 
-    /// What was done since the last checkpoint. `trace` is the one under way, or shares its notes.
-    fn end_leg(&mut self, trace: &Trace) -> Leg {
+    /// What was done since the last checkpoint. `definitions` are those under way, or share their notes.
+    fn end_leg(&mut self, definitions: &ReachingDefinitions) -> Leg {
         let mut leg = std::mem::take(&mut self.leg);
         leg.work = self.work - self.leg_began;
         self.leg_began = self.work;
         leg.assumptions = std::mem::take(&mut self.executor.assumptions);
         leg.stopped = self.stopped;
-        (leg.asked, leg.set) = trace.notes();
+        (leg.asked, leg.set) = definitions.notes();
         leg
     }
 
@@ -638,12 +641,12 @@ impl<'a, 'p, 'o, 'd, O: FlowObserver> Flow<'a, 'p, 'o, 'd, O> {
 
     /// Executes exactly, showing everything, until the paths part or end.
     fn alone(&mut self, key: Key, from: Pending) -> Stretch {
-        let Pending { state, trace } = from;
+        let Pending { state, definitions } = from;
         let mut state = Rc::unwrap_or_clone(state);
         let mut at = key.at;
         self.path = key.path;
         self.heads.are_in(&self.path);
-        self.executor.observer.trace = trace;
+        self.executor.observer.definitions = definitions;
         self.executor.observer.solo = !self.parted;
         self.executor.observer.muted = false;
         loop {
@@ -808,11 +811,11 @@ impl<'a, 'p, 'o, 'd, O: FlowObserver> Flow<'a, 'p, 'o, 'd, O> {
 
     /// Executes silently, one of several states, until it is no longer the earliest.
     fn among_others(&mut self, key: Key, from: Pending) -> Stretch {
-        let Pending { state, trace } = from;
+        let Pending { state, definitions } = from;
         let mut state = Rc::unwrap_or_clone(state);
         let mut at = key.at;
         self.path = key.path;
-        self.executor.observer.trace = trace;
+        self.executor.observer.definitions = definitions;
         self.executor.observer.solo = false;
         self.executor.observer.muted = true;
         loop {
@@ -825,12 +828,12 @@ impl<'a, 'p, 'o, 'd, O: FlowObserver> Flow<'a, 'p, 'o, 'd, O> {
             self.leg.reached.insert(at);
             let next = match self.step(at, &mut state) {
                 Outcome::Jump(to) => {
-                    let trace = self.executor.observer.trace.clone();
+                    let definitions = self.executor.observer.definitions.clone();
                     let closes = self.closes_over_lost_way(at, to);
                     if closes && !self.follow_calls(&state) {
-                        self.arrive(at.next(), state.clone(), trace.clone());
+                        self.arrive(at.next(), state.clone(), definitions.clone());
                     }
-                    self.arrive(to, state, trace);
+                    self.arrive(to, state, definitions);
                     return Stretch::Done;
                 }
                 Outcome::Fork(ways) => {
@@ -844,8 +847,8 @@ impl<'a, 'p, 'o, 'd, O: FlowObserver> Flow<'a, 'p, 'o, 'd, O> {
                 Outcome::Fault(fault) => match self.go_on(at, &fault, &mut state) {
                     Some(next) if next == at.next() => next,
                     Some(next) => {
-                        let trace = self.executor.observer.trace.clone();
-                        self.arrive(next, state, trace);
+                        let definitions = self.executor.observer.definitions.clone();
+                        self.arrive(next, state, definitions);
                         return Stretch::Done;
                     }
                     None => {
@@ -863,8 +866,8 @@ impl<'a, 'p, 'o, 'd, O: FlowObserver> Flow<'a, 'p, 'o, 'd, O> {
                 || self.pending.contains_key(&key)
                 || self.pending.first_key_value().is_some_and(|(first, _)| first.is_before(&key));
             if meets {
-                let trace = self.executor.observer.trace.clone();
-                self.arrive(at, state, trace);
+                let definitions = self.executor.observer.definitions.clone();
+                self.arrive(at, state, definitions);
                 return Stretch::Done;
             }
         }
@@ -872,10 +875,9 @@ impl<'a, 'p, 'o, 'd, O: FlowObserver> Flow<'a, 'p, 'o, 'd, O> {
 
     fn is_entry(&self, at: At) -> bool {
         self.executor.file(at.file).is_some_and(|file| {
-            let outline = file.loaded.outline();
+            let graph = file.loaded.flow_graph();
             // A loop may come back to the block behind its head.
-            outline.may_be_target(at.block)
-                || at.block.checked_sub(1).is_some_and(|above| outline.is_flow(above))
+            graph.may_be_target(at.block) || at.block.checked_sub(1).is_some_and(|above| graph.is_flow(above))
         })
     }
 
@@ -884,11 +886,11 @@ impl<'a, 'p, 'o, 'd, O: FlowObserver> Flow<'a, 'p, 'o, 'd, O> {
         if self.executor.observer.solo {
             self.part(at, &mut ways);
         }
-        let trace = self.executor.observer.trace.clone();
+        let definitions = self.executor.observer.definitions.clone();
         for (to, state) in ways {
-            let mut trace = trace.clone();
-            trace.decide(Decision { at, to });
-            self.arrive(to, state, trace);
+            let mut definitions = definitions.clone();
+            definitions.decide(Decision { at, to });
+            self.arrive(to, state, definitions);
         }
     }
 
@@ -924,17 +926,17 @@ impl<'a, 'p, 'o, 'd, O: FlowObserver> Flow<'a, 'p, 'o, 'd, O> {
             work: self.work,
         });
         let branch = |(way, (to, state)): (usize, &(At, State<Abstract>))| {
-            let mut trace = self.executor.observer.trace.apart();
-            trace.decide(Decision { at, to: *to });
+            let mut definitions = self.executor.observer.definitions.apart();
+            definitions.decide(Decision { at, to: *to });
             let choice = Choice { at, way };
-            Branch { choice, to: *to, state: state.clone(), trace, before: Rc::clone(&before) }
+            Branch { choice, to: *to, state: state.clone(), definitions, before: Rc::clone(&before) }
         };
         let branches = ways.iter().enumerate().take(wanted).map(branch).collect();
         self.executor.observer.observer.branches(branches);
     }
 
     /// A state comes to a block: it waits there, joined with what came before.
-    fn arrive(&mut self, at: At, state: State<Abstract>, trace: Trace) {
+    fn arrive(&mut self, at: At, state: State<Abstract>, definitions: ReachingDefinitions) {
         self.note_way(at, &state);
         let key = Key::of(at, &state);
         let is_kept = self.met.contains_key(&key);
@@ -947,9 +949,9 @@ impl<'a, 'p, 'o, 'd, O: FlowObserver> Flow<'a, 'p, 'o, 'd, O> {
             None => {
                 self.order.push(key.clone());
                 let state = Rc::new(state);
-                let met = Met { state: Rc::clone(&state), trace: trace.clone(), visits: 1 };
+                let met = Met { state: Rc::clone(&state), definitions: definitions.clone(), visits: 1 };
                 self.met.insert(key.clone(), met);
-                Pending { state, trace }
+                Pending { state, definitions }
             }
             Some(met) => {
                 met.visits += 1;
@@ -964,8 +966,8 @@ impl<'a, 'p, 'o, 'd, O: FlowObserver> Flow<'a, 'p, 'o, 'd, O> {
                     return;
                 }
                 met.state = Rc::new(joined);
-                met.trace.join(&trace);
-                Pending { state: Rc::clone(&met.state), trace: met.trace.clone() }
+                met.definitions.join(&definitions);
+                Pending { state: Rc::clone(&met.state), definitions: met.definitions.clone() }
             }
         };
         self.pending.insert(key, item);
@@ -978,7 +980,10 @@ impl<'a, 'p, 'o, 'd, O: FlowObserver> Flow<'a, 'p, 'o, 'd, O> {
         let is_due = self.met.len() >= self.settle_at
             && earliest.path.is_empty()
             && here.file == 0
-            && self.executor.file(0).is_some_and(|file| file.loaded.outline().is_passed_for_good(here.block));
+            && self
+                .executor
+                .file(0)
+                .is_some_and(|file| file.loaded.flow_graph().is_passed_for_good(here.block));
         if !is_due {
             return;
         }
@@ -1017,7 +1022,7 @@ impl<'a, 'p, 'o, 'd, O: FlowObserver> Flow<'a, 'p, 'o, 'd, O> {
         let mut state = State::clone(&from.state);
         let mut at = key.at;
         self.path = Rc::clone(&key.path);
-        self.executor.observer.trace = from.trace.clone();
+        self.executor.observer.definitions = from.definitions.clone();
         self.executor.observer.solo = false;
         self.executor.observer.muted = false;
         loop {
@@ -1063,15 +1068,15 @@ impl<O: FlowObserver> Executor<'_, '_, Abstract, Shown<'_, '_, O>> {
     /// The blocks of the main file's chunk that holds a block; nothing behind the last.
     fn chunk_of(&self, block: u32) -> Range<u32> {
         let Some(file) = self.program.file(0) else { return block..block };
-        let outline = file.loaded.outline();
-        outline.chunk_of(block).map_or(block..block, |(chunk, _)| outline.blocks_of(chunk))
+        let graph = file.loaded.flow_graph();
+        graph.chunk_of(block).map_or(block..block, |(chunk, _)| graph.blocks_of(chunk))
     }
 
     fn end(&mut self, state: &State<Abstract>, ending: Ending) {
         let origin = self.origin();
         let shown = &mut self.observer;
         if !shown.muted {
-            let cx = FlowCx { origin, state, trace: &shown.trace, solo: shown.solo };
+            let cx = FlowCx { origin, state, definitions: &shown.definitions, solo: shown.solo };
             shown.observer.ended(&cx, ending);
         }
     }
@@ -1080,17 +1085,17 @@ impl<O: FlowObserver> Executor<'_, '_, Abstract, Shown<'_, '_, O>> {
         let origin = self.origin();
         let shown = &mut self.observer;
         if !shown.muted {
-            let cx = FlowCx { origin, state, trace: &shown.trace, solo: shown.solo };
+            let cx = FlowCx { origin, state, definitions: &shown.definitions, solo: shown.solo };
             shown.observer.fault(&cx, fault);
         }
     }
 }
 
-/// Passes on what is to be shown, and keeps the trace.
+/// Passes on what is to be shown, and keeps the reaching definitions.
 struct Shown<'a, 'o, O: FlowObserver> {
     observer: &'o mut O,
     model: &'a Model<'a>,
-    trace: Trace,
+    definitions: ReachingDefinitions,
     solo: bool,
     muted: bool,
     /// Blocks that ran inside the step of another: a cycle's profile.
@@ -1103,7 +1108,7 @@ struct Shown<'a, 'o, O: FlowObserver> {
 
 impl<O: FlowObserver> Shown<'_, '_, O> {
     fn endless(&mut self, origin: Origin, head: At, state: &State<Abstract>) {
-        let cx = FlowCx { origin, state, trace: &self.trace, solo: self.solo };
+        let cx = FlowCx { origin, state, definitions: &self.definitions, solo: self.solo };
         self.observer.endless(&cx, head);
     }
 }
@@ -1114,30 +1119,30 @@ impl<O: FlowObserver> Observer<Abstract> for Shown<'_, '_, O> {
             self.also.push(origin.at);
         }
         if !self.muted {
-            let cx = FlowCx { origin, state, trace: &self.trace, solo: self.solo };
+            let cx = FlowCx { origin, state, definitions: &self.definitions, solo: self.solo };
             self.observer.before(&cx);
         }
     }
 
     fn event(&mut self, origin: Origin, state: &State<Abstract>, event: &Event) {
         self.events += 1;
-        self.trace.see(origin.at, event, self.model);
+        self.definitions.see(origin.at, event, self.model);
         if !self.muted {
-            let cx = FlowCx { origin, state, trace: &self.trace, solo: self.solo };
+            let cx = FlowCx { origin, state, definitions: &self.definitions, solo: self.solo };
             self.observer.event(&cx, event);
         }
     }
 
     fn vacant_read(&mut self, origin: Origin, state: &State<Abstract>, variable: u32) {
         if !self.muted {
-            let cx = FlowCx { origin, state, trace: &self.trace, solo: self.solo };
+            let cx = FlowCx { origin, state, definitions: &self.definitions, solo: self.solo };
             self.observer.vacant_read(&cx, variable);
         }
     }
 
     fn after(&mut self, origin: Origin, state: &State<Abstract>) {
         if !self.muted {
-            let cx = FlowCx { origin, state, trace: &self.trace, solo: self.solo };
+            let cx = FlowCx { origin, state, definitions: &self.definitions, solo: self.solo };
             self.observer.after(&cx);
         }
     }

@@ -33,7 +33,7 @@ pub use event::*;
 pub use fault::{ArcFault, CompensationFault, CornerFault, CycleFault, Fault, ValueFault};
 pub use flow::{
     Branch, Budget, Checkpoint, Choice, Decision, Fact, Facts, FlowCx, FlowObserver, FlowResult, GivenUp,
-    Leg, Limit, MOST_EXACT_TURNS, Parting, Reach, Task, Trace, flow, flow_branch, flow_from,
+    Leg, Limit, MOST_EXACT_TURNS, Parting, Reach, ReachingDefinitions, Task, flow, flow_branch, flow_from,
 };
 pub use gcheck_controls::{CornerRules, Halt, MotionRules, RapidRules, SpindleWaitRules, TapRules};
 pub use lattice::Lattice;

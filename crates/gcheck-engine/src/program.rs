@@ -160,7 +160,7 @@ impl<'a> Program<'a> {
     /// Where the program of a number begins, as seen from a file.
     pub fn find_number(&self, number: u32, from: u32) -> Option<At> {
         let in_file = |file: u32| {
-            let block = self.file(file)?.loaded.outline().program(number)?.blocks.start;
+            let block = self.file(file)?.loaded.flow_graph().program(number)?.blocks.start;
             Some(At { file, block })
         };
         if let Some(found) = in_file(from).or_else(|| in_file(0)) {
@@ -180,7 +180,7 @@ impl<'a> Program<'a> {
                 let is_another = |file: Rc<ProgramFile<'_>>| {
                     let stem = Path::new(&*file.name).file_stem().and_then(OsStr::to_str);
                     stem.and_then(number_of_name) != Some(number)
-                        && file.loaded.outline().programs().any(|program| program.number.is_some())
+                        && file.loaded.flow_graph().programs().any(|program| program.number.is_some())
                 };
                 (!self.file(file).is_some_and(is_another)).then_some(At { file, block: 0 })
             })
@@ -192,7 +192,7 @@ impl<'a> Program<'a> {
     /// The `SUB` block of a subroutine, as seen from a file.
     pub(crate) fn find_subroutine(&self, label: &OLabel, from: u32) -> Option<At> {
         let in_file = |file: u32| {
-            let block = self.file(file)?.loaded.outline().sub(label)?;
+            let block = self.file(file)?.loaded.flow_graph().sub(label)?;
             Some(At { file, block })
         };
         if let Some(found) = in_file(from).or_else(|| in_file(0)) {

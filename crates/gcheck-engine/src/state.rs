@@ -1,7 +1,7 @@
 //! The state of a machine between two blocks: values only.
 //!
 //! Knows: everything a block may depend on, each part in a file of its own; what follows from several parts together. Must not
-//! know: where a value was set (see [`crate::Trace`]), what has happened so far (observers keep that), how blocks change it.
+//! know: where a value was set (see [`crate::ReachingDefinitions`]), what has happened so far (observers keep that), how blocks change it.
 //!
 //! Every part is a [`Lattice`]: how two states become one, when one covers another and when they are the same is answered field
 //! by field, and a field without an answer does not compile.

@@ -17,6 +17,7 @@ pub(crate) mod look;
 mod message;
 mod modes;
 mod motion;
+mod o_words;
 mod offsets;
 mod operation;
 pub(crate) mod past_alarm;
@@ -313,7 +314,7 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
     /// Is this `%` the opening one? What the control reads ends with the closing one, and a note may stand in front of the
     /// opening one: `(PART 12)`.
     fn opens_tape(&self, at: At, block: &Block) -> bool {
-        let is_last = |file: &ProgramFile<'_>| at.block + 1 >= file.loaded.outline().blocks();
+        let is_last = |file: &ProgramFile<'_>| at.block + 1 >= file.loaded.flow_graph().blocks();
         let closes = self.program.file(at.file).is_none_or(|file| is_last(&file));
         at.block == 0 || block.letters.is_empty() && !closes
     }
@@ -334,7 +335,8 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
             refused = Some(fault);
         }
         if let Some(fault) = refused {
-            if !self.lenient {
+            // There is no telling what a remark without its parentheses means to do.
+            if !self.lenient || block.flags.contains(BlockFlags::REMARK) {
                 return Outcome::Fault(fault);
             }
             self.refused = Some(fault);
@@ -450,7 +452,7 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
             && cursor.file_index == at.file
             && at.block >= cursor.first
             && let Some(ix) = cursor.place.table.ix(at.block - cursor.first)
-            && at.block < cursor.file.loaded.outline().blocks()
+            && at.block < cursor.file.loaded.flow_graph().blocks()
         {
             let Place { table, chunk, base, .. } = &cursor.place;
             return Some(Place { table: Rc::clone(table), ix, chunk: *chunk, base: *base });

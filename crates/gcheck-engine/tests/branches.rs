@@ -20,7 +20,7 @@ struct Watcher {
 impl Watcher {
     fn note(&mut self, cx: &FlowCx<'_>, what: &str) {
         let mut line = format!("{:?} {what} solo {} ", cx.origin.at, cx.solo);
-        let _ = write!(line, "{:?} {:?}", cx.state, cx.trace.decisions());
+        let _ = write!(line, "{:?} {:?}", cx.state, cx.definitions.decisions());
         self.shown.push(line);
     }
 }

@@ -56,7 +56,7 @@ fn executed(control: &str, text: &str) -> (String, String) {
     let _ = writeln!(ran.0, "{:?} after {} blocks", result.stopped, result.blocks);
     let mut all = Events::default();
     let result = flow(&program, &model, &machine, Task::all_paths(10_000), &mut all);
-    let blocks = program.file(0).unwrap().loaded.outline().blocks();
+    let blocks = program.file(0).unwrap().loaded.flow_graph().blocks();
     let reached = (0..blocks).map(|block| result.reach(gcheck_engine::At { file: 0, block }));
     let _ = writeln!(all.0, "{:?} after {} blocks", reached.collect::<Vec<_>>(), result.work);
     (ran.0, all.0)

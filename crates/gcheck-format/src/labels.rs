@@ -8,7 +8,7 @@ use std::ops::Range;
 
 use gcheck_controls::{Code, CodeIx, Ends, Letter, LetterSet, Variable, WordKind};
 use gcheck_program::{
-    Block, BlockFlags, BlockIx, BlockTable, Dialect, Loaded, Op, Outline, StatementKind, Value, Word,
+    Block, BlockFlags, BlockIx, BlockTable, ControlFlowGraph, Dialect, Loaded, Op, StatementKind, Value, Word,
 };
 
 /// Programs that call one, as far as they are followed.
@@ -107,11 +107,11 @@ impl Labels {
         let loaded = Loaded::new(text, dialect, |base, table, part| {
             found.add(table, base, region_end, part, dialect);
         });
-        Self::resolve(found, loaded.outline(), dialect)
+        Self::resolve(found, loaded.flow_graph(), dialect)
     }
 
-    fn resolve(found: Found, outline: &Outline, dialect: &Dialect<'_>) -> Self {
-        let program = |block: u32| outline.part_of(block).start;
+    fn resolve(found: Found, graph: &ControlFlowGraph, dialect: &Dialect<'_>) -> Self {
+        let program = |block: u32| graph.part_of(block).start;
         let mut labels = Self {
             list: found
                 .labels
@@ -130,8 +130,7 @@ impl Labels {
         labels.mains.dedup();
         for (block, number) in found.calls {
             // The digits in front of the last four may count repeats.
-            let called =
-                number.and_then(|number| outline.program(number).or(outline.program(number % 10_000)));
+            let called = number.and_then(|number| graph.program(number).or(graph.program(number % 10_000)));
             match called {
                 Some(called) => {
                     let callers = labels.callers.entry(called.blocks.start).or_default();

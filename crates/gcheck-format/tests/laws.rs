@@ -185,16 +185,16 @@ fn drops_only_numbers(text: &str, dialect: &Dialect<'_>) {
 
 /// The blocks that jumps name, by their places among all blocks.
 fn targets(text: &str, dialect: &Dialect<'_>) -> Vec<Option<u32>> {
-    let mut survey = gcheck_program::Survey::default();
+    let mut file_index = gcheck_program::FileIndex::default();
     let end = gcheck_program::code_region(text).end as u32;
     let mut starts = Vec::new();
     let loaded = Loaded::new(text, dialect, |base, table, _| {
-        survey.add(table, base, end, dialect);
+        file_index.add(table, base, end, dialect);
         starts.extend(table.blocks().map(|(_, block)| base + block.range.start));
     });
-    let outline = loaded.outline();
+    let graph = loaded.flow_graph();
     let from = |at: u32| starts.partition_point(|start| *start <= at).saturating_sub(1) as u32;
-    survey.jumps.iter().map(|jump| outline.label(jump.target?, from(jump.range.start), true)).collect()
+    file_index.jumps.iter().map(|jump| graph.label(jump.target?, from(jump.range.start), true)).collect()
 }
 
 fn keeps_jumps(text: &str, dialect: &Dialect<'_>) {

@@ -158,7 +158,7 @@ fn an_outline_is_a_block_or_a_program() {
             M99
         "#]],
     );
-    // The twentieth block would be taken for the outline.
+    // The twentieth block would be taken for the flow graph.
     check(
         "haas-mill",
         "O1\nN1 G150 P20 Z-1. Q1. I1. D1 F100.\nN2 M30\n",

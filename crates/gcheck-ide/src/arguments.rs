@@ -8,7 +8,7 @@ use gcheck_controls::Control;
 use gcheck_db::Snapshot;
 use gcheck_program::remark;
 
-use crate::things::{Naming, Thing, all_variables, program_around};
+use crate::symbols::{Occurrence, Symbol, all_variables, program_around};
 use crate::{ReferenceKind, Workspace};
 
 /// Bytes of a file that is read for its arguments while somebody types.
@@ -31,7 +31,7 @@ pub(crate) struct Argument {
 /// large to be read.
 pub(crate) fn arguments(workspace: &Workspace, control: &Control, number: u32) -> Option<Vec<Argument>> {
     let (snapshot, head) = workspace.files.iter().find_map(|file| {
-        let programs = &file.snapshot.survey().programs;
+        let programs = &file.snapshot.file_index().programs;
         let program = programs.iter().find(|program| program.number == Some(number))?;
         Some((&file.snapshot, program.range.start))
     })?;
@@ -42,26 +42,27 @@ pub(crate) fn arguments(workspace: &Workspace, control: &Control, number: u32) -
     let all = all_variables(snapshot);
     let mut found = Vec::new();
     for (letter, variable) in &control.semantics().argument_letters {
-        let of_it = |naming: &&Naming| {
-            program.contains(&naming.range.start)
-                && matches!(naming.thing, Thing::Variable { number, .. } if number == u32::from(*variable))
+        let of_it = |occurrence: &&Occurrence| {
+            program.contains(&occurrence.range.start)
+                && matches!(occurrence.symbol, Symbol::Variable { number, .. } if number == u32::from(*variable))
         };
-        let namings: Vec<&Naming> = all.iter().filter(of_it).collect();
-        let line = |naming: &Naming| snapshot.line_at(naming.range.start);
-        let written = namings.iter().find(|naming| naming.kind == ReferenceKind::Write);
+        let occurrences: Vec<&Occurrence> = all.iter().filter(of_it).collect();
+        let line = |occurrence: &Occurrence| snapshot.line_at(occurrence.range.start);
+        let written = occurrences.iter().find(|occurrence| occurrence.kind == ReferenceKind::Write);
         // What the macro sets before it reads it is its own, not an argument.
-        let is_read = |naming: &&&Naming| {
-            naming.kind == ReferenceKind::Read && written.is_none_or(|written| line(naming) <= line(written))
+        let is_read = |occurrence: &&&Occurrence| {
+            occurrence.kind == ReferenceKind::Read
+                && written.is_none_or(|written| line(occurrence) <= line(written))
         };
-        if !namings.iter().any(|naming| is_read(&naming)) {
+        if !occurrences.iter().any(|occurrence| is_read(&occurrence)) {
             continue;
         }
         let lines = Lines { snapshot, program: program.clone() };
         found.push(Argument {
             letter: letter.clone(),
             variable: *variable,
-            is_needed: !lines.does_without(&namings, *variable),
-            says: lines.says(&namings, letter, *variable),
+            is_needed: !lines.does_without(&occurrences, *variable),
+            says: lines.says(&occurrences, letter, *variable),
         });
     }
     found.sort_by_key(|argument| argument.variable);
@@ -82,9 +83,9 @@ impl Lines<'_> {
     }
 
     /// Does the macro ask whether the argument was given (`IF [#7 EQ #0] …`), and go on without it?
-    fn does_without(&self, namings: &[&Naming], variable: u8) -> bool {
-        namings.iter().any(|naming| {
-            let line = self.snapshot.line_text(self.snapshot.line_at(naming.range.start));
+    fn does_without(&self, occurrences: &[&Occurrence], variable: u8) -> bool {
+        occurrences.iter().any(|occurrence| {
+            let line = self.snapshot.line_text(self.snapshot.line_at(occurrence.range.start));
             let plain = squeezed(&line);
             let asks = ["EQ#0]", "NE#0]"].iter().any(|test| plain.contains(&format!("#{variable}{test}")));
             asks && !self.ends_in_an_alarm(&plain)
@@ -109,7 +110,7 @@ impl Lines<'_> {
     }
 
     /// A comment that names the variable or begins with the letter; else one beside the first use.
-    fn says(&self, namings: &[&Naming], letter: &str, variable: u8) -> Option<String> {
+    fn says(&self, occurrences: &[&Occurrence], letter: &str, variable: u8) -> Option<String> {
         let name = format!("#{variable}");
         let of_variable = |comment: &str| {
             let (before, after) = comment.split_once(&name)?;
@@ -130,8 +131,8 @@ impl Lines<'_> {
         let named = || comments.iter().find_map(|comment| of_variable(comment));
         let lettered = || comments.iter().find_map(|comment| of_letter(comment));
         let beside = || {
-            namings.iter().find_map(|naming| {
-                let line = self.snapshot.line_text(self.snapshot.line_at(naming.range.start));
+            occurrences.iter().find_map(|occurrence| {
+                let line = self.snapshot.line_text(self.snapshot.line_at(occurrence.range.start));
                 remark(&line).map(str::to_owned)
             })
         };

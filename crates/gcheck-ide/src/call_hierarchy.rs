@@ -8,7 +8,7 @@ use gcheck_controls::Effect;
 use gcheck_db::DocumentId;
 
 use crate::document_symbols::{o_name, return_behind};
-use crate::things::{Thing, callee, definition_of, program_around, subs, thing_at};
+use crate::symbols::{Symbol, callee, definition_of, program_around, subs, symbol_at};
 use crate::{Place, SymbolKind, Workspace, WorkspaceFile};
 
 /// A program or subroutine.
@@ -47,12 +47,12 @@ pub struct Outgoing {
 /// The program that is named at `offset`; elsewhere the one around it.
 pub fn call_items(workspace: &Workspace, document: DocumentId, offset: u32) -> Vec<CallItem> {
     let Some(file) = workspace.file(document) else { return Vec::new() };
-    let named = thing_at(&file.snapshot, offset).and_then(|naming| match naming.thing {
-        Thing::Program(_) | Thing::Subroutine(_) => {
-            let place = definition_of(workspace, document, &naming.thing)?;
+    let named = symbol_at(&file.snapshot, offset).and_then(|occurrence| match occurrence.symbol {
+        Symbol::Program(_) | Symbol::Subroutine(_) => {
+            let place = definition_of(workspace, document, &occurrence.symbol)?;
             Some(around(workspace.file(place.file)?, place.range.start))
         }
-        Thing::Label { number, program } => called_block(file, number, &program),
+        Symbol::Label { number, program } => called_block(file, number, &program),
         _ => None,
     });
     vec![named.unwrap_or_else(|| around(file, offset))]
@@ -94,26 +94,26 @@ pub fn outgoing_calls(workspace: &Workspace, item: &CallItem) -> Vec<Outgoing> {
 /// The calls of a file whose callee is found, in text order.
 fn calls(workspace: &Workspace, file: &WorkspaceFile) -> Vec<(Range<u32>, CallItem)> {
     let snapshot = &file.snapshot;
-    let survey = snapshot.survey();
+    let file_index = snapshot.file_index();
     // A program calls few others, many times.
-    let mut known: Vec<(Thing, Option<CallItem>)> = Vec::new();
+    let mut known: Vec<(Symbol, Option<CallItem>)> = Vec::new();
     let mut calls: Vec<(Range<u32>, CallItem)> = Vec::new();
-    for call in &survey.calls {
-        let Some(thing) = callee(snapshot, call) else { continue };
-        let item = match known.iter().find(|(known, _)| *known == thing) {
+    for call in &file_index.calls {
+        let Some(symbol) = callee(snapshot, call) else { continue };
+        let item = match known.iter().find(|(known, _)| *known == symbol) {
             Some((_, item)) => item.clone(),
             None => {
-                let place = definition_of(workspace, file.id, &thing);
+                let place = definition_of(workspace, file.id, &symbol);
                 let item =
                     place.and_then(|place| Some(around(workspace.file(place.file)?, place.range.start)));
-                known.push((thing, item.clone()));
+                known.push((symbol, item.clone()));
                 item
             }
         };
         calls.extend(item.map(|item| (call.range.clone(), item)));
     }
     let control = snapshot.control();
-    for jump in &survey.jumps {
+    for jump in &file_index.jumps {
         let is_call = control.code_at(jump.code).is_some_and(|code| code.effect() == Effect::CallLocal);
         let Some(number) = jump.target.filter(|_| is_call) else { continue };
         let item = called_block(file, number, &program_around(snapshot, jump.range.start));
@@ -126,15 +126,17 @@ fn calls(workspace: &Workspace, file: &WorkspaceFile) -> Vec<(Range<u32>, CallIt
 /// A block that is called by its sequence number.
 fn called_block(file: &WorkspaceFile, number: u32, program: &Range<u32>) -> Option<CallItem> {
     let snapshot = &file.snapshot;
-    let survey = snapshot.survey();
+    let file_index = snapshot.file_index();
     let control = snapshot.control();
-    survey.jumps.iter().find(|jump| {
+    file_index.jumps.iter().find(|jump| {
         jump.target == Some(number)
             && program.contains(&jump.range.start)
             && control.code_at(jump.code).is_some_and(|code| code.effect() == Effect::CallLocal)
     })?;
-    let label =
-        survey.labels.iter().find(|label| label.number == number && program.contains(&label.range.start))?;
+    let label = file_index
+        .labels
+        .iter()
+        .find(|label| label.number == number && program.contains(&label.range.start))?;
     Some(CallItem {
         name: format!("N{number}"),
         detail: file.name.to_string(),
@@ -158,7 +160,7 @@ fn around(file: &WorkspaceFile, offset: u32) -> CallItem {
     if let Some(block) = local_around(file, offset, &range) {
         return block;
     }
-    let head = snapshot.survey().programs.iter().find(|program| range.contains(&program.range.start));
+    let head = snapshot.file_index().programs.iter().find(|program| range.contains(&program.range.start));
     let (name, at) = match head {
         Some(head) => (snapshot.slice(head.range.clone()).trim().to_owned(), head.range.clone()),
         None => (file.name.to_string(), 0..0),
@@ -168,13 +170,13 @@ fn around(file: &WorkspaceFile, offset: u32) -> CallItem {
 
 /// The block called by its number whose way to its return holds an offset.
 fn local_around(file: &WorkspaceFile, offset: u32, program: &Range<u32>) -> Option<CallItem> {
-    let survey = file.snapshot.survey();
+    let file_index = file.snapshot.file_index();
     let control = file.snapshot.control();
     let is_call = |code| control.code_at(code).is_some_and(|code| code.effect() == Effect::CallLocal);
-    if !survey.jumps.iter().any(|jump| is_call(jump.code)) {
+    if !file_index.jumps.iter().any(|jump| is_call(jump.code)) {
         return None;
     }
-    let labels = survey.labels.iter().rev();
+    let labels = file_index.labels.iter().rev();
     labels
         .filter(|label| label.range.start <= offset && program.contains(&label.range.start))
         .find_map(|label| called_block(file, label.number, program))

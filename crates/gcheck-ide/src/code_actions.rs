@@ -16,7 +16,7 @@ use std::ops::Range;
 use gcheck_db::{Analysis, Cancelled, Database, DocumentId};
 
 pub use action::{ActionKind, CodeAction};
-pub use proved::{Proved, ProvedChange, proved, proved_changes};
+pub use proved::{Proved, ProvedChange, proved, proved_change_at, proved_changes};
 
 /// Bytes of a file for which changes of the whole file are offered at every place; of a larger one only when all of it is
 /// selected, because editors ask at every move of the cursor.
@@ -33,7 +33,7 @@ pub fn code_actions(
     analysis: Option<&Analysis>,
     stop: &dyn Fn() -> bool,
 ) -> Result<Vec<CodeAction>, Cancelled> {
-    let snapshot = database.outlined(document).ok_or(Cancelled)?;
+    let snapshot = database.indexed(document).ok_or(Cancelled)?;
     let range =
         range.start.min(snapshot.len())..range.end.clamp(range.start.min(snapshot.len()), snapshot.len());
     let is_whole = snapshot.len() <= LARGE || range == (0..snapshot.len());
@@ -42,7 +42,6 @@ pub fn code_actions(
         fixes::offer(&snapshot, analysis, &range, &mut actions);
     }
     arcs::offer(database, document, &snapshot, range.start, stop, &mut actions)?;
-    cycles::offer(database, document, &snapshot, range.start, stop, &mut actions)?;
     lines::offer_block_skip(&snapshot, &range, &mut actions);
     if is_whole {
         points::offer(&snapshot, &mut actions);
@@ -276,77 +275,6 @@ mod tests {
     }
 
     #[test]
-    fn a_cycle_becomes_plain_moves() {
-        let text = "O1\nG21 G90 G54 G0 X0. Y0. Z10.\nN5 G99 G83$0 X1. Y2. Z-6. R2. Q3. F100.\nX5.\nG80\nG0 Z50.\nM30\n";
-        check(
-            "haas-mill",
-            text,
-            &[ActionKind::Rewrite],
-            &expect![[r#"
-                # Rewrite: Write this cycle as 19 plain moves
-                O1
-                G21 G90 G54 G0 X0. Y0. Z10.
-                N5 G99 G0 X1. Y2.
-                G0 Z2.
-                G1 Z-1. F100.
-                G0 Z2.
-                G0 Z1.54
-                G1 Z-4.
-                G0 Z2.
-                G0 Z-1.46
-                G1 Z-6.
-                G0 Z2.
-                G0 X5.
-                G1 Z-1.
-                G0 Z2.
-                G0 Z1.54
-                G1 Z-4.
-                G0 Z2.
-                G0 Z-1.46
-                G1 Z-6.
-                G0 Z2.
-                G80
-                G0 Z50.
-                M30
-                # Rewrite: Add block delete to this block
-                O1
-                G21 G90 G54 G0 X0. Y0. Z10.
-                /N5 G99 G83 X1. Y2. Z-6. R2. Q3. F100.
-                X5.
-                G80
-                G0 Z50.
-                M30
-            "#]],
-        );
-        let text = "G21 G90 G0 X0 Y0 Z10\nG98 G82 X1 Y2 Z-6 R2 P0.5 F100$0\nG80\nG0 Z50\nM2\n";
-        check(
-            "linuxcnc",
-            text,
-            &[ActionKind::Rewrite],
-            &expect![[r#"
-                # Rewrite: Write this cycle as 7 plain moves
-                G21 G90 G0 X0 Y0 Z10
-                G98 G61
-                G0 X1. Y2.
-                G0 Z2.
-                G1 Z-6. F100.
-                G4 P0.5
-                G0 Z10.
-                G64
-                G80
-                G0 Z50
-                M2
-                # Rewrite: Add block delete to this block
-                G21 G90 G0 X0 Y0 Z10
-                /G98 G82 X1 Y2 Z-6 R2 P0.5 F100
-                G80
-                G0 Z50
-                M2
-            "#]],
-        );
-    }
-
-    #[test]
     fn what_is_written_otherwise_moves_as_before() {
         let moves = |control: &str, text: &str| {
             let snapshot = Fixture::new(control, text).snapshot();
@@ -373,15 +301,6 @@ mod tests {
             moves
         };
         for (control, text) in [
-            (
-                "haas-mill",
-                "O1\nG21 G90 G54 G0 X0. Y0. Z10.\nG98 G73$0 X1. Y2. Z-6. R2. Q3. F100.\nX5. Y7.\nG80\nG0 Z50.\nM30\n",
-            ),
-            (
-                "fanuc-mill",
-                "O1\nG21 G90 G54 G0 X0. Y0. Z10.\nG99 G81$0 X1. Y2. Z-6. R2. F100.\nY7.\nG0 Z50.\nM30\n",
-            ),
-            ("linuxcnc", "G20 G90 G0 X0 Y0 Z1\nG98 G82$0 X1 Y2 Z-.6 R.2 P.5 F10 L1\nX3\nG80\nG0 Z5\nM2\n"),
             ("haas-mill", "O1\nG20 G90 G54 G0 X0. Y0.\nG3$0 X1.234 Y.777 R1.1 F10.\nM30\n"),
             ("haas-mill", "O1\nG20 G90 G54 G0 X0. Y0.\nG3$0 X1.234 Y.777 R-1.1 F10.\nM30\n"),
             ("fanuc-mill", "O1\nG21 G18 G90 G54 G0 X0. Z0.\nG2$0 X10. Z10. K10. I0. F10.\nM30\n"),
@@ -393,26 +312,6 @@ mod tests {
             let after = applied(&before, &action.unwrap_or_else(|| panic!("nothing offered: {text}")).edits);
             assert_eq!(moves(control, &before), moves(control, &after), "{before}\nbecame\n{after}");
         }
-    }
-
-    #[test]
-    fn a_cycle_that_is_more_than_moves_stays() {
-        let text =
-            "O1\nG21 G90 G54 S500 M3 G0 X0. Y0. Z10.\nG84$0 X1. Y2. Z-6. R2. F500.\nG80\nG0 Z50.\nM30\n";
-        check(
-            "haas-mill",
-            text,
-            &[ActionKind::Rewrite],
-            &expect![[r#"
-                # Rewrite: Add block delete to this block
-                O1
-                G21 G90 G54 S500 M3 G0 X0. Y0. Z10.
-                /G84 X1. Y2. Z-6. R2. F500.
-                G80
-                G0 Z50.
-                M30
-            "#]],
-        );
     }
 
     #[test]

@@ -9,15 +9,15 @@ use gcheck_engine::{Axis, Model, Options, Units};
 use gcheck_geometry::Bounds;
 use gcheck_toolpath::{Section, Statistics, Timing, Values, View};
 
-use crate::figures::{clock, coordinate, plain, unit};
-use crate::parts::{ToolPart, parts};
+use crate::number_text::{clock, coordinate, plain, unit};
 use crate::running::{LINEAR, Ran, Shown, run_through, view};
+use crate::sections::{ToolSection, sections};
 
 /// What one run of a document amounts to. It takes a while: whoever shows it keeps it, and shows it until the next is there.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct RunFigures {
+pub struct RunStatistics {
     /// Tool sections of this document in the order in which they began.
-    pub sections: Vec<SectionFigures>,
+    pub sections: Vec<SectionStatistics>,
     /// Time of the whole run in seconds, called programs included.
     pub seconds: f64,
     /// Where cutting moves of the whole run went, as text; empty when nothing was cut.
@@ -28,7 +28,7 @@ pub struct RunFigures {
 
 /// What one tool section amounts to.
 #[derive(Debug, Clone, PartialEq)]
-pub struct SectionFigures {
+pub struct SectionStatistics {
     /// Line of this document where it begins, from 0.
     pub line: u32,
     /// The tool; `None` unknown.
@@ -56,7 +56,11 @@ pub struct CodeLens {
 ///
 /// # Errors
 /// [`Cancelled`] when `stop` said yes.
-pub fn figures(snapshot: &Snapshot, fuel: u64, stop: &dyn Fn() -> bool) -> Result<RunFigures, Cancelled> {
+pub fn run_statistics(
+    snapshot: &Snapshot,
+    fuel: u64,
+    stop: &dyn Fn() -> bool,
+) -> Result<RunStatistics, Cancelled> {
     let model = Model::new(snapshot.control());
     let view = view(snapshot, &model);
     let machine = &snapshot.settings().machine.engine;
@@ -71,9 +75,9 @@ pub fn figures(snapshot: &Snapshot, fuel: u64, stop: &dyn Fn() -> bool) -> Resul
     let total = statistics.total();
     // Sections that began in a called program belong to lines of other files.
     let own = statistics.sections().iter().filter(|section| section.file.is_empty() && section.line > 0);
-    Ok(RunFigures {
+    Ok(RunStatistics {
         sections: own
-            .map(|section| SectionFigures {
+            .map(|section| SectionStatistics {
                 line: section.line - 1,
                 tool: section.tool,
                 seconds: section.times.total().0,
@@ -141,22 +145,22 @@ fn range(values: &Values, scale: f64) -> Option<String> {
 
 /// The lenses of a document whose run gave these figures: one above the first block, one above each tool section. A section
 /// that has moved since the run is found again by its tool.
-pub fn code_lenses(snapshot: &Snapshot, figures: &RunFigures) -> Vec<CodeLens> {
+pub fn code_lenses(snapshot: &Snapshot, statistics: &RunStatistics) -> Vec<CodeLens> {
     let mut lenses = Vec::new();
-    let Some(first) = snapshot.survey().first_block.clone() else { return lenses };
+    let Some(first) = snapshot.file_index().first_block.clone() else { return lenses };
     let line = |offset: u32| snapshot.line_range(snapshot.line_at(offset));
-    let tools = figures.sections.iter().filter(|section| section.tool.is_some()).count();
-    let mut title = format!("{} in all", clock(figures.seconds));
+    let tools = statistics.sections.iter().filter(|section| section.tool.is_some()).count();
+    let mut title = format!("{} in all", clock(statistics.seconds));
     if tools > 1 {
         title = format!("{title}, {tools} tool sections");
     }
-    if let Some(stopped) = &figures.stopped {
+    if let Some(stopped) = &statistics.stopped {
         title = format!("{title} ({stopped})");
     }
-    lenses.push(CodeLens { range: line(first.start), title, tooltip: figures.extents.clone() });
+    lenses.push(CodeLens { range: line(first.start), title, tooltip: statistics.extents.clone() });
     // A section is run again in a loop or by a call: its turns count together.
-    let mut left: Vec<&SectionFigures> = figures.sections.iter().collect();
-    for part in parts(snapshot).tools {
+    let mut left: Vec<&SectionStatistics> = statistics.sections.iter().collect();
+    for part in sections(snapshot).tools {
         let at = snapshot.line_at(part.change.start);
         let nearest = left
             .iter()
@@ -172,7 +176,7 @@ pub fn code_lenses(snapshot: &Snapshot, figures: &RunFigures) -> Vec<CodeLens> {
     lenses
 }
 
-fn lens(part: &ToolPart, turns: &[&SectionFigures], range: Range<u32>) -> Option<CodeLens> {
+fn lens(part: &ToolSection, turns: &[&SectionStatistics], range: Range<u32>) -> Option<CodeLens> {
     let first = turns.first()?;
     let seconds: f64 = turns.iter().map(|section| section.seconds).sum();
     let mut title = match part.tool {
@@ -194,12 +198,13 @@ fn lens(part: &ToolPart, turns: &[&SectionFigures], range: Range<u32>) -> Option
 mod tests {
     use expect_test::{Expect, expect};
 
-    use super::{code_lenses, figures};
+    use super::{code_lenses, run_statistics};
     use crate::fixture::{Fixture, shown};
 
     fn check(control: &str, text: &str, expected: &Expect) {
         let snapshot = Fixture::new(control, text).snapshot();
-        let lenses = code_lenses(&snapshot, &figures(&snapshot, 100_000, &|| false).unwrap()).into_iter();
+        let lenses =
+            code_lenses(&snapshot, &run_statistics(&snapshot, 100_000, &|| false).unwrap()).into_iter();
         let lines = lenses.map(|lens| {
             format!(
                 "{}\n  {}\n  {}\n",

@@ -17,10 +17,10 @@ use gcheck_program::{OKeyword, remark};
 use gcheck_syntax::SyntaxKind;
 
 use crate::document_symbols::o_name;
-use crate::figures::value;
-use crate::parts::parts;
+use crate::number_text::value;
+use crate::sections::sections;
 use crate::state_at::look_at;
-use crate::things::{parameter_names, program_around};
+use crate::symbols::{parameter_names, program_around};
 use crate::typing::Typing;
 use crate::{Workspace, describe};
 
@@ -87,7 +87,7 @@ pub fn completion(
     trigger: Option<char>,
     stop: &dyn Fn() -> bool,
 ) -> Result<Vec<Completion>, Cancelled> {
-    let snapshot = database.outlined(document).ok_or(Cancelled)?;
+    let snapshot = database.indexed(document).ok_or(Cancelled)?;
     let typing = Typing::new(&snapshot, offset);
     let mut items = Items { typing: &typing, from: typing.offset, list: Vec::new() };
     if let Some(comment) = typing.comment() {
@@ -100,7 +100,7 @@ pub fn completion(
     let is_number = |rest: Option<&str>| {
         rest.is_some_and(|rest| rest.bytes().all(|byte| byte.is_ascii_digit() || byte == b'.'))
     };
-    let last = typing.last_before(from).map(|piece| piece.kind);
+    let last = typing.last_before(from).map(|lexeme| lexeme.kind);
     match first {
         // It opens the list in comments of ours alone.
         None if matches!(trigger, Some('=' | ':')) => {}
@@ -373,7 +373,7 @@ impl Items<'_, '_> {
 
     /// G and M codes, those that can be written here first, and cycles with their words.
     fn codes(&mut self, active: &Active, letter: Option<char>) {
-        let survey = self.typing.snapshot.survey();
+        let file_index = self.typing.snapshot.file_index();
         let style = Spelling::of(self.typing, letter);
         let in_block = self.typing.codes();
         let control = self.typing.snapshot.control();
@@ -397,7 +397,7 @@ impl Items<'_, '_> {
                 Some(format!("not beside {}", other.entry().code))
             });
             let is_used =
-                survey.codes.iter().any(|(used, at)| *used == number && at.end != self.typing.offset);
+                file_index.codes.iter().any(|(used, at)| *used == number && at.end != self.typing.offset);
             let rank = match (&objection, is_used) {
                 _ if active.has_cycle && code.effect() == Effect::CycleCancel => ENDS,
                 (None, true) => USED,
@@ -509,7 +509,7 @@ impl Items<'_, '_> {
     fn labels(&mut self) {
         let snapshot = self.typing.snapshot;
         let program = program_around(snapshot, self.typing.offset);
-        let labels = snapshot.survey().labels.iter();
+        let labels = snapshot.file_index().labels.iter();
         let inside = labels.filter(|label| program.contains(&label.range.start)).take(MOST);
         for label in inside {
             let line = snapshot.line_text(snapshot.line_at(label.range.start)).into_owned();
@@ -526,7 +526,7 @@ impl Items<'_, '_> {
     fn programs(&mut self, workspace: &Workspace) {
         let mut known = Vec::new();
         for file in &workspace.files {
-            for program in &file.snapshot.survey().programs {
+            for program in &file.snapshot.file_index().programs {
                 let Some(number) = program.number.filter(|number| !known.contains(number)) else { continue };
                 if known.len() >= MOST {
                     return;
@@ -547,7 +547,7 @@ impl Items<'_, '_> {
         }
         let mut known = Vec::new();
         for file in &workspace.files {
-            let subs = file.snapshot.survey().o_words.iter().filter(|word| word.keyword == OKeyword::Sub);
+            let subs = file.snapshot.file_index().o_words.iter().filter(|word| word.keyword == OKeyword::Sub);
             for sub in subs.take(MOST) {
                 if known.contains(&sub.label) {
                     continue;
@@ -569,7 +569,7 @@ impl Items<'_, '_> {
             return;
         }
         let mut known = Vec::new();
-        for tool in parts(snapshot).tools {
+        for tool in sections(snapshot).tools {
             let is_typed = tool.word.end == self.typing.offset;
             let Some(number) = tool.tool.filter(|number| !is_typed && !known.contains(number)) else {
                 continue;
@@ -591,7 +591,7 @@ impl Items<'_, '_> {
     fn variables(&mut self) {
         let snapshot = self.typing.snapshot;
         let control = snapshot.control();
-        for (number, range) in snapshot.survey().assigned.iter().take(MOST) {
+        for (number, range) in snapshot.file_index().assigned.iter().take(MOST) {
             // The one that is being typed is not a news.
             if range.end == self.typing.offset {
                 continue;
@@ -707,7 +707,7 @@ impl Spelling {
     fn of(typing: &Typing<'_>, typed: Option<char>) -> Self {
         let snapshot = typing.snapshot;
         let typed_lower = typing.prefix().0.chars().next().is_some_and(|c| c.is_ascii_lowercase());
-        let single = snapshot.survey().codes.iter().filter(|(number, _)| number.tenths() < 100);
+        let single = snapshot.file_index().codes.iter().filter(|(number, _)| number.tenths() < 100);
         let (mut padded, mut bare) = (0, 0);
         for (_, range) in single.filter(|(_, range)| !range.contains(&typing.offset)) {
             if range.end - range.start > 2 { padded += 1 } else { bare += 1 }

@@ -1,13 +1,15 @@
-//! Where a thing is defined: labels, programs, subroutines, variables.
+//! Where a symbol is defined: labels, programs, subroutines, variables.
 //!
-//! Knows: what counts as the definition of which thing. Must not know: how things are found in the text.
+//! Knows: what counts as the definition of which symbol. Must not know: how symbols are found in the text.
 
 use std::ops::Range;
 
 use gcheck_controls::WordKind;
 use gcheck_db::{DocumentId, Snapshot};
 
-use crate::things::{Thing, callee, definition_of, is_elsewhere, namings, program_around, subs, thing_at};
+use crate::symbols::{
+    Symbol, callee, definition_of, is_elsewhere, occurrences, program_around, subs, symbol_at,
+};
 use crate::{Place, ReferenceKind, Workspace, WorkspaceFile};
 
 /// Most assignments of a variable that are offered as its definition.
@@ -24,26 +26,26 @@ pub struct Target {
     pub from: Range<u32>,
 }
 
-/// Where the thing at `offset` is defined; several places where several may be meant.
+/// Where the symbol at `offset` is defined; several places where several may be meant.
 pub fn definition(workspace: &Workspace, document: DocumentId, offset: u32) -> Vec<Target> {
     let Some(file) = workspace.file(document) else { return Vec::new() };
-    let Some(naming) = thing_at(&file.snapshot, offset) else {
+    let Some(occurrence) = symbol_at(&file.snapshot, offset) else {
         return returned_to(workspace, file, offset);
     };
-    let from = naming.range;
-    match &naming.thing {
-        Thing::Program(_) | Thing::Subroutine(_) => {
-            let place = definition_of(workspace, document, &naming.thing);
-            place.map(|place| target(workspace, place, &naming.thing, from)).into_iter().collect()
+    let from = occurrence.range;
+    match &occurrence.symbol {
+        Symbol::Program(_) | Symbol::Subroutine(_) => {
+            let place = definition_of(workspace, document, &occurrence.symbol);
+            place.map(|place| target(workspace, place, &occurrence.symbol, from)).into_iter().collect()
         }
-        thing => {
-            let mut written: Vec<Place> = namings(workspace, document, thing)
+        symbol => {
+            let mut written: Vec<Place> = occurrences(workspace, document, symbol)
                 .into_iter()
-                .filter(|(_, naming)| naming.kind == ReferenceKind::Write)
-                .map(|(file, naming)| Place { file, range: naming.range })
+                .filter(|(_, occurrence)| occurrence.kind == ReferenceKind::Write)
+                .map(|(file, occurrence)| Place { file, range: occurrence.range })
                 .collect();
             written.truncate(MOST_ASSIGNMENTS);
-            written.into_iter().map(|place| target(workspace, place, thing, from.clone())).collect()
+            written.into_iter().map(|place| target(workspace, place, symbol, from.clone())).collect()
         }
     }
 }
@@ -52,29 +54,29 @@ pub fn definition(workspace: &Workspace, document: DocumentId, offset: u32) -> V
 fn returned_to(workspace: &Workspace, file: &WorkspaceFile, offset: u32) -> Vec<Target> {
     let snapshot = &file.snapshot;
     let returns = |jump: &&gcheck_program::Jump| {
-        crate::pieces::touches(&jump.range, offset)
+        crate::lexemes::touches(&jump.range, offset)
             && is_elsewhere(snapshot.control(), jump.code, WordKind::Label)
     };
-    let Some(jump) = snapshot.survey().jumps.iter().find(returns) else { return Vec::new() };
+    let Some(jump) = snapshot.file_index().jumps.iter().find(returns) else { return Vec::new() };
     let Some(number) = jump.target else { return Vec::new() };
     let called = program_around(snapshot, jump.range.start);
     let calls_here = |caller: &WorkspaceFile, call: &gcheck_program::Call| {
         callee(&caller.snapshot, call)
-            .and_then(|thing| definition_of(workspace, caller.id, &thing))
+            .and_then(|symbol| definition_of(workspace, caller.id, &symbol))
             .is_some_and(|place| place.file == file.id && called.contains(&place.range.start))
     };
     let mut targets = Vec::new();
     for caller in &workspace.files {
-        let survey = caller.snapshot.survey();
-        for call in survey.calls.iter().filter(|call| calls_here(caller, call)) {
+        let file_index = caller.snapshot.file_index();
+        for call in file_index.calls.iter().filter(|call| calls_here(caller, call)) {
             let program = program_around(&caller.snapshot, call.range.start);
-            let label = survey
+            let label = file_index
                 .labels
                 .iter()
                 .find(|label| label.number == number && program.contains(&label.range.start));
             if let Some(label) = label {
                 let place = Place { file: caller.id, range: label.range.clone() };
-                let found = target(workspace, place, &Thing::Label { number, program }, jump.range.clone());
+                let found = target(workspace, place, &Symbol::Label { number, program }, jump.range.clone());
                 if !targets.contains(&found) {
                     targets.push(found);
                 }
@@ -84,18 +86,18 @@ fn returned_to(workspace: &Workspace, file: &WorkspaceFile, offset: u32) -> Vec<
     targets
 }
 
-fn target(workspace: &Workspace, name: Place, thing: &Thing, from: Range<u32>) -> Target {
+fn target(workspace: &Workspace, name: Place, symbol: &Symbol, from: Range<u32>) -> Target {
     let full = workspace
         .file(name.file)
-        .map_or_else(|| name.range.clone(), |file| whole(&file.snapshot, &name.range, thing));
+        .map_or_else(|| name.range.clone(), |file| whole(&file.snapshot, &name.range, symbol));
     Target { name, full, from }
 }
 
 /// All of what is defined at a place.
-fn whole(snapshot: &Snapshot, name: &Range<u32>, thing: &Thing) -> Range<u32> {
-    match thing {
-        Thing::Program(_) => program_around(snapshot, name.start),
-        Thing::Subroutine(_) => {
+fn whole(snapshot: &Snapshot, name: &Range<u32>, symbol: &Symbol) -> Range<u32> {
+    match symbol {
+        Symbol::Program(_) => program_around(snapshot, name.start),
+        Symbol::Subroutine(_) => {
             let sub = subs(snapshot).into_iter().find(|sub| sub.range.contains(&name.start));
             sub.map_or_else(|| name.clone(), |sub| sub.range)
         }

@@ -6,7 +6,7 @@ use std::ops::Range;
 
 use gcheck_db::DocumentId;
 
-use crate::things::{Thing, callee, definition_of};
+use crate::symbols::{Symbol, callee, definition_of};
 use crate::{Place, Workspace};
 
 /// A link.
@@ -24,15 +24,15 @@ pub struct DocumentLink {
 pub fn document_links(workspace: &Workspace, document: DocumentId) -> Vec<DocumentLink> {
     let Some(file) = workspace.file(document) else { return Vec::new() };
     // A program calls few others, many times.
-    let mut known: Vec<(Thing, Option<Place>)> = Vec::new();
+    let mut known: Vec<(Symbol, Option<Place>)> = Vec::new();
     let mut links = Vec::new();
-    for call in &file.snapshot.survey().calls {
-        let Some(thing) = callee(&file.snapshot, call) else { continue };
-        let target = match known.iter().find(|(known, _)| *known == thing) {
+    for call in &file.snapshot.file_index().calls {
+        let Some(symbol) = callee(&file.snapshot, call) else { continue };
+        let target = match known.iter().find(|(known, _)| *known == symbol) {
             Some((_, place)) => place.clone(),
             None => {
-                let place = definition_of(workspace, document, &thing);
-                known.push((thing, place.clone()));
+                let place = definition_of(workspace, document, &symbol);
+                known.push((symbol, place.clone()));
                 place
             }
         };

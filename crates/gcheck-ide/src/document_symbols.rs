@@ -9,8 +9,8 @@ use gcheck_controls::{Effect, Ends};
 use gcheck_db::Snapshot;
 use gcheck_program::{OLabel, remark};
 
-use crate::parts::parts;
-use crate::things::{code_end, program_around, subs};
+use crate::sections::sections;
+use crate::symbols::{code_end, program_around, subs};
 
 /// A part of a program.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -52,8 +52,8 @@ pub fn document_symbols(snapshot: &Snapshot) -> Vec<Symbol> {
         let name = o_name(&sub.label);
         all.push(symbol(name, String::new(), SymbolKind::Subroutine, sub.range, sub.name));
     }
-    let parts = parts(snapshot);
-    for tool in parts.tools {
+    let sections = sections(snapshot);
+    for tool in sections.tools {
         let name = match tool.tool {
             Some(_) if tool.is_named => snapshot.slice(tool.word.clone()).trim().to_owned(),
             Some(number) => format!("T{number}"),
@@ -61,7 +61,7 @@ pub fn document_symbols(snapshot: &Snapshot) -> Vec<Symbol> {
         };
         all.push(symbol(name, tool.name, SymbolKind::Tool, tool.range, tool.word));
     }
-    for operation in parts.operations {
+    for operation in sections.operations {
         let (range, comment) = (operation.range, operation.comment);
         all.push(symbol(operation.name, String::new(), SymbolKind::Operation, range, comment));
     }
@@ -92,7 +92,7 @@ fn symbol(
 
 fn programs(snapshot: &Snapshot, all: &mut Vec<Symbol>) {
     let end = code_end(snapshot);
-    for program in &snapshot.survey().programs {
+    for program in &snapshot.file_index().programs {
         if program.range.start >= end {
             continue;
         }
@@ -108,11 +108,11 @@ fn programs(snapshot: &Snapshot, all: &mut Vec<Symbol>) {
 
 /// Sequence numbers that something names, and blocks that are called.
 fn labels(snapshot: &Snapshot, all: &mut Vec<Symbol>) {
-    let survey = snapshot.survey();
+    let file_index = snapshot.file_index();
     let control = snapshot.control();
     let is_call = |code| control.code_at(code).is_some_and(|code| code.effect() == Effect::CallLocal);
     let (mut named, mut called) = (HashSet::new(), HashSet::new());
-    for jump in &survey.jumps {
+    for jump in &file_index.jumps {
         if let Some(target) = jump.target {
             let program = program_around(snapshot, jump.range.start).start;
             if is_call(jump.code) {
@@ -122,7 +122,7 @@ fn labels(snapshot: &Snapshot, all: &mut Vec<Symbol>) {
             };
         }
     }
-    for label in &survey.labels {
+    for label in &file_index.labels {
         let program = program_around(snapshot, label.range.start);
         let key = (program.start, label.number);
         let name = format!("N{}", label.number);
@@ -143,7 +143,7 @@ fn labels(snapshot: &Snapshot, all: &mut Vec<Symbol>) {
 
 /// After the return of a block that is called.
 pub(crate) fn return_behind(snapshot: &Snapshot, from: u32, end: u32) -> u32 {
-    let ends = &snapshot.survey().ends;
+    let ends = &snapshot.file_index().ends;
     let next = ends.get(ends.partition_point(|mark| mark.range.start < from)..).unwrap_or_default();
     let is_return = |mark: &&gcheck_program::EndMark| mark.ends == Ends::Subprogram && !mark.conditional;
     next.iter().find(is_return).map_or(end, |mark| mark.range.end.min(end))

@@ -7,8 +7,8 @@ use std::ops::Range;
 use gcheck_db::Snapshot;
 use gcheck_program::{OKeyword, OLabel};
 
-use crate::parts::parts;
-use crate::things::{code_end, program_around};
+use crate::sections::sections;
+use crate::symbols::{code_end, program_around};
 
 /// What can be folded.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -32,15 +32,15 @@ pub enum FoldKind {
 pub fn folding_ranges(snapshot: &Snapshot) -> Vec<Fold> {
     let end = code_end(snapshot);
     let mut regions: Vec<Range<u32>> = Vec::new();
-    for program in &snapshot.survey().programs {
+    for program in &snapshot.file_index().programs {
         regions.push(program.range.start..program_around(snapshot, program.range.start).end.min(end));
     }
-    let parts = parts(snapshot);
-    regions.extend(parts.tools.iter().map(|tool| tool.range.clone()));
-    regions.extend(parts.operations.iter().map(|operation| operation.range.clone()));
+    let sections = sections(snapshot);
+    regions.extend(sections.tools.iter().map(|tool| tool.range.clone()));
+    regions.extend(sections.operations.iter().map(|operation| operation.range.clone()));
     loops(snapshot, &mut regions);
     o_words(snapshot, &mut regions);
-    let comments = parts.comments.into_iter().map(|range| (range, FoldKind::Comment));
+    let comments = sections.comments.into_iter().map(|range| (range, FoldKind::Comment));
     let regions = regions.into_iter().map(|range| (range, FoldKind::Region));
     let mut folds: Vec<Fold> =
         regions.chain(comments).filter_map(|(range, kind)| fold(snapshot, &range, kind)).collect();
@@ -68,7 +68,7 @@ fn fold(snapshot: &Snapshot, range: &Range<u32>, kind: FoldKind) -> Option<Fold>
 /// `DO` and `END`.
 fn loops(snapshot: &Snapshot, regions: &mut Vec<Range<u32>>) {
     let mut open: Vec<(Option<u64>, u32)> = Vec::new();
-    for mark in &snapshot.survey().loops {
+    for mark in &snapshot.file_index().loops {
         let number = mark.number.map(f64::to_bits);
         if mark.begins {
             open.push((number, mark.range.start));
@@ -81,7 +81,7 @@ fn loops(snapshot: &Snapshot, regions: &mut Vec<Range<u32>>) {
 /// Subroutines, conditions and loops of O-words; each branch of a condition by itself.
 fn o_words(snapshot: &Snapshot, regions: &mut Vec<Range<u32>>) {
     let mut open: Vec<(&OLabel, OKeyword, u32)> = Vec::new();
-    for word in &snapshot.survey().o_words {
+    for word in &snapshot.file_index().o_words {
         let partner = |opens: &[OKeyword]| {
             open.iter().rposition(|(label, keyword, _)| **label == word.label && opens.contains(keyword))
         };

@@ -7,7 +7,7 @@ use std::ops::Range;
 use gcheck_db::Snapshot;
 
 use crate::ReferenceKind;
-use crate::things::{namings_in, thing_at};
+use crate::symbols::{occurrences_in, symbol_at};
 
 /// A place to be marked.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -20,7 +20,7 @@ pub struct Highlight {
 
 /// Places of the file that name what is at `offset`, in text order.
 pub fn highlights(snapshot: &Snapshot, offset: u32) -> Vec<Highlight> {
-    let Some(naming) = thing_at(snapshot, offset) else { return Vec::new() };
-    let places = namings_in(snapshot, &naming.thing).into_iter();
-    places.map(|naming| Highlight { range: naming.range, kind: naming.kind }).collect()
+    let Some(occurrence) = symbol_at(snapshot, offset) else { return Vec::new() };
+    let places = occurrences_in(snapshot, &occurrence.symbol).into_iter();
+    places.map(|occurrence| Highlight { range: occurrence.range, kind: occurrence.kind }).collect()
 }

@@ -15,12 +15,12 @@ use gcheck_syntax::SyntaxKind;
 
 use crate::ReferenceKind;
 use crate::describe;
-use crate::figures::{coordinate, plain, unit, value};
 use crate::foreign::Foreign;
-use crate::pieces::{pieces_of_line, touches};
-use crate::reading::{Item, Reading};
+use crate::lexemes::{lexemes_of_line, touches};
+use crate::number_text::{coordinate, plain, unit, value};
 use crate::state_at::look_at;
-use crate::things::{Thing, namings_in, thing_at};
+use crate::state_reader::{Item, StateReader};
+use crate::symbols::{Symbol, occurrences_in, symbol_at};
 
 /// Places that set a variable which are shown.
 const MOST_ASSIGNMENTS: usize = 5;
@@ -49,7 +49,7 @@ pub fn hover(
     offset: u32,
     stop: &dyn Fn() -> bool,
 ) -> Result<Option<Hover>, Cancelled> {
-    let snapshot = database.outlined(document).ok_or(Cancelled)?;
+    let snapshot = database.indexed(document).ok_or(Cancelled)?;
     let Some(place) = snapshot.block_at(offset).filter(|place| touches(&place.range(), offset)) else {
         return Ok(None);
     };
@@ -87,7 +87,7 @@ enum Subject {
     /// Any other word of a block.
     Word(Range<u32>, Word),
     /// A label, program, subroutine, variable or parameter.
-    Thing(Range<u32>, Thing),
+    Symbol(Range<u32>, Symbol),
     /// A function of expressions.
     Function(Range<u32>, String),
     /// Nothing that can be told of.
@@ -99,7 +99,7 @@ impl Subject {
         match self {
             Self::Code(range, _)
             | Self::Word(range, _)
-            | Self::Thing(range, _)
+            | Self::Symbol(range, _)
             | Self::Function(range, _)
             | Self::Nothing(range) => range.clone(),
         }
@@ -107,19 +107,19 @@ impl Subject {
 }
 
 fn subject(snapshot: &Snapshot, place: &BlockPlace, offset: u32) -> Subject {
-    let pieces = pieces_of_line(snapshot, offset);
-    // Where two pieces meet, the one after the cursor is pointed at, unless it is a blank.
-    let at = pieces
+    let lexemes = lexemes_of_line(snapshot, offset);
+    // Where two lexemes meet, the one after the cursor is pointed at, unless it is a blank.
+    let at = lexemes
         .iter()
-        .find(|piece| {
-            piece.range.contains(&offset)
-                && !matches!(piece.kind, SyntaxKind::WHITESPACE | SyntaxKind::NEWLINE)
+        .find(|lexeme| {
+            lexeme.range.contains(&offset)
+                && !matches!(lexeme.kind, SyntaxKind::WHITESPACE | SyntaxKind::NEWLINE)
         })
         .or_else(|| {
-            pieces.iter().rfind(|piece| piece.range.end == offset && piece.kind != SyntaxKind::WHITESPACE)
+            lexemes.iter().rfind(|lexeme| lexeme.range.end == offset && lexeme.kind != SyntaxKind::WHITESPACE)
         });
-    let Some(at) = at.filter(|piece| !piece.kind.is_comment()) else {
-        return Subject::Nothing(at.map_or(offset..offset, |piece| piece.range.clone()));
+    let Some(at) = at.filter(|lexeme| !lexeme.kind.is_comment()) else {
+        return Subject::Nothing(at.map_or(offset..offset, |lexeme| lexeme.range.clone()));
     };
     match at.kind {
         SyntaxKind::FUNCTION => {
@@ -127,8 +127,8 @@ fn subject(snapshot: &Snapshot, place: &BlockPlace, offset: u32) -> Subject {
             return Subject::Function(at.range.clone(), name);
         }
         SyntaxKind::VARIABLE | SyntaxKind::NAMED_VARIABLE => {
-            if let Some(naming) = thing_at(snapshot, at.range.start + 1) {
-                return Subject::Thing(at.range.clone(), naming.thing);
+            if let Some(occurrence) = symbol_at(snapshot, at.range.start + 1) {
+                return Subject::Symbol(at.range.clone(), occurrence.symbol);
             }
         }
         _ => {}
@@ -141,8 +141,8 @@ fn subject(snapshot: &Snapshot, place: &BlockPlace, offset: u32) -> Subject {
     match word {
         Some(word) if word.code.is_some() => Subject::Code(place.in_file(word.range()), word.code),
         Some(word) => Subject::Word(place.in_file(word.range()), word),
-        None => match thing_at(snapshot, offset) {
-            Some(naming) => Subject::Thing(naming.range, naming.thing),
+        None => match symbol_at(snapshot, offset) {
+            Some(occurrence) => Subject::Symbol(occurrence.range, occurrence.symbol),
             None => Subject::Nothing(at.range.clone()),
         },
     }
@@ -197,7 +197,7 @@ impl Cx<'_> {
                 parts.extend(code.map(in_short));
             }
             Subject::Word(_, word) => parts.push(self.word(word, look)),
-            Subject::Thing(_, thing) => parts.push(self.thing(thing, look.take())),
+            Subject::Symbol(_, symbol) => parts.push(self.symbol(symbol, look.take())),
             Subject::Function(_, name) => {
                 let known = self.control().functions().iter().find(|function| function.name == *name);
                 parts.extend(known.map(|function| {
@@ -221,7 +221,7 @@ impl Cx<'_> {
             Some(self.snapshot.line_at(place.range().start) + 1)
         };
         let decisions: Vec<String> = state
-            .trace
+            .definitions
             .decisions()
             .iter()
             .rev()
@@ -240,8 +240,8 @@ impl Cx<'_> {
     /// Where the machine is before and after the block, what the block changes, and what else is in effect.
     fn around(&self, look: &Look<'_, '_>) -> String {
         let Some(state) = self.state else { return String::new() };
-        let reading = Reading::new(self.snapshot, look.model());
-        let from = reading.point(&state.before, state.before.actual());
+        let reader = StateReader::new(self.snapshot, look.model());
+        let from = reader.point(&state.before, state.before.actual());
         let mut lines: Vec<String> = Vec::new();
         let depth = state.before.frames().len();
         // A call leaves the state at the beginning of what it calls; people ask for the one when it is back.
@@ -254,21 +254,21 @@ impl Cx<'_> {
         let in_effect: Vec<String> = match after {
             Some(inside) if is_inside => {
                 lines.push("calls a program: what it leaves in effect is not known here".to_owned());
-                reading.items(inside).into_iter().map(|(_, item)| item).collect()
+                reader.items(inside).into_iter().map(|(_, item)| item).collect()
             }
             None => {
                 lines.extend((!from.is_empty()).then(|| format!("at `{from}`")));
                 lines.push("the program does not go on after this block".to_owned());
-                reading.items(&state.before).into_iter().map(|(_, item)| item).collect()
+                reader.items(&state.before).into_iter().map(|(_, item)| item).collect()
             }
             Some(state_after) => {
-                let to = reading.point(state_after, state_after.actual());
+                let to = reader.point(state_after, state_after.actual());
                 lines.extend(match (from.as_str(), to.as_str()) {
                     ("", "") => None,
                     (_, "") => Some(format!("at `{from}`, then not known")),
                     _ => changed(&from, &to).or_else(|| Some(format!("at `{to}`"))),
                 });
-                let (before, after) = (reading.items(&state.before), reading.items(state_after));
+                let (before, after) = (reader.items(&state.before), reader.items(state_after));
                 let held = |items: &[(Item, String)], item: Item| {
                     items.iter().find(|(of, _)| *of == item).map(|(_, text)| text.clone()).unwrap_or_default()
                 };
@@ -288,7 +288,7 @@ impl Cx<'_> {
                     .iter()
                     .filter_map(|item| {
                         let (was, is) = (held(&before, *item), held(&after, *item));
-                        if is.is_empty() && Reading::is_unknown(state_after, *item) {
+                        if is.is_empty() && StateReader::is_unknown(state_after, *item) {
                             return Some(format!("`{was}` → not known"));
                         }
                         changed(&was, &is)
@@ -366,12 +366,12 @@ impl Cx<'_> {
         }
         let target = match kind {
             Some(WordKind::Label | WordKind::Program) => {
-                thing_at(self.snapshot, self.place.in_file(word.range()).end)
+                symbol_at(self.snapshot, self.place.in_file(word.range()).end)
             }
             _ => None,
         };
-        if let Some(naming) = target {
-            let _ = write!(text, "\n\n{}", self.thing(&naming.thing, None));
+        if let Some(occurrence) = target {
+            let _ = write!(text, "\n\n{}", self.symbol(&occurrence.symbol, None));
         }
         if let (Some(look), Some(axis), None) = (look, self.axis(word.letter), calls) {
             text.push_str(&self.coordinate(axis, look));
@@ -397,18 +397,15 @@ impl Cx<'_> {
         let (look, state) = look.zip(self.state)?;
         let written = self.snapshot.slice(self.place.in_file(word.range()));
         let written = Foreign::Code(written.trim());
-        let reading = Reading::new(self.snapshot, look.model());
-        let units = reading.units(&state.before);
+        let reader = StateReader::new(self.snapshot, look.model());
+        let units = reader.units(&state.before);
         let unit = match kind? {
             WordKind::Length => unit(units),
             WordKind::Angle => "degrees",
             WordKind::Seconds => "s",
             WordKind::Milliseconds => "ms",
             WordKind::Feed => {
-                return Some(format!(
-                    "{written} {}",
-                    reading.feed(state.after.as_ref()?)?.split_once(' ')?.1
-                ));
+                return Some(format!("{written} {}", reader.feed(state.after.as_ref()?)?.split_once(' ')?.1));
             }
             WordKind::SecondsOrMilliseconds => {
                 return Some(format!(
@@ -430,7 +427,7 @@ impl Cx<'_> {
                     ""
                 };
                 let diameter = match self.axis(word.letter) {
-                    Some(Axis::X) if reading.diameter(&state.before) && kind == Some(WordKind::Length) => {
+                    Some(Axis::X) if reader.diameter(&state.before) && kind == Some(WordKind::Length) => {
                         ", a diameter"
                     }
                     _ => "",
@@ -451,16 +448,16 @@ impl Cx<'_> {
     /// Where an axis is before and after the block.
     fn coordinate(&self, axis: Axis, look: &Look<'_, '_>) -> String {
         let Some(state) = self.state else { return String::new() };
-        let reading = Reading::new(self.snapshot, look.model());
-        let before = reading.places(&state.before);
-        let after = state.after.as_ref().map(|after| (after, reading.places(after)));
+        let reader = StateReader::new(self.snapshot, look.model());
+        let before = reader.places(&state.before);
+        let after = state.after.as_ref().map(|after| (after, reader.places(after)));
         let mut text = String::new();
         let shown = |state: &State<Abstract>, point: &Position| {
-            let (units, diameter) = (reading.units(state), reading.diameter(state));
+            let (units, diameter) = (reader.units(state), reader.diameter(state));
             point.get(axis).map(|value| coordinate(axis, value, units, diameter))
         };
         for (name, of) in [
-            ("work", (|places| places.work) as fn(&crate::reading::Places) -> Position),
+            ("work", (|places| places.work) as fn(&crate::state_reader::Places) -> Position),
             ("programmed", |places| places.programmed),
             ("machine", |places| places.machine),
             ("tool tip", |places| places.tip),
@@ -490,9 +487,9 @@ impl Cx<'_> {
     }
 
     /// A label, program, subroutine, variable or parameter.
-    fn thing(&self, thing: &Thing, look: Option<&mut Look<'_, '_>>) -> String {
-        match thing {
-            Thing::Variable { number, .. } => {
+    fn symbol(&self, symbol: &Symbol, look: Option<&mut Look<'_, '_>>) -> String {
+        match symbol {
+            Symbol::Variable { number, .. } => {
                 let entry = match self.control().variable(*number) {
                     Variable::Known(entry) => describe::variable(entry),
                     Variable::Unlisted => {
@@ -503,9 +500,9 @@ impl Cx<'_> {
                     before: look.variable(*number, &state.before),
                     after: state.after.as_ref().and_then(|after| look.variable(*number, after)),
                 });
-                self.variable(&format!("#{number}"), &entry, held.as_ref(), thing)
+                self.variable(&format!("#{number}"), &entry, held.as_ref(), symbol)
             }
-            Thing::Parameter { name, part } => {
+            Symbol::Parameter { name, part } => {
                 let entry = match self.control().named_parameter(name) {
                     Some(entry) => describe::variable(entry),
                     None if part.is_some() => "named parameter, local".to_owned(),
@@ -515,15 +512,15 @@ impl Cx<'_> {
                     before: look.parameter(name, &state.before),
                     after: state.after.as_ref().and_then(|after| look.parameter(name, after)),
                 });
-                self.variable(&format!("#<{name}>"), &entry, held.as_ref(), thing)
+                self.variable(&format!("#<{name}>"), &entry, held.as_ref(), symbol)
             }
-            Thing::Label { .. } | Thing::Program(_) | Thing::Subroutine(_) | Thing::Branch { .. } => {
-                self.named_places(thing)
+            Symbol::Label { .. } | Symbol::Program(_) | Symbol::Subroutine(_) | Symbol::Branch { .. } => {
+                self.named_places(symbol)
             }
         }
     }
 
-    fn variable(&self, name: &str, entry: &str, held: Option<&Held>, thing: &Thing) -> String {
+    fn variable(&self, name: &str, entry: &str, held: Option<&Held>, symbol: &Symbol) -> String {
         let mut text = format!("**{}** {entry}", Foreign::Prose(name));
         match held {
             Some(Held { before, after: Some(after) }) if before.as_ref() != Some(after) => {
@@ -540,10 +537,12 @@ impl Cx<'_> {
             return text;
         }
         let own = self.place.range();
-        let set: Vec<Range<u32>> = namings_in(self.snapshot, thing)
+        let set: Vec<Range<u32>> = occurrences_in(self.snapshot, symbol)
             .into_iter()
-            .filter(|naming| naming.kind == ReferenceKind::Write && !own.contains(&naming.range.start))
-            .map(|naming| naming.range)
+            .filter(|occurrence| {
+                occurrence.kind == ReferenceKind::Write && !own.contains(&occurrence.range.start)
+            })
+            .map(|occurrence| occurrence.range)
             .collect();
         // The nearest before the place say most.
         let before = set.partition_point(|range| range.start < own.start);
@@ -557,20 +556,20 @@ impl Cx<'_> {
     }
 
     /// Where a label, program or subroutine is, and how many places of the file name it.
-    fn named_places(&self, thing: &Thing) -> String {
-        let namings = namings_in(self.snapshot, thing);
-        let head = namings.iter().find(|naming| naming.kind == ReferenceKind::Write);
-        let uses = namings.iter().filter(|naming| naming.kind == ReferenceKind::Read).count();
-        let what = match thing {
-            Thing::Label { number, .. } => format!("**N{number}** sequence number"),
-            Thing::Program(number) => format!("**O{number}** program"),
-            Thing::Subroutine(label) => {
+    fn named_places(&self, symbol: &Symbol) -> String {
+        let occurrences = occurrences_in(self.snapshot, symbol);
+        let head = occurrences.iter().find(|occurrence| occurrence.kind == ReferenceKind::Write);
+        let uses = occurrences.iter().filter(|occurrence| occurrence.kind == ReferenceKind::Read).count();
+        let what = match symbol {
+            Symbol::Label { number, .. } => format!("**N{number}** sequence number"),
+            Symbol::Program(number) => format!("**O{number}** program"),
+            Symbol::Subroutine(label) => {
                 format!("**{}** subroutine", Foreign::Prose(&crate::document_symbols::o_name(label)))
             }
-            Thing::Branch { label, .. } => {
+            Symbol::Branch { label, .. } => {
                 format!("**{}** label", Foreign::Prose(&crate::document_symbols::o_name(label)))
             }
-            Thing::Variable { .. } | Thing::Parameter { .. } => String::new(),
+            Symbol::Variable { .. } | Symbol::Parameter { .. } => String::new(),
         };
         let place = match head {
             Some(head) => {

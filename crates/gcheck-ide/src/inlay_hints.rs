@@ -10,9 +10,9 @@ use gcheck_db::{BlockPlace, Cancelled, Database, DocumentId, Snapshot, StateAt};
 use gcheck_engine::{Abstract, AbstractValue, At, Axis, Look, Role, State};
 use gcheck_program::{BlockFlags, OKeyword, StatementKind, ToolNames, Value, Word};
 
-use crate::figures::{coordinate, value};
-use crate::parts::tool_names;
-use crate::reading::Reading;
+use crate::number_text::{coordinate, value};
+use crate::sections::tool_names;
+use crate::state_reader::StateReader;
 
 /// Blocks of a range that are looked at: more than any window shows.
 const MOST_BLOCKS: u32 = 2_000;
@@ -80,7 +80,7 @@ pub fn inlay_hints(
     options: InlayOptions,
     stop: &dyn Fn() -> bool,
 ) -> Result<Vec<InlayHint>, Cancelled> {
-    let snapshot = database.outlined(document).ok_or(Cancelled)?;
+    let snapshot = database.indexed(document).ok_or(Cancelled)?;
     let Some(last) = snapshot.block_at(range.end) else { return Ok(Vec::new()) };
     let first = snapshot.block_at(range.start).map_or(0, |place| place.number);
     let blocks = first..(last.number + 1).min(first.saturating_add(MOST_BLOCKS));
@@ -118,11 +118,11 @@ impl Hints<'_> {
             self.tool(place, words);
         }
         let Some(after) = &state.after else { return };
-        let reading = Reading::new(self.snapshot, look.model());
+        let reader = StateReader::new(self.snapshot, look.model());
         if self.options.positions {
-            self.position(place, &state.before, after, &reading);
+            self.position(place, &state.before, after, &reader);
         }
-        self.modal(place, after, &reading);
+        self.modal(place, after, &reader);
     }
 
     fn add(&mut self, offset: u32, label: String, tooltip: &str, kind: InlayKind) {
@@ -130,24 +130,24 @@ impl Hints<'_> {
     }
 
     /// Feed and speed that hold though the block does not say them.
-    fn modal(&mut self, place: &BlockPlace, after: &State<Abstract>, reading: &Reading<'_>) {
+    fn modal(&mut self, place: &BlockPlace, after: &State<Abstract>, reader: &StateReader<'_>) {
         let block = place.block();
         let (has_feed, has_speed) =
             (block.letters.contains(Letter::of('F')), block.letters.contains(Letter::of('S')));
         let [feed, speed] = &mut self.shown;
         if has_feed {
-            *feed = reading.feed(after);
+            *feed = reader.feed(after);
         }
         if has_speed {
-            *speed = reading.speed(after);
+            *speed = reader.speed(after);
         }
-        if !block.letters.intersects(reading.model.control().axes()) || !cuts(after, reading) {
+        if !block.letters.intersects(reader.model.control().axes()) || !cuts(after, reader) {
             return;
         }
         let mut new = Vec::new();
         for (slot, now, has, is_on, kind) in [
-            (feed, reading.feed(after), has_feed, self.options.feed, InlayKind::Feed),
-            (speed, reading.speed(after), has_speed, self.options.speed, InlayKind::Speed),
+            (feed, reader.feed(after), has_feed, self.options.feed, InlayKind::Feed),
+            (speed, reader.speed(after), has_speed, self.options.speed, InlayKind::Speed),
         ] {
             let changed = now.is_some() && *slot != now && !has;
             slot.clone_from(&now);
@@ -209,11 +209,11 @@ impl Hints<'_> {
         place: &BlockPlace,
         before: &State<Abstract>,
         after: &State<Abstract>,
-        reading: &Reading<'_>,
+        reader: &StateReader<'_>,
     ) {
         let letters = place.block().letters;
-        let increments = &reading.model.semantics().increments;
-        let is_incremental = after.is_incremental(reading.model) == Some(true);
+        let increments = &reader.model.semantics().increments;
+        let is_incremental = after.is_incremental(reader.model) == Some(true);
         let moved = |axis: &Axis| {
             let by_increment = increments.iter().any(|(letter, of)| {
                 *of == axis.name().to_string()
@@ -221,10 +221,10 @@ impl Hints<'_> {
             });
             by_increment || is_incremental && letters.contains(axis.letter())
         };
-        let (units, diameter) = (reading.units(after), reading.diameter(after));
+        let (units, diameter) = (reader.units(after), reader.diameter(after));
         let has_moved =
             |axis: &Axis| before.position().raw(*axis).to_bits() != after.position().raw(*axis).to_bits();
-        let axes: Vec<String> = reading
+        let axes: Vec<String> = reader
             .axes()
             .into_iter()
             .filter(moved)
@@ -267,7 +267,7 @@ impl Hints<'_> {
 }
 
 /// Does the mode in effect cut?
-fn cuts(state: &State<Abstract>, reading: &Reading<'_>) -> bool {
+fn cuts(state: &State<Abstract>, reader: &StateReader<'_>) -> bool {
     let is_cut = |effect: Effect| {
         matches!(
             effect,
@@ -282,8 +282,8 @@ fn cuts(state: &State<Abstract>, reading: &Reading<'_>) -> bool {
                 | Effect::ThreadingPass
         )
     };
-    let cycle = state.active_cycle(reading.model).is_some_and(gcheck_controls::CodeIx::is_some);
-    cycle || state.effect(Role::Motion, reading.model).is_some_and(is_cut)
+    let cycle = state.active_cycle(reader.model).is_some_and(gcheck_controls::CodeIx::is_some);
+    cycle || state.effect(Role::Motion, reader.model).is_some_and(is_cut)
 }
 
 #[cfg(test)]
@@ -417,7 +417,7 @@ mod tests {
         let from = text.find("T100 ").unwrap() as u32 + 20;
         // Typed: what is known of the rest stays so.
         fixture.database.edit(fixture.document, from..from, "\n").unwrap();
-        let snapshot = fixture.database.outlined(fixture.document).unwrap();
+        let snapshot = fixture.database.indexed(fixture.document).unwrap();
         let hints = inlay_hints(
             &mut fixture.database,
             fixture.document,

@@ -22,7 +22,6 @@ mod diagnostics;
 mod document_links;
 mod document_symbols;
 mod explain;
-mod figures;
 #[cfg(test)]
 mod fixture;
 mod folding;
@@ -31,26 +30,29 @@ mod formatting;
 mod highlight;
 mod hover;
 mod inlay_hints;
-mod parts;
-mod pieces;
-mod reading;
+mod lexemes;
+mod number_text;
 mod references;
 mod rename;
 mod running;
+mod sections;
 mod selection;
 mod semantic_tokens;
 mod signature_help;
 mod state_at;
+mod state_reader;
+mod symbols;
 mod syntax_tree;
-mod things;
 mod toolpath;
 mod typing;
 mod workspace;
 mod workspace_symbols;
 
 pub use call_hierarchy::{CallItem, Incoming, Outgoing, call_items, incoming_calls, outgoing_calls};
-pub use code_actions::{ActionKind, CodeAction, Proved, ProvedChange, code_actions, proved, proved_changes};
-pub use code_lens::{CodeLens, RunFigures, SectionFigures, code_lenses, figures};
+pub use code_actions::{
+    ActionKind, CodeAction, Proved, ProvedChange, code_actions, proved, proved_change_at, proved_changes,
+};
+pub use code_lens::{CodeLens, RunStatistics, SectionStatistics, code_lenses, run_statistics};
 pub use completion::{
     Completion, CompletionKind, TRIGGERS as COMPLETION_TRIGGERS, completion, completion_details,
 };
@@ -74,8 +76,8 @@ pub use selection::selection_ranges;
 pub use semantic_tokens::{SemanticToken, TOKEN_MODIFIERS, TOKEN_TYPES, semantic_tokens};
 pub use signature_help::{Parameter, Signature, TRIGGERS as SIGNATURE_TRIGGERS, signature_help};
 pub use state_at::{AxisPlaces, ModeView, StateSide, StateView, VariableView, state_at};
+pub use symbols::ReferenceKind;
 pub use syntax_tree::syntax_tree;
-pub use things::ReferenceKind;
 pub use toolpath::{MAX_SEGMENTS, PassedAlarm, Toolpath, toolpath};
 pub use workspace::{FileEdits, Place, Workspace, WorkspaceFile};
 pub use workspace_symbols::{MAX_SYMBOLS, WorkspaceSymbol, workspace_symbols};

@@ -1,13 +1,13 @@
-//! Where a thing is named.
+//! Where a symbol is named.
 //!
-//! Knows: which places count as references. Must not know: how things are found in the text.
+//! Knows: which places count as references. Must not know: how symbols are found in the text.
 
 use gcheck_db::DocumentId;
 
-use crate::things::{ReferenceKind, namings, thing_at};
+use crate::symbols::{ReferenceKind, occurrences, symbol_at};
 use crate::{Place, Workspace};
 
-/// A place that names a thing.
+/// A place that names a symbol.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Reference {
     /// The name.
@@ -16,7 +16,7 @@ pub struct Reference {
     pub kind: ReferenceKind,
 }
 
-/// All places that name the thing at `offset`, by file and text order; those that define it only with `declarations`.
+/// All places that name the symbol at `offset`, by file and text order; those that define it only with `declarations`.
 ///
 /// Variables that keep their values until power off are looked for in the files that calls join with this one, those that the
 /// control keeps longer in all files.
@@ -27,11 +27,14 @@ pub fn references(
     declarations: bool,
 ) -> Vec<Reference> {
     let Some(file) = workspace.file(document) else { return Vec::new() };
-    let Some(naming) = thing_at(&file.snapshot, offset) else { return Vec::new() };
-    namings(workspace, document, &naming.thing)
+    let Some(occurrence) = symbol_at(&file.snapshot, offset) else { return Vec::new() };
+    occurrences(workspace, document, &occurrence.symbol)
         .into_iter()
-        .filter(|(_, naming)| declarations || naming.kind == ReferenceKind::Read)
-        .map(|(file, naming)| Reference { place: Place { file, range: naming.range }, kind: naming.kind })
+        .filter(|(_, occurrence)| declarations || occurrence.kind == ReferenceKind::Read)
+        .map(|(file, occurrence)| Reference {
+            place: Place { file, range: occurrence.range },
+            kind: occurrence.kind,
+        })
         .collect()
 }
 

@@ -1,6 +1,6 @@
-//! Giving a thing another name wherever it is named.
+//! Giving a symbol another name wherever it is named.
 //!
-//! Knows: when that is safe. Must not know: how things are found in the text.
+//! Knows: when that is safe. Must not know: how symbols are found in the text.
 
 use std::ops::Range;
 
@@ -9,9 +9,9 @@ use gcheck_db::{DocumentId, Snapshot};
 use gcheck_diagnostics::Edit;
 use gcheck_program::OLabel;
 
-use crate::things::{
-    Naming, Thing, computed_call, files_of, has_indirect_variables, is_elsewhere, kind_of, namings,
-    parameter_key, stem_matches, subs, thing_at,
+use crate::symbols::{
+    Occurrence, Symbol, computed_call, files_of, has_indirect_variables, is_elsewhere, kind_of, occurrences,
+    parameter_key, stem_matches, subs, symbol_at,
 };
 use crate::{FileEdits, ReferenceKind, Workspace, WorkspaceFile};
 
@@ -39,12 +39,15 @@ fn refuse<T>(reason: impl Into<String>) -> Checked<T> {
 /// # Errors
 /// [`RenameRefused`] when there is nothing with a name, or renaming it cannot be safe.
 pub fn prepare_rename(workspace: &Workspace, document: DocumentId, offset: u32) -> Checked<RenameTarget> {
-    let (file, naming) = find(workspace, document, offset)?;
-    check_thing(workspace, file, &naming.thing)?;
-    Ok(RenameTarget { name: file.snapshot.slice(naming.range.clone()).into_owned(), range: naming.range })
+    let (file, occurrence) = find(workspace, document, offset)?;
+    check_symbol(workspace, file, &occurrence.symbol)?;
+    Ok(RenameTarget {
+        name: file.snapshot.slice(occurrence.range.clone()).into_owned(),
+        range: occurrence.range,
+    })
 }
 
-/// The edits that give the thing at `offset` a new name: a number with or without its address, or a name.
+/// The edits that give the symbol at `offset` a new name: a number with or without its address, or a name.
 ///
 /// # Errors
 /// [`RenameRefused`] as for [`prepare_rename`], and when the name is taken, is not such a name, or is beyond the
@@ -55,12 +58,12 @@ pub fn rename(
     offset: u32,
     new_name: &str,
 ) -> Checked<Vec<FileEdits>> {
-    let (file, naming) = find(workspace, document, offset)?;
-    check_thing(workspace, file, &naming.thing)?;
-    let new = NewName::read(&naming.thing, new_name)?;
-    check_new(workspace, file, &naming.thing, &new)?;
+    let (file, occurrence) = find(workspace, document, offset)?;
+    check_symbol(workspace, file, &occurrence.symbol)?;
+    let new = NewName::read(&occurrence.symbol, new_name)?;
+    check_new(workspace, file, &occurrence.symbol, &new)?;
     let mut all: Vec<FileEdits> = Vec::new();
-    for (id, place) in namings(workspace, document, &naming.thing) {
+    for (id, place) in occurrences(workspace, document, &occurrence.symbol) {
         let Some(file) = workspace.file(id) else { continue };
         let text = new.written(&file.snapshot.slice(place.range.clone()), &file.snapshot, &place);
         let edit = Edit { range: place.range, text };
@@ -72,11 +75,11 @@ pub fn rename(
     Ok(all)
 }
 
-fn find(workspace: &Workspace, document: DocumentId, offset: u32) -> Checked<(&WorkspaceFile, Naming)> {
+fn find(workspace: &Workspace, document: DocumentId, offset: u32) -> Checked<(&WorkspaceFile, Occurrence)> {
     let nothing = || RenameRefused("there is nothing here that has a name".to_owned());
     let file = workspace.file(document).ok_or_else(nothing)?;
-    let naming = thing_at(&file.snapshot, offset).ok_or_else(nothing)?;
-    Ok((file, naming))
+    let occurrence = symbol_at(&file.snapshot, offset).ok_or_else(nothing)?;
+    Ok((file, occurrence))
 }
 
 /// A name that can be written.
@@ -86,16 +89,16 @@ enum NewName {
 }
 
 impl NewName {
-    fn read(thing: &Thing, text: &str) -> Checked<Self> {
+    fn read(symbol: &Symbol, text: &str) -> Checked<Self> {
         let text = text.trim();
-        let (sigil, is_number) = match thing {
-            Thing::Label { .. } => (&['N', 'n'][..], true),
-            Thing::Program(_) => (&['O', 'o', ':'][..], true),
-            Thing::Variable { .. } => (&['#'][..], true),
-            Thing::Subroutine(label) | Thing::Branch { label, .. } => {
+        let (sigil, is_number) = match symbol {
+            Symbol::Label { .. } => (&['N', 'n'][..], true),
+            Symbol::Program(_) => (&['O', 'o', ':'][..], true),
+            Symbol::Variable { .. } => (&['#'][..], true),
+            Symbol::Subroutine(label) | Symbol::Branch { label, .. } => {
                 (&['O', 'o'][..], matches!(label, OLabel::Number(_)))
             }
-            Thing::Parameter { .. } => (&['#'][..], false),
+            Symbol::Parameter { .. } => (&['#'][..], false),
         };
         if is_number {
             let digits = text.strip_prefix(sigil).unwrap_or(text).trim();
@@ -115,7 +118,7 @@ impl NewName {
     }
 
     /// As it is written in the place of an old name: numbers as wide as that was, where it had leading zeros.
-    fn written(&self, old: &str, snapshot: &Snapshot, place: &Naming) -> String {
+    fn written(&self, old: &str, snapshot: &Snapshot, place: &Occurrence) -> String {
         match self {
             Self::Name(name) => name.clone(),
             Self::Number(number) => {
@@ -132,15 +135,16 @@ impl NewName {
     }
 }
 
-/// Can the thing be renamed at all?
-fn check_thing(workspace: &Workspace, file: &WorkspaceFile, thing: &Thing) -> Checked {
-    match thing {
-        Thing::Label { number, program } => check_label(workspace, file, *number, program),
-        Thing::Program(_) | Thing::Subroutine(_) => {
+/// Can the symbol be renamed at all?
+fn check_symbol(workspace: &Workspace, file: &WorkspaceFile, symbol: &Symbol) -> Checked {
+    match symbol {
+        Symbol::Label { number, program } => check_label(workspace, file, *number, program),
+        Symbol::Program(_) | Symbol::Subroutine(_) => {
             check_calls(workspace)?;
-            let heads = namings(workspace, file.id, thing);
-            let heads = heads.iter().filter(|(_, naming)| naming.kind == ReferenceKind::Write).count();
-            let name = shown(thing);
+            let heads = occurrences(workspace, file.id, symbol);
+            let heads =
+                heads.iter().filter(|(_, occurrence)| occurrence.kind == ReferenceKind::Write).count();
+            let name = shown(symbol);
             match heads {
                 0 => return refuse(format!("{name} is not in a file of this workspace")),
                 1 => {}
@@ -150,10 +154,10 @@ fn check_thing(workspace: &Workspace, file: &WorkspaceFile, thing: &Thing) -> Ch
                     ));
                 }
             }
-            named_by_file(workspace, file, thing)
+            named_by_file(workspace, file, symbol)
         }
-        Thing::Branch { .. } => {
-            let words = &file.snapshot.survey().o_words;
+        Symbol::Branch { .. } => {
+            let words = &file.snapshot.file_index().o_words;
             if words.iter().any(|word| word.label == OLabel::Computed) {
                 return refuse(
                     "an O-word of this file computes its label, so which block it means is not certain",
@@ -161,8 +165,8 @@ fn check_thing(workspace: &Workspace, file: &WorkspaceFile, thing: &Thing) -> Ch
             }
             Ok(())
         }
-        Thing::Variable { number, part } => check_variable(workspace, file, *number, part.as_ref()),
-        Thing::Parameter { name, .. } => {
+        Symbol::Variable { number, part } => check_variable(workspace, file, *number, part.as_ref()),
+        Symbol::Parameter { name, .. } => {
             if file.snapshot.control().named_parameter(name).is_some() || name.contains('[') {
                 return refuse(format!("`#<{name}>` is the control's own"));
             }
@@ -172,12 +176,13 @@ fn check_thing(workspace: &Workspace, file: &WorkspaceFile, thing: &Thing) -> Ch
 }
 
 fn check_label(workspace: &Workspace, file: &WorkspaceFile, number: u32, program: &Range<u32>) -> Checked {
-    let survey = file.snapshot.survey();
+    let file_index = file.snapshot.file_index();
     let inside = |range: &Range<u32>| program.contains(&range.start);
-    if survey.jumps.iter().any(|jump| jump.target.is_none() && inside(&jump.range)) {
+    if file_index.jumps.iter().any(|jump| jump.target.is_none() && inside(&jump.range)) {
         return refuse("a jump of this program computes its target, so which block it means is not certain");
     }
-    let labels = survey.labels.iter().filter(|label| label.number == number && inside(&label.range)).count();
+    let labels =
+        file_index.labels.iter().filter(|label| label.number == number && inside(&label.range)).count();
     match labels {
         0 => return refuse(format!("N{number} is not in this program")),
         1 => {}
@@ -185,13 +190,13 @@ fn check_label(workspace: &Workspace, file: &WorkspaceFile, number: u32, program
     }
     let returns_to_caller = file.snapshot.control().semantics().return_to == ReturnTo::Caller;
     for other in workspace.files.iter().filter(|_| returns_to_caller) {
-        let survey = other.snapshot.survey();
+        let file_index = other.snapshot.file_index();
         let names_it = |jump: &&gcheck_program::Jump| {
             is_elsewhere(other.snapshot.control(), jump.code, WordKind::Label)
                 && jump.target.is_none_or(|target| target == number)
                 && (other.id != file.id || !inside(&jump.range))
         };
-        if let Some(jump) = survey.jumps.iter().find(names_it) {
+        if let Some(jump) = file_index.jumps.iter().find(names_it) {
             let text = other.snapshot.slice(jump.range.clone());
             return refuse(format!(
                 "a return in {} names a block of its caller (`{}`): that may be this one",
@@ -205,7 +210,7 @@ fn check_label(workspace: &Workspace, file: &WorkspaceFile, number: u32, program
 
 fn check_calls(workspace: &Workspace) -> Checked {
     for file in &workspace.files {
-        if let Some(call) = computed_call(file.snapshot.survey()) {
+        if let Some(call) = computed_call(file.snapshot.file_index()) {
             let text = file.snapshot.slice(call.range.clone());
             return refuse(format!(
                 "a call in {} computes what it calls (`{}`), so what it means is not certain",
@@ -218,18 +223,18 @@ fn check_calls(workspace: &Workspace) -> Checked {
 }
 
 /// A file that is found by its name would no longer be.
-fn named_by_file(workspace: &Workspace, file: &WorkspaceFile, thing: &Thing) -> Checked {
+fn named_by_file(workspace: &Workspace, file: &WorkspaceFile, symbol: &Symbol) -> Checked {
     if !file.snapshot.control().syntax().o_words {
         return Ok(());
     }
-    let name = match thing {
-        Thing::Program(number) | Thing::Subroutine(OLabel::Number(number)) => number.to_string(),
-        Thing::Subroutine(OLabel::Name(name)) => name.clone(),
+    let name = match symbol {
+        Symbol::Program(number) | Symbol::Subroutine(OLabel::Number(number)) => number.to_string(),
+        Symbol::Subroutine(OLabel::Name(name)) => name.clone(),
         _ => return Ok(()),
     };
-    match workspace.files.iter().find(|file| stem_matches(&file.name, &name, thing)) {
+    match workspace.files.iter().find(|file| stem_matches(&file.name, &name, symbol)) {
         Some(named) => {
-            refuse(format!("the control finds {} by the name of its file, {}", shown(thing), named.name))
+            refuse(format!("the control finds {} by the name of its file, {}", shown(symbol), named.name))
         }
         None => Ok(()),
     }
@@ -252,8 +257,8 @@ fn check_variable(
     if number == 0 {
         return refuse("#0 is the control's own");
     }
-    let thing = Thing::Variable { number, part: part.cloned() };
-    for other in files_of(workspace, file.id, &thing) {
+    let symbol = Symbol::Variable { number, part: part.cloned() };
+    for other in files_of(workspace, file.id, &symbol) {
         if has_indirect_variables(&other.snapshot) {
             return refuse(format!(
                 "{} computes the numbers of variables, so which one it means is not certain",
@@ -262,17 +267,17 @@ fn check_variable(
         }
     }
     let Some(part) = part else { return Ok(()) };
-    let survey = file.snapshot.survey();
+    let file_index = file.snapshot.file_index();
     let is_argument = control.semantics().argument_letters.values().any(|n| u32::from(*n) == number)
         || control.syntax().o_words;
     let returns =
-        survey.ends.iter().any(|end| end.ends == Ends::Subprogram && part.contains(&end.range.start))
+        file_index.ends.iter().any(|end| end.ends == Ends::Subprogram && part.contains(&end.range.start))
             || subs(&file.snapshot).iter().any(|sub| sub.range == *part);
     if is_argument && returns {
         return refuse(format!("#{number} may be given by callers of this program"));
     }
     let shares = !control.semantics().locals_per_subprogram
-        && survey.calls.iter().any(|call| {
+        && file_index.calls.iter().any(|call| {
             part.contains(&call.range.start)
                 && control.code_at(call.code).is_some_and(|code| code.effect() == Effect::CallProgram)
         });
@@ -282,39 +287,39 @@ fn check_variable(
     Ok(())
 }
 
-/// Can the thing have this name?
-fn check_new(workspace: &Workspace, file: &WorkspaceFile, thing: &Thing, new: &NewName) -> Checked {
+/// Can the symbol have this name?
+fn check_new(workspace: &Workspace, file: &WorkspaceFile, symbol: &Symbol, new: &NewName) -> Checked {
     let control = file.snapshot.control();
-    let renamed = match (thing, new) {
-        (Thing::Label { program, .. }, NewName::Number(number)) => {
+    let renamed = match (symbol, new) {
+        (Symbol::Label { program, .. }, NewName::Number(number)) => {
             if let Some(most) = control.limits().max_sequence_number.filter(|most| number > most) {
                 return refuse(format!("N{number} is beyond the highest sequence number, {most}"));
             }
-            Thing::Label { number: *number, program: program.clone() }
+            Symbol::Label { number: *number, program: program.clone() }
         }
-        (Thing::Program(_), NewName::Number(number)) => {
+        (Symbol::Program(_), NewName::Number(number)) => {
             if let Some([first, last]) = control.limits().program_numbers
                 && !(first..=last).contains(number)
             {
                 return refuse(format!("program numbers go from {first} to {last}"));
             }
-            Thing::Program(*number)
+            Symbol::Program(*number)
         }
-        (Thing::Subroutine(_), NewName::Number(number)) => Thing::Subroutine(OLabel::Number(*number)),
-        (Thing::Subroutine(_), NewName::Name(name)) => Thing::Subroutine(OLabel::Name(parameter_key(name))),
-        (Thing::Branch { part, .. }, NewName::Number(number)) => {
-            Thing::Branch { label: OLabel::Number(*number), part: part.clone() }
+        (Symbol::Subroutine(_), NewName::Number(number)) => Symbol::Subroutine(OLabel::Number(*number)),
+        (Symbol::Subroutine(_), NewName::Name(name)) => Symbol::Subroutine(OLabel::Name(parameter_key(name))),
+        (Symbol::Branch { part, .. }, NewName::Number(number)) => {
+            Symbol::Branch { label: OLabel::Number(*number), part: part.clone() }
         }
-        (Thing::Branch { part, .. }, NewName::Name(name)) => {
-            Thing::Branch { label: OLabel::Name(parameter_key(name)), part: part.clone() }
+        (Symbol::Branch { part, .. }, NewName::Name(name)) => {
+            Symbol::Branch { label: OLabel::Name(parameter_key(name)), part: part.clone() }
         }
-        (Thing::Variable { number: old, part }, NewName::Number(number)) => {
+        (Symbol::Variable { number: old, part }, NewName::Number(number)) => {
             if *number == 0 || kind_of(control, *number) != kind_of(control, *old) {
                 return refuse(format!("#{number} is not the same kind of variable as #{old}"));
             }
-            Thing::Variable { number: *number, part: part.clone() }
+            Symbol::Variable { number: *number, part: part.clone() }
         }
-        (Thing::Parameter { part, .. }, NewName::Name(name)) => {
+        (Symbol::Parameter { part, .. }, NewName::Name(name)) => {
             let name = parameter_key(name);
             if control.named_parameter(&name).is_some() {
                 return refuse(format!("`#<{name}>` is the control's own"));
@@ -324,39 +329,39 @@ fn check_new(workspace: &Workspace, file: &WorkspaceFile, thing: &Thing, new: &N
                     "names that begin with `_` are global, others are local: that would change it",
                 );
             }
-            Thing::Parameter { name, part: part.clone() }
+            Symbol::Parameter { name, part: part.clone() }
         }
         _ => return refuse("that is not such a name"),
     };
-    if renamed == *thing {
+    if renamed == *symbol {
         return Ok(());
     }
     let taken_by_label = |label: &OLabel| {
         // Subroutines and branches share their labels with what is around them.
-        file.snapshot.survey().o_words.iter().any(|word| word.label == *label)
+        file.snapshot.file_index().o_words.iter().any(|word| word.label == *label)
     };
     let is_taken = match &renamed {
-        Thing::Subroutine(label) | Thing::Branch { label, .. } => {
-            taken_by_label(label) || !namings(workspace, file.id, &renamed).is_empty()
+        Symbol::Subroutine(label) | Symbol::Branch { label, .. } => {
+            taken_by_label(label) || !occurrences(workspace, file.id, &renamed).is_empty()
         }
-        _ => !namings(workspace, file.id, &renamed).is_empty(),
+        _ => !occurrences(workspace, file.id, &renamed).is_empty(),
     };
     if is_taken { refuse(format!("{} is taken", shown(&renamed))) } else { Ok(()) }
 }
 
-/// A thing as people call it.
-fn shown(thing: &Thing) -> String {
+/// A symbol as people call it.
+fn shown(symbol: &Symbol) -> String {
     let label = |label: &OLabel| match label {
         OLabel::Number(number) => format!("O{number}"),
         OLabel::Name(name) => format!("O<{name}>"),
         OLabel::Computed => "O[…]".to_owned(),
     };
-    match thing {
-        Thing::Label { number, .. } => format!("N{number}"),
-        Thing::Program(number) => format!("O{number}"),
-        Thing::Subroutine(name) | Thing::Branch { label: name, .. } => label(name),
-        Thing::Variable { number, .. } => format!("#{number}"),
-        Thing::Parameter { name, .. } => format!("#<{name}>"),
+    match symbol {
+        Symbol::Label { number, .. } => format!("N{number}"),
+        Symbol::Program(number) => format!("O{number}"),
+        Symbol::Subroutine(name) | Symbol::Branch { label: name, .. } => label(name),
+        Symbol::Variable { number, .. } => format!("#{number}"),
+        Symbol::Parameter { name, .. } => format!("#<{name}>"),
     }
 }
 

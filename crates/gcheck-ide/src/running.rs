@@ -12,7 +12,7 @@ use gcheck_engine::{
 };
 use gcheck_toolpath::{Beside, Spot, Step, View};
 
-use crate::reading::Reading;
+use crate::state_reader::StateReader;
 
 /// What a run shows.
 pub(crate) enum Shown<'s> {
@@ -72,7 +72,7 @@ pub(crate) fn run_through(
 
 /// The axes that figures speak of, and whether X is shown as a diameter.
 pub(crate) fn view(snapshot: &Snapshot, model: &Model<'_>) -> View {
-    let view = View::new(&Reading::new(snapshot, model).axes());
+    let view = View::new(&StateReader::new(snapshot, model).axes());
     if model.semantics().diameter { view.with_diameters() } else { view }
 }
 

@@ -8,8 +8,8 @@ use gcheck_db::Snapshot;
 use gcheck_program::profile;
 use gcheck_syntax::{SyntaxKind, parse};
 
-use crate::parts::parts_around;
-use crate::things::{program_around, subs};
+use crate::sections::sections_around;
+use crate::symbols::{program_around, subs};
 
 /// Ranges around `offset`, each inside the next: token, word or expression, block, line, operation, tool section or
 /// subroutine, program, file.
@@ -17,7 +17,7 @@ pub fn selection_ranges(snapshot: &Snapshot, offset: u32) -> Vec<Range<u32>> {
     let offset = offset.min(snapshot.len());
     let mut ranges = inside_the_block(snapshot, offset);
     ranges.push(snapshot.line_range(snapshot.line_at(offset)));
-    let mut around = parts_around(snapshot, offset);
+    let mut around = sections_around(snapshot, offset);
     around.extend(subs(snapshot).into_iter().map(|sub| sub.range).filter(|range| range.contains(&offset)));
     around.push(program_around(snapshot, offset));
     around.push(0..snapshot.len());
@@ -70,7 +70,7 @@ mod tests {
 
     use super::selection_ranges;
     use crate::fixture::{Fixture, shown};
-    use crate::parts::{parts, parts_around};
+    use crate::sections::{sections, sections_around};
 
     fn check(control: &str, text: &str, expected: &Expect) {
         let fixture = Fixture::new(control, text);
@@ -160,16 +160,16 @@ mod tests {
     fn what_is_around_a_place_is_what_a_look_at_the_whole_file_finds() {
         for seed in 0..6 {
             let snapshot = Fixture::new("haas-mill", &program(seed)).snapshot();
-            let parts = parts(&snapshot);
-            let all: Vec<Range<u32>> = parts
+            let sections = sections(&snapshot);
+            let all: Vec<Range<u32>> = sections
                 .operations
                 .into_iter()
                 .map(|part| part.range)
-                .chain(parts.tools.into_iter().map(|part| part.range))
+                .chain(sections.tools.into_iter().map(|part| part.range))
                 .collect();
             for offset in (0..snapshot.len()).step_by(97) {
                 let around: Vec<&Range<u32>> = all.iter().filter(|range| range.contains(&offset)).collect();
-                let found = parts_around(&snapshot, offset);
+                let found = sections_around(&snapshot, offset);
                 assert_eq!(found.iter().collect::<Vec<_>>(), around, "seed {seed}, byte {offset}");
             }
         }
@@ -180,7 +180,7 @@ mod tests {
         let section = |tool: usize| format!("T{tool} M6\n(OPERATION)\n{}", "X1.5 Y2.25\n".repeat(300));
         let text: String = (1..200).map(section).collect();
         let mut fixture = Fixture::new("haas-mill", &text);
-        let snapshot = fixture.database.outlined(fixture.document).unwrap();
+        let snapshot = fixture.database.indexed(fixture.document).unwrap();
         let ranges = selection_ranges(&snapshot, snapshot.len() / 2);
         assert!(ranges.iter().any(|range| range.end - range.start < 6_000), "{ranges:?}");
         assert!(snapshot.tables_read() < 10, "{} of {}", snapshot.tables_read(), snapshot.chunks().len());

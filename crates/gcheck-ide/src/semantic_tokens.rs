@@ -1,6 +1,6 @@
-//! What each piece of a program is, for colours.
+//! What each lexeme of a program is, for colours.
 //!
-//! Knows: kinds of pieces. Must not know: colours, delta encodings.
+//! Knows: kinds of lexemes. Must not know: colours, delta encodings.
 
 use std::ops::Range;
 
@@ -8,8 +8,8 @@ use gcheck_controls::{CodeNumber, Control, Letter, Motion};
 use gcheck_db::Snapshot;
 use gcheck_syntax::{SyntaxKind, line_len};
 
-use crate::pieces::{Piece, pieces};
-use crate::things::code_end;
+use crate::lexemes::{Lexeme, lexemes};
+use crate::symbols::code_end;
 
 /// Names of token types; [`SemanticToken::kind`] is an index.
 ///
@@ -38,7 +38,7 @@ pub const TOKEN_TYPES: &[&str] = &[
 /// Names of modifiers; [`SemanticToken::modifiers`] has a bit for each.
 pub const TOKEN_MODIFIERS: &[&str] = &["unreachable", "skippable", "definition", "readonly"];
 
-/// A piece of a program.
+/// A lexeme of a program.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct SemanticToken {
     /// Bytes of the file; never more than one line.
@@ -76,7 +76,7 @@ const SKIPPABLE: u32 = 1 << 1;
 const DEFINITION: u32 = 1 << 2;
 const READONLY: u32 = 1 << 3;
 
-/// The pieces of a range, or of the whole document, in text order and without overlap. Pieces in `unreachable`
+/// The lexemes of a range, or of the whole document, in text order and without overlap. Those in `unreachable`
 /// ([`crate::unreachable_ranges`]), and what is after the end of the tape, are marked so.
 pub fn semantic_tokens(
     snapshot: &Snapshot,
@@ -92,7 +92,7 @@ pub fn semantic_tokens(
         }
         let (skip, len) = lines_around(chunk.text, chunk.base, &wanted);
         let lines = chunk.text.get(skip..skip + len).unwrap_or_default();
-        painter.lines(&pieces(snapshot, lines, chunk.base + skip as u32));
+        painter.lines(&lexemes(snapshot, lines, chunk.base + skip as u32));
     }
     painter.list
 }
@@ -116,19 +116,19 @@ struct Painter<'s> {
 }
 
 impl Painter<'_> {
-    fn lines(&mut self, pieces: &[Piece]) {
-        for line in pieces.split_inclusive(|piece| piece.kind == SyntaxKind::NEWLINE) {
+    fn lines(&mut self, lexemes: &[Lexeme]) {
+        for line in lexemes.split_inclusive(|lexeme| lexeme.kind == SyntaxKind::NEWLINE) {
             self.line(line);
         }
     }
 
-    fn line(&mut self, line: &[Piece]) {
+    fn line(&mut self, line: &[Lexeme]) {
         let Some(first) = line.first() else { return };
         if first.range.start >= self.end {
             // Nobody reads what is after the tape but people.
             let last = line
                 .iter()
-                .rfind(|piece| !matches!(piece.kind, SyntaxKind::NEWLINE | SyntaxKind::WHITESPACE));
+                .rfind(|lexeme| !matches!(lexeme.kind, SyntaxKind::NEWLINE | SyntaxKind::WHITESPACE));
             self.list.extend(last.map(|last| SemanticToken {
                 range: first.range.start..last.range.end,
                 kind: Kind::Comment as u32,
@@ -143,25 +143,25 @@ impl Painter<'_> {
         {
             modifiers |= UNREACHABLE;
         }
-        let mut solid = line.iter().filter(|piece| !piece.kind.is_trivia()).peekable();
-        if solid.peek().is_some_and(|piece| piece.kind == SyntaxKind::SLASH) {
+        let mut solid = line.iter().filter(|lexeme| !lexeme.kind.is_trivia()).peekable();
+        if solid.peek().is_some_and(|lexeme| lexeme.kind == SyntaxKind::SLASH) {
             modifiers |= SKIPPABLE;
         }
-        let head = line.iter().find(|piece| !piece.kind.is_trivia() && piece.kind != SyntaxKind::SLASH);
-        let head = head.map(|piece| piece.range.start);
+        let head = line.iter().find(|lexeme| !lexeme.kind.is_trivia() && lexeme.kind != SyntaxKind::SLASH);
+        let head = head.map(|lexeme| lexeme.range.start);
         let mut letter = None;
-        for piece in line {
-            let text = self.snapshot.slice(piece.range.clone());
-            let is_head = Some(piece.range.start) == head;
+        for lexeme in line {
+            let text = self.snapshot.slice(lexeme.range.clone());
+            let is_head = Some(lexeme.range.start) == head;
             if let Some((kind, more)) =
-                kind(self.snapshot.control(), piece.kind, &text, is_head, letter.as_deref())
+                kind(self.snapshot.control(), lexeme.kind, &text, is_head, letter.as_deref())
             {
                 let modifiers = modifiers | more;
-                self.list.push(SemanticToken { range: piece.range.clone(), kind: kind as u32, modifiers });
+                self.list.push(SemanticToken { range: lexeme.range.clone(), kind: kind as u32, modifiers });
             }
-            if !piece.kind.is_trivia() {
+            if !lexeme.kind.is_trivia() {
                 // The number of `G 1` belongs to its address.
-                letter = (piece.kind == SyntaxKind::LETTER).then(|| text.into_owned());
+                letter = (lexeme.kind == SyntaxKind::LETTER).then(|| text.into_owned());
             }
         }
     }

@@ -56,7 +56,7 @@ pub fn signature_help(
     is_asked: bool,
     stop: &dyn Fn() -> bool,
 ) -> Result<Vec<Signature>, Cancelled> {
-    let snapshot = database.outlined(document).ok_or(Cancelled)?;
+    let snapshot = database.indexed(document).ok_or(Cancelled)?;
     let typing = Typing::new(&snapshot, offset);
     if typing.comment().is_some() {
         return Ok(Vec::new());
@@ -75,11 +75,11 @@ pub fn signature_help(
     let at = typing
         .line
         .iter()
-        .rfind(|piece| piece.range.start < typing.offset && !piece.kind.is_trivia())
+        .rfind(|lexeme| lexeme.range.start < typing.offset && !lexeme.kind.is_trivia())
         // After a blank the next word is to come.
-        .filter(|piece| piece.range.end == typing.offset)
-        .filter(|piece| matches!(piece.kind, SyntaxKind::WORD | SyntaxKind::LETTER))
-        .and_then(|piece| typing.letter(piece));
+        .filter(|lexeme| lexeme.range.end == typing.offset)
+        .filter(|lexeme| matches!(lexeme.kind, SyntaxKind::WORD | SyntaxKind::LETTER))
+        .and_then(|lexeme| typing.letter(lexeme));
     let block = Block { typing: &typing, present: typing.letters(), at };
     // What was given earlier costs an execution: only where a word of that kind is missing.
     let mut missing: Vec<Vec<Letter>> = codes.iter().map(|code| block.missing(*code, &|_| false)).collect();
@@ -115,8 +115,8 @@ fn called(typing: &Typing<'_>, code: Code<'_>) -> Option<u32> {
     if !is_call(code) {
         return None;
     }
-    let names_program = |piece: &&crate::pieces::Piece| typing.letter(piece) == Some(Letter::of('P'));
-    let word = typing.line.iter().filter(|piece| piece.kind == SyntaxKind::WORD).find(names_program)?;
+    let names_program = |lexeme: &&crate::lexemes::Lexeme| typing.letter(lexeme) == Some(Letter::of('P'));
+    let word = typing.line.iter().filter(|lexeme| lexeme.kind == SyntaxKind::WORD).find(names_program)?;
     typing.snapshot.slice(word.range.clone()).get(1..)?.trim().trim_end_matches('.').parse().ok()
 }
 
@@ -191,9 +191,9 @@ impl Block<'_, '_> {
             let (letter, number) = text.split_at_checked(1).unwrap_or((&text, ""));
             format!("{letter}{}", number.trim_start_matches('0'))
         };
-        let words = self.typing.line.iter().filter(|piece| piece.kind == SyntaxKind::WORD);
+        let words = self.typing.line.iter().filter(|lexeme| lexeme.kind == SyntaxKind::WORD);
         words
-            .map(|piece| self.typing.snapshot.slice(piece.range.clone()))
+            .map(|lexeme| self.typing.snapshot.slice(lexeme.range.clone()))
             .any(|text| plain(&text) == plain(word))
     }
 }

@@ -5,11 +5,11 @@
 use std::collections::BTreeMap;
 
 use gcheck_db::{Cancelled, Database, DocumentId, Snapshot, StateAt};
-use gcheck_engine::{Abstract, AbstractValue, Fact, Look, Position, Role, State, Trace};
+use gcheck_engine::{Abstract, AbstractValue, Fact, Look, Position, ReachingDefinitions, Role, State};
 use serde::Serialize;
 
-use crate::figures::{in_units, unit, value};
-use crate::reading::Reading;
+use crate::number_text::{in_units, unit, value};
+use crate::state_reader::StateReader;
 
 /// Variables that are shown.
 const MOST_VARIABLES: usize = 200;
@@ -113,11 +113,11 @@ pub fn state_at(
     offset: u32,
     stop: &dyn Fn() -> bool,
 ) -> Result<Option<StateView>, Cancelled> {
-    let snapshot = database.outlined(document).ok_or(Cancelled)?;
+    let snapshot = database.indexed(document).ok_or(Cancelled)?;
     let Some(place) = snapshot.block_at(offset) else { return Ok(None) };
     let mut view = None;
     database.look(document, place.number..place.number + 1, stop, &mut |state, look| {
-        let reading = Reading::new(&snapshot, look.model());
+        let reader = StateReader::new(&snapshot, look.model());
         let range = place.range();
         view = Some(StateView {
             line: snapshot.line_at(range.start),
@@ -125,27 +125,32 @@ pub fn state_at(
             end: range.end,
             on_every_path: state.on_every_path,
             visits: state.visits,
-            before: side(&reading, look, &state.before, &state.trace),
-            after: state.after.as_ref().map(|after| side(&reading, look, after, &state.trace_after)),
+            before: side(&reader, look, &state.before, &state.definitions),
+            after: state.after.as_ref().map(|after| side(&reader, look, after, &state.definitions_after)),
         });
     })?;
     Ok(view)
 }
 
-fn side(reading: &Reading<'_>, look: &mut Look<'_, '_>, state: &State<Abstract>, trace: &Trace) -> StateSide {
-    let model = reading.model;
-    let places = reading.places(state);
-    let named = |point: &Position| axes(reading, state, point);
+fn side(
+    reader: &StateReader<'_>,
+    look: &mut Look<'_, '_>,
+    state: &State<Abstract>,
+    definitions: &ReachingDefinitions,
+) -> StateSide {
+    let model = reader.model;
+    let places = reader.places(state);
+    let named = |point: &Position| axes(reader, state, point);
     let number = |held: &AbstractValue| {
         (!matches!(held, AbstractValue::Vacant | AbstractValue::Unknown)).then(|| value(held))
     };
     StateSide {
-        units: unit(reading.units(state)),
-        diameter: reading.diameter(state),
-        modes: Role::ALL.into_iter().filter_map(|role| mode(reading, state, role, trace)).collect(),
-        feed: reading.feed(state),
-        speed: reading.speed(state),
-        spindle: Reading::spindle(state),
+        units: unit(reader.units(state)),
+        diameter: reader.diameter(state),
+        modes: Role::ALL.into_iter().filter_map(|role| mode(reader, state, role, definitions)).collect(),
+        feed: reader.feed(state),
+        speed: reader.speed(state),
+        spindle: StateReader::spindle(state),
         tool: number(state.tool()),
         selected_tool: number(state.selected()),
         length_offset: number(state.h()),
@@ -158,35 +163,40 @@ fn side(reading: &Reading<'_>, look: &mut Look<'_, '_>, state: &State<Abstract>,
         tip: named(&places.tip),
         length: named(state.length()),
         shift: named(&state.shift()),
-        variables: variables(reading.snapshot, look, state),
+        variables: variables(reader.snapshot, look, state),
     }
 }
 
-fn mode(reading: &Reading<'_>, state: &State<Abstract>, role: Role, trace: &Trace) -> Option<ModeView> {
+fn mode(
+    reader: &StateReader<'_>,
+    state: &State<Abstract>,
+    role: Role,
+    definitions: &ReachingDefinitions,
+) -> Option<ModeView> {
     let mode = state.mode(role);
     if mode.is_taken_for_kept() {
         return None;
     }
-    let codes = reading.mode(state, role);
-    let first = mode.alternatives().iter().find_map(|code| reading.model.control().code_at(*code))?;
-    let set = trace.set_by(Fact::Mode(role)).filter(|at| at.file == 0);
-    let set_at = set.and_then(|at| reading.snapshot.place(at.block)).map(|place| place.range().start);
+    let codes = reader.mode(state, role);
+    let first = mode.alternatives().iter().find_map(|code| reader.model.control().code_at(*code))?;
+    let set = definitions.set_by(Fact::Mode(role)).filter(|at| at.file == 0);
+    let set_at = set.and_then(|at| reader.snapshot.place(at.block)).map(|place| place.range().start);
     Some(ModeView { group: first.group().title.clone(), codes, set_at })
 }
 
 /// A point by axis, in the units of the program.
-fn axes(reading: &Reading<'_>, state: &State<Abstract>, point: &Position) -> AxisPlaces {
-    let (units, diameter) = (reading.units(state), reading.diameter(state));
+fn axes(reader: &StateReader<'_>, state: &State<Abstract>, point: &Position) -> AxisPlaces {
+    let (units, diameter) = (reader.units(state), reader.diameter(state));
     // Nobody reads more than six decimals, and after them there is only the noise of conversions.
     let rounded = |value: f64| (value * 1e6).round() / 1e6 + 0.0;
     let value = |axis| point.get(axis).map(|value| rounded(in_units(axis, value, units, diameter)));
-    reading.axes().into_iter().map(|axis| (axis.name(), value(axis))).collect()
+    reader.axes().into_iter().map(|axis| (axis.name(), value(axis))).collect()
 }
 
 /// The numbered variables that the file assigns, and the locals that hold something.
 fn variables(snapshot: &Snapshot, look: &mut Look<'_, '_>, state: &State<Abstract>) -> Vec<VariableView> {
     let [first, last] = look.model().semantics().locals;
-    let assigned = snapshot.survey().assigned.iter().map(|(number, _)| *number);
+    let assigned = snapshot.file_index().assigned.iter().map(|(number, _)| *number);
     let mut numbers: Vec<u32> = assigned.chain(first.max(1)..=last).collect();
     numbers.sort_unstable();
     numbers.dedup();

@@ -9,8 +9,8 @@ use gcheck_toolpath::{Names, Timing, WorkCoordinates};
 use serde::Serialize;
 use serde_json::Value;
 
-use crate::parts::{headings, tool_names};
 use crate::running::{Ran, Shown, is_turned, run_through, view};
+use crate::sections::{headings, tool_names};
 
 /// Most segments of a toolpath; more are thinned, and the answer says so.
 pub const MAX_SEGMENTS: usize = 200_000;

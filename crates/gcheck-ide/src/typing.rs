@@ -9,13 +9,13 @@ use gcheck_db::Snapshot;
 use gcheck_syntax::SyntaxKind;
 
 use crate::describe;
-use crate::pieces::{Piece, pieces};
+use crate::lexemes::{Lexeme, lexemes};
 
 /// A block that is being typed.
 pub(crate) struct Typing<'s> {
     pub(crate) snapshot: &'s Snapshot,
     /// Tokens of the whole line.
-    pub(crate) line: Vec<Piece>,
+    pub(crate) line: Vec<Lexeme>,
     /// Text of the line up to the cursor.
     pub(crate) before: String,
     /// First byte of the line.
@@ -33,7 +33,7 @@ impl<'s> Typing<'s> {
         let upto = (0..=upto).rev().find(|at| text.is_char_boundary(*at)).unwrap_or(0);
         let before = text.get(..upto).unwrap_or_default().to_owned();
         let offset = range.start + upto as u32;
-        Self { snapshot, line: pieces(snapshot, &text, range.start), before, start: range.start, offset }
+        Self { snapshot, line: lexemes(snapshot, &text, range.start), before, start: range.start, offset }
     }
 
     pub(crate) fn control(&self) -> &'s Control {
@@ -42,15 +42,15 @@ impl<'s> Typing<'s> {
 
     /// The text of the comment that the cursor is in, up to the cursor.
     pub(crate) fn comment(&self) -> Option<&str> {
-        let piece = self
+        let lexeme = self
             .line
             .iter()
-            .find(|piece| piece.range.start < self.offset && self.offset <= piece.range.end)?;
-        let is_closed = piece.kind == SyntaxKind::COMMENT && piece.range.end == self.offset;
-        if !piece.kind.is_comment() || is_closed {
+            .find(|lexeme| lexeme.range.start < self.offset && self.offset <= lexeme.range.end)?;
+        let is_closed = lexeme.kind == SyntaxKind::COMMENT && lexeme.range.end == self.offset;
+        if !lexeme.kind.is_comment() || is_closed {
             return None;
         }
-        self.before.get((piece.range.start - self.start) as usize + 1..)
+        self.before.get((lexeme.range.start - self.start) as usize + 1..)
     }
 
     /// What is being typed: letters, digits and signs right before the cursor, with the offset of the first.
@@ -84,8 +84,8 @@ impl<'s> Typing<'s> {
 
     /// Is the cursor inside brackets?
     pub(crate) fn in_brackets(&self) -> bool {
-        let before = self.line.iter().filter(|piece| piece.range.start < self.offset);
-        let depth = before.fold(0_i32, |depth, piece| match piece.kind {
+        let before = self.line.iter().filter(|lexeme| lexeme.range.start < self.offset);
+        let depth = before.fold(0_i32, |depth, lexeme| match lexeme.kind {
             SyntaxKind::L_BRACKET => depth + 1,
             SyntaxKind::R_BRACKET => depth - 1,
             _ => depth,
@@ -94,18 +94,18 @@ impl<'s> Typing<'s> {
     }
 
     /// The last token before the cursor and what is typed there, blanks left out.
-    pub(crate) fn last_before(&self, from: u32) -> Option<&Piece> {
-        self.line.iter().rfind(|piece| piece.range.end <= from && !piece.kind.is_trivia())
+    pub(crate) fn last_before(&self, from: u32) -> Option<&Lexeme> {
+        self.line.iter().rfind(|lexeme| lexeme.range.end <= from && !lexeme.kind.is_trivia())
     }
 
     /// The codes of the line in text order, but for one that is being typed at the cursor.
     pub(crate) fn codes(&self) -> Vec<(Range<u32>, Code<'s>)> {
-        let words = self.line.iter().filter(|piece| piece.kind == SyntaxKind::WORD);
-        let finished = words.filter(|piece| piece.range.end != self.offset);
+        let words = self.line.iter().filter(|lexeme| lexeme.kind == SyntaxKind::WORD);
+        let finished = words.filter(|lexeme| lexeme.range.end != self.offset);
         finished
-            .filter_map(|piece| {
-                let number = CodeNumber::parse(&self.snapshot.slice(piece.range.clone()))?;
-                Some((piece.range.clone(), self.control().code(number)?))
+            .filter_map(|lexeme| {
+                let number = CodeNumber::parse(&self.snapshot.slice(lexeme.range.clone()))?;
+                Some((lexeme.range.clone(), self.control().code(number)?))
             })
             .collect()
     }
@@ -113,14 +113,14 @@ impl<'s> Typing<'s> {
     /// Addresses of the line's words, but for one that is being typed at the cursor.
     pub(crate) fn letters(&self) -> Vec<Letter> {
         let words =
-            self.line.iter().filter(|piece| matches!(piece.kind, SyntaxKind::WORD | SyntaxKind::LETTER));
-        let finished = words.filter(|piece| piece.range.end != self.offset);
-        finished.filter_map(|piece| self.letter(piece)).collect()
+            self.line.iter().filter(|lexeme| matches!(lexeme.kind, SyntaxKind::WORD | SyntaxKind::LETTER));
+        let finished = words.filter(|lexeme| lexeme.range.end != self.offset);
+        finished.filter_map(|lexeme| self.letter(lexeme)).collect()
     }
 
     /// The address of a word.
-    pub(crate) fn letter(&self, piece: &Piece) -> Option<Letter> {
-        let text = self.snapshot.slice(piece.range.clone());
+    pub(crate) fn letter(&self, lexeme: &Lexeme) -> Option<Letter> {
+        let text = self.snapshot.slice(lexeme.range.clone());
         let len = if text.starts_with(',') { 2 } else { 1 };
         Letter::parse(&text.get(..len)?.to_ascii_uppercase())
     }

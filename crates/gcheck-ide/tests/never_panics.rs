@@ -162,8 +162,8 @@ fn ask_everything(world: &mut World, offset: u32, other: u32, new_name: &str) {
     for hint in gcheck_ide::inlay_hints(&mut world.database, id, range.clone(), options, &go).unwrap() {
         assert!(hint.offset <= end);
     }
-    let figures = gcheck_ide::figures(&snapshot, 500, &|| false).unwrap();
-    for lens in gcheck_ide::code_lenses(&snapshot, &figures) {
+    let statistics = gcheck_ide::run_statistics(&snapshot, 500, &|| false).unwrap();
+    for lens in gcheck_ide::code_lenses(&snapshot, &statistics) {
         world.inside(id, &lens.range);
     }
     let actions =

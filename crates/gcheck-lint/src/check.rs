@@ -8,9 +8,9 @@ use std::collections::BTreeSet;
 use std::ops::Range;
 
 use gcheck_controls::{Control, Ends};
-use gcheck_diagnostics::{Finding, RuleMeta, Severity};
+use gcheck_diagnostics::{Finding, RuleMeta, Severity, Tier};
 use gcheck_engine::{Assumption, Budget, FlowResult, Model, Options, Program, Task, flow, flow_branch};
-use gcheck_program::{BlockFlags, BlockTable, Loaded, Survey, code_region};
+use gcheck_program::{BlockFlags, BlockTable, FileIndex, Loaded, code_region};
 use gcheck_syntax::SourceText;
 
 use crate::block_delete::{Positions, found_by_all, name_condition};
@@ -274,16 +274,19 @@ impl<'c> Collector<'c> {
         }
     }
 
-    /// A finding in text that no run reads is not an error, unless the user configured the rule's severity.
+    /// In text that no run reads, what is wrong with a block is an info, and nothing is an error, unless the user configured
+    /// the rule's severity.
     fn soften(&mut self, plan: &Plan, unread_from: u32) {
         for finding in &mut self.findings {
+            let is_of_block = matches!(finding.rule.tier, Tier::Token | Tier::Block);
+            let most = if is_of_block { Severity::Info } else { Severity::Warning };
             if finding.range.start < unread_from
-                || finding.severity != Severity::Error
+                || finding.severity <= most
                 || plan.is_overridden(finding.rule)
             {
                 continue;
             }
-            finding.severity = Severity::Warning;
+            finding.severity = most;
             finding.alarm = None;
             finding.notes.push("it is after the end of the program, and is never executed".to_owned());
         }
@@ -303,14 +306,14 @@ fn check_with(job: &Job<'_>, rules: &Selection) -> Outcome {
     let region = code_region(text);
     let region = region.start as u32..region.end as u32;
     let mut collector = Collector::new(job.environment);
-    let mut survey = Survey::default();
+    let mut file_index = FileIndex::default();
     let mut directives = Vec::new();
     let (mut lines, mut seen) = (0, 0);
     let loaded = Loaded::new(text, job.environment.dialect, |base, table, chunk| {
         // Here its text is in the processor's cache.
         lines += count_lines(chunk.as_bytes());
         seen += chunk.len();
-        survey.add(table, base, region.end, job.environment.dialect);
+        file_index.add(table, base, region.end, job.environment.dialect);
         // Comments after the part that the control reads silence nothing, wherever the chunk ends.
         let read = table.directives().iter().filter(|r| r.start + base < region.end);
         directives.extend(read.map(|r| r.start + base..r.end + base));
@@ -318,10 +321,10 @@ fn check_with(job: &Job<'_>, rules: &Selection) -> Outcome {
     });
     lines += count_lines(text.as_bytes().get(seen..).unwrap_or_default());
     let text = ProgramText::whole(text);
-    check_file(job.environment, &plan, &text, region, &survey, &mut collector);
-    let (assumptions, out_of_fuel) = check_paths(job, &plan, loaded, &survey, &mut collector);
+    check_file(job.environment, &plan, &text, region, &file_index, &mut collector);
+    let (assumptions, out_of_fuel) = check_paths(job, &plan, loaded, &file_index, &mut collector);
     let ends = FileNotes { suppressions: job.suppressions, directives: &directives, lines };
-    let mut outcome = conclude(&plan, &text, &survey, collector, &ends);
+    let mut outcome = conclude(&plan, &text, &file_index, collector, &ends);
     outcome.assumptions = assumptions;
     outcome.out_of_fuel = out_of_fuel;
     outcome
@@ -333,10 +336,10 @@ pub(crate) fn check_file(
     plan: &Plan,
     text: &ProgramText<'_>,
     region: Range<u32>,
-    survey: &Survey,
+    file_index: &FileIndex,
     collector: &mut Collector<'_>,
 ) {
-    let cx = FileCx::new(environment, text, region, survey);
+    let cx = FileCx::new(environment, text, region, file_index);
     for (rule, severity) in &plan.program {
         if let Run::Program { check } = rule.run {
             let mut add = |finding| collector.add(*severity, finding);
@@ -358,11 +361,11 @@ pub(crate) struct FileNotes<'r> {
 pub(crate) fn conclude(
     plan: &Plan,
     text: &ProgramText<'_>,
-    survey: &Survey,
+    file_index: &FileIndex,
     mut collector: Collector<'_>,
     notes: &FileNotes<'_>,
 ) -> Outcome {
-    if let Some(end) = unread_from(survey) {
+    if let Some(end) = unread_from(file_index) {
         // The rest of the block that ends the program is read with it.
         let (base, chunk) = text.around(end);
         let rest = chunk.as_bytes().get((end - base) as usize..).unwrap_or_default();
@@ -377,7 +380,7 @@ fn check_paths(
     job: &Job<'_>,
     plan: &Plan,
     loaded: Loaded<'_>,
-    survey: &Survey,
+    file_index: &FileIndex,
     collector: &mut Collector<'_>,
 ) -> (Assumptions, bool) {
     if plan.path.is_empty() {
@@ -389,10 +392,10 @@ fn check_paths(
     let rules = Rules { table: plan.table, active: &plan.path };
     let out = RefCell::new(Out { collector, rules, told: Told::default(), case: None });
     let mut add = |severity: Option<Severity>, finding: Finding| out.borrow_mut().add(severity, finding);
-    let mut watchers = Watchers::new(job.environment, &program, &model, survey, &plan.path, &mut add);
+    let mut watchers = Watchers::new(job.environment, &program, &model, file_index, &plan.path, &mut add);
     let machine = &job.environment.machine.engine;
     let all_paths = Task::all_paths(job.execution.work(&program));
-    let switches = switch_positions(job.execution.block_skip, survey.block_deletes);
+    let switches = switch_positions(job.execution.block_skip, file_index.block_deletes);
     let keeps = watchers.remembers_all();
     let mut partitions = Partitions::default();
     let mut results = Vec::new();
@@ -496,15 +499,15 @@ pub(crate) fn switch_positions(wanted: Option<bool>, levels: u16) -> Vec<u16> {
 }
 
 /// Where the text begins that no run reads: after an end of the program that nothing goes past.
-fn unread_from(survey: &Survey) -> Option<u32> {
+fn unread_from(file_index: &FileIndex) -> Option<u32> {
     let starts = [
-        survey.programs.last().map(|p| p.range.start),
-        survey.labels.last().map(|l| l.range.start),
-        survey.loops.last().map(|l| l.range.start),
-        survey.o_words.last().map(|o| o.range.start),
+        file_index.programs.last().map(|p| p.range.start),
+        file_index.labels.last().map(|l| l.range.start),
+        file_index.loops.last().map(|l| l.range.start),
+        file_index.o_words.last().map(|o| o.range.start),
     ];
     let reached = starts.into_iter().flatten().max().unwrap_or(0);
-    let mut ends = survey.ends.iter().filter(|e| e.ends == Ends::Program && !e.conditional);
+    let mut ends = file_index.ends.iter().filter(|e| e.ends == Ends::Program && !e.conditional);
     ends.find(|e| e.range.start >= reached).map(|e| e.range.end)
 }
 

@@ -11,7 +11,7 @@ use std::rc::Rc;
 
 use gcheck_controls::Control;
 use gcheck_diagnostics::Finding;
-use gcheck_program::{BlockFlags, Survey, lower};
+use gcheck_program::{BlockFlags, FileIndex, lower};
 use gcheck_syntax::line_len;
 
 use crate::block_delete::name_condition;
@@ -32,20 +32,20 @@ pub struct FileCx<'a> {
     /// The part of the file that the control reads.
     pub region: Range<u32>,
     /// Labels, jumps, calls, loops, ends.
-    pub survey: &'a Survey,
+    pub file_index: &'a FileIndex,
     /// Facts that a rule has asked for.
     facts: RefCell<Vec<(TypeId, Rc<dyn Any>)>>,
 }
 
 impl<'a> FileCx<'a> {
-    /// A file with its survey; `region` is the part that the control reads.
+    /// A file with its file index; `region` is the part that the control reads.
     pub fn new(
         environment: Environment<'a>,
         text: &'a ProgramText<'a>,
         region: Range<u32>,
-        survey: &'a Survey,
+        file_index: &'a FileIndex,
     ) -> Self {
-        Self { environment, text, region, survey, facts: RefCell::default() }
+        Self { environment, text, region, file_index, facts: RefCell::default() }
     }
 
     /// A fact about the file.
@@ -70,7 +70,7 @@ impl<'a> FileCx<'a> {
         self.text.slice(range)
     }
 
-    /// Reads a block again whose place the survey holds, and gives it to `look`.
+    /// Reads a block again whose place the file index holds, and gives it to `look`.
     pub fn reread(&self, place: Range<u32>, mut look: impl FnMut(&BlockCx<'_>)) {
         let base = place.start;
         let text = self.slice(place);
@@ -86,7 +86,7 @@ impl<'a> FileCx<'a> {
         let may_be_skipped =
             |place: &Range<u32>| self.flags_at(place.clone()).contains(BlockFlags::BLOCK_DELETE);
         let all_may_be_skipped =
-            self.survey.block_deletes != 0 && !blocks.is_empty() && blocks.iter().all(may_be_skipped);
+            self.file_index.block_deletes != 0 && !blocks.is_empty() && blocks.iter().all(may_be_skipped);
         let flags = if all_may_be_skipped { BlockFlags::BLOCK_DELETE } else { BlockFlags::empty() };
         name_condition(finding, flags, false)
     }
@@ -94,7 +94,7 @@ impl<'a> FileCx<'a> {
     /// Places by what they do, for [`FileCx::if_run`]; empty where the file has no block delete.
     pub fn places<K: Ord>(&self, of: impl Iterator<Item = (K, Range<u32>)>) -> BTreeMap<K, Vec<Range<u32>>> {
         let mut places: BTreeMap<K, Vec<Range<u32>>> = BTreeMap::new();
-        if self.survey.block_deletes != 0 {
+        if self.file_index.block_deletes != 0 {
             for (key, place) in of {
                 places.entry(key).or_default().push(place);
             }
@@ -113,7 +113,7 @@ impl<'a> FileCx<'a> {
         flags
     }
 
-    /// Reads the file again, block by block. A rule that is on by default must not: it asks the survey.
+    /// Reads the file again, block by block. A rule that is on by default must not: it asks the file index.
     pub fn each_block(&self, mut look: impl FnMut(&BlockCx<'_>)) {
         for (start, run) in self.runs() {
             for chunk in gcheck_syntax::cuts(run) {

@@ -17,7 +17,7 @@ use std::sync::Arc;
 use gcheck_controls::{CodeIx, CodeNumber, Evidence, Letter, LetterSet};
 use gcheck_engine::{FlowObserver, Look, LookedUp, Model, Program};
 use gcheck_program::{
-    BlockFlags, Dialect, EVIDENCE_BYTES, Loaded, Outline, Skeleton, Survey, TapeMarks, lower,
+    BlockFlags, ControlFlowGraph, Dialect, EVIDENCE_BYTES, FileIndex, Loaded, Skeleton, TapeMarks, lower,
 };
 
 pub use chunk::{ChunkFacts, ChunkFindings};
@@ -88,19 +88,31 @@ struct Basis {
     has_first_block: bool,
     /// Codes that rely on words which no block before them gives, wherever they stand.
     never_given: BTreeSet<(CodeIx, Letter)>,
+    /// Local variables in the order of their first assignments: rules ask which are assigned above a block, on its path or not.
+    assigned_locals: Vec<u32>,
 }
 
 impl Basis {
-    fn of(survey: &Survey) -> Self {
-        let mut codes: Vec<CodeNumber> = survey.codes.iter().map(|(code, _)| *code).collect();
+    fn of(file_index: &FileIndex, [first_local, last_local]: [u32; 2]) -> Self {
+        let mut codes: Vec<CodeNumber> = file_index.codes.iter().map(|(code, _)| *code).collect();
         codes.sort_unstable();
         Self {
             codes,
-            letters: survey.letters,
-            has_computed_codes: survey.has_computed_codes,
-            block_deletes: survey.block_deletes,
-            has_first_block: survey.first_block.is_some(),
-            never_given: survey.never_given.iter().map(|missing| (missing.code, missing.letter)).collect(),
+            letters: file_index.letters,
+            has_computed_codes: file_index.has_computed_codes,
+            block_deletes: file_index.block_deletes,
+            has_first_block: file_index.first_block.is_some(),
+            never_given: file_index
+                .never_given
+                .iter()
+                .map(|missing| (missing.code, missing.letter))
+                .collect(),
+            assigned_locals: file_index
+                .assigned
+                .iter()
+                .map(|(number, _)| *number)
+                .filter(|number| (first_local..=last_local).contains(number))
+                .collect(),
         }
     }
 }
@@ -109,9 +121,9 @@ impl Basis {
 #[derive(Debug)]
 pub struct FileFacts {
     /// Labels, jumps, calls, loops, ends.
-    pub survey: Survey,
+    pub file_index: FileIndex,
     /// The control flow as far as the text decides it.
-    pub outline: Arc<Outline>,
+    pub graph: Arc<ControlFlowGraph>,
     /// Where the part ends that the control reads.
     pub region_end: u32,
     /// How many chunks hold some of it.
@@ -179,8 +191,8 @@ impl FileFacts {
         let starts: Vec<u32> = std::iter::once(0).chain(ends).collect();
         let tapes = starts.iter().copied().zip(&facts).map(|(base, facts)| (base, facts.tape()));
         let region_end = TapeMarks::region_end(tapes, at);
-        let mut survey = Survey::default();
-        let mut outline = Outline::builder();
+        let mut file_index = FileIndex::default();
+        let mut graph = ControlFlowGraph::builder();
         let mut skeleton = Skeleton::default();
         let mut flags = Vec::with_capacity(facts.len());
         let mut read = Vec::with_capacity(facts.len());
@@ -191,9 +203,9 @@ impl FileFacts {
                 if end > region_end {
                     facts = of_cut(index, region_end - base);
                 }
-                survey.join(&facts.survey, base, dialect);
-                outline.add_part(&facts.outline, base);
-                skeleton.join(facts.outline.skeleton());
+                file_index.join(&facts.file_index, base, dialect);
+                graph.add_part(&facts.graph, base);
+                skeleton.join(facts.graph.skeleton());
                 flags.push(facts.flags);
             }
             look(index, base, &facts);
@@ -202,8 +214,8 @@ impl FileFacts {
             }
         }
         let chunks = flags.len();
-        let outline = Arc::new(outline.finish());
-        Self { survey, outline, region_end, chunks, facts: read, flags, skeleton, starts }
+        let graph = Arc::new(graph.finish());
+        Self { file_index, graph, region_end, chunks, facts: read, flags, skeleton, starts }
     }
 
     /// Where the part of a chunk ends that the control reads, in bytes of the chunk; the greatest number for all of it.
@@ -232,7 +244,7 @@ impl FileFacts {
 
     /// How many blocks of a chunk the control reads.
     fn blocks_in(&self, chunk: usize) -> u32 {
-        let blocks = self.outline.blocks_of(chunk);
+        let blocks = self.graph.blocks_of(chunk);
         blocks.end - blocks.start
     }
 }
@@ -338,11 +350,11 @@ impl Incremental {
         {
             text = text.with_evidence(evidence);
         }
-        check_file(edited.environment, &plan, &text, 0..whole.region_end, &whole.survey, &mut collector);
+        check_file(edited.environment, &plan, &text, 0..whole.region_end, &whole.file_index, &mut collector);
         self.whole = Some(Arc::clone(&whole));
         let (assumptions, out_of_fuel) = self.check_paths(edited, &plan, &whole, u32::MAX, &mut collector)?;
         let notes = FileNotes { suppressions: edited.suppressions, directives: &directives, lines };
-        let mut outcome = conclude(&plan, &text, &whole.survey, collector, &notes);
+        let mut outcome = conclude(&plan, &text, &whole.file_index, collector, &notes);
         self.evidence = text.into_evidence().map(|evidence| (head, evidence));
         outcome.assumptions = assumptions;
         outcome.out_of_fuel = out_of_fuel;
@@ -373,10 +385,10 @@ impl Incremental {
         whole.check_chunks(edited, 0..chunks, &mut collector);
         let text = ProgramText::chunks(edited.chunks);
         self.whole = Some(Arc::clone(&whole));
-        let end = whole.outline.blocks_of(chunks).start;
+        let end = whole.graph.blocks_of(chunks).start;
         let (assumptions, _) = self.check_paths(edited, &plan, &whole, end, &mut collector)?;
         let notes = FileNotes { suppressions: edited.suppressions, directives: &directives, lines };
-        Ok(Outcome { assumptions, ..conclude(&plan, &text, &whole.survey, collector, &notes) })
+        Ok(Outcome { assumptions, ..conclude(&plan, &text, &whole.file_index, collector, &notes) })
     }
 
     /// Adds what the analysis of paths finds; from the first checkpoint at block `enough` or behind it on it may be left for the
@@ -393,7 +405,8 @@ impl Incremental {
         if plan.path.is_empty() {
             return Ok((Assumptions::new(), false));
         }
-        let same = (Basis::of(&whole.survey), whole.skeleton);
+        let locals = edited.environment.control().semantics().locals;
+        let same = (Basis::of(&whole.file_index, locals), whole.skeleton);
         let is_same =
             self.basis.as_ref().is_some_and(|(known, skeleton)| *known == same.0 && skeleton.is_as(&same.1));
         let texts = edited.chunks.get(..whole.chunks).unwrap_or_default();
@@ -403,7 +416,7 @@ impl Incremental {
         self.basis = Some(same);
         let library = ProgramLibrary(edited.environment.programs);
         let model = Model::new(edited.environment.control());
-        let switches = switch_positions(edited.execution.block_skip, whole.survey.block_deletes);
+        let switches = switch_positions(edited.execution.block_skip, whole.file_index.block_deletes);
         let mark = collector.mark();
         loop {
             let files = self.looked_up.files();
@@ -412,14 +425,14 @@ impl Incremental {
                 texts.to_vec(),
                 whole.flags.clone(),
                 whole.region_end,
-                Arc::clone(&whole.outline),
+                Arc::clone(&whole.graph),
             );
             let program = Program::with(loaded, edited.environment.dialect, &library, known);
             let inputs = Inputs {
                 environment: edited.environment,
                 program: &program,
                 model: &model,
-                survey: &whole.survey,
+                file_index: &whole.file_index,
                 rules: Rules { table: plan.table, active: &plan.path },
                 fuel: edited.execution.work(&program),
                 layout: &self.layout,
@@ -516,14 +529,14 @@ impl Incremental {
             texts.to_vec(),
             whole.flags.clone(),
             whole.region_end,
-            Arc::clone(&whole.outline),
+            Arc::clone(&whole.graph),
         );
         let program = Program::with(loaded, edited.environment.dialect, &library, known);
         let inputs = Inputs {
             environment: edited.environment,
             program: &program,
             model: &model,
-            survey: &whole.survey,
+            file_index: &whole.file_index,
             rules: Rules { table: RuleTable::EMPTY, active: &[] },
             fuel: edited.execution.work(&program),
             layout: &self.layout,

@@ -12,10 +12,10 @@ use gcheck_controls::{Code, CodeIx, CodeNumber, Control, Effect, Letter, LetterS
 use gcheck_diagnostics::{Certainty, Finding, RuleMeta, Severity};
 use gcheck_engine::{
     Abstract, AbstractValue, At, Domain, Fact, FlowCx, FlowResult, FrameKind, Look, Model, Origin, Program,
-    Role, State, Trace, Units,
+    ReachingDefinitions, Role, State, Units,
 };
 use gcheck_geometry::Mm;
-use gcheck_program::{BlockFlags, BlockTable, ExprIx, Place, Survey, Word};
+use gcheck_program::{BlockFlags, BlockTable, ExprIx, FileIndex, Place, Word};
 
 use crate::block_context::facts_of;
 use crate::evaluated::{BlockOfValues, Evaluated, with_codes};
@@ -32,7 +32,7 @@ pub struct PathCx<'a> {
     /// The control, prepared for execution.
     pub model: &'a Model<'a>,
     /// What the main file holds, without regard to paths.
-    pub survey: &'a Survey,
+    pub file_index: &'a FileIndex,
     pub(crate) flow: &'a FlowCx<'a>,
     /// The block's words, when a rule was shown the block.
     pub(crate) read: Option<&'a ReadBlock>,
@@ -144,8 +144,8 @@ impl<'a> PathCx<'a> {
     }
 
     /// Where facts were set.
-    pub fn trace(&self) -> &'a Trace {
-        self.flow.trace
+    pub fn definitions(&self) -> &'a ReachingDefinitions {
+        self.flow.definitions
     }
 
     /// The block.
@@ -340,13 +340,13 @@ impl<'a> PathCx<'a> {
     pub fn file_uses(&self, is: impl Fn(Effect) -> bool) -> bool {
         let control = self.control();
         let mut codes =
-            self.survey.codes.iter().filter_map(|(number, _)| control.code_at(control.code_ix(*number)));
+            self.file_index.codes.iter().filter_map(|(number, _)| control.code_at(control.code_ix(*number)));
         codes.any(|code| is(code.effect()))
     }
 
     /// May the file use such a code? As [`Self::file_uses`], but a computed code may be any.
     pub fn file_may_use(&self, is: impl Fn(Effect) -> bool) -> bool {
-        self.survey.has_computed_codes || self.file_uses(is)
+        self.file_index.has_computed_codes || self.file_uses(is)
     }
 
     /// The file holds what others call, and no main program: what its caller set is not known.
@@ -450,7 +450,7 @@ impl<'a> PathCx<'a> {
     /// Adds where a fact was set: `G41` set here. A fact that still is as at power-on is an assumption, and nothing that
     /// rests on one is more than a warning.
     pub fn resting_on(&self, finding: Finding, fact: Fact, what: &str) -> Finding {
-        match self.trace().set_by(fact) {
+        match self.definitions().set_by(fact) {
             Some(at) if at == self.origin().at => finding,
             Some(at) => {
                 let word = self.find_word(at, |word| sets(self.model, word, fact));
@@ -468,7 +468,7 @@ impl<'a> PathCx<'a> {
     /// Adds the decisions that led here, for findings that hold on some path only.
     pub fn with_path(&self, mut finding: Finding) -> Finding {
         finding.certainty = Certainty::Maybe;
-        for decision in self.trace().decisions().iter().rev().take(3) {
+        for decision in self.definitions().decisions().iter().rev().take(3) {
             if let Some(range) = self.range_of(decision.at) {
                 let goes_on =
                     decision.to.block == decision.at.block + 1 && decision.to.file == decision.at.file;
@@ -516,7 +516,7 @@ pub struct FollowedCx<'a> {
     /// The control, prepared for execution.
     pub model: &'a Model<'a>,
     /// What the main file holds, without regard to paths.
-    pub survey: &'a Survey,
+    pub file_index: &'a FileIndex,
 }
 
 impl<'a> FollowedCx<'a> {
@@ -535,7 +535,7 @@ pub struct FinishCx<'a> {
     /// The control, prepared for execution.
     pub model: &'a Model<'a>,
     /// What the main file holds, without regard to paths.
-    pub survey: &'a Survey,
+    pub file_index: &'a FileIndex,
     /// Reachability and assumptions.
     pub result: &'a FlowResult,
     /// Analyses with other positions of the block delete switch.

@@ -27,7 +27,7 @@ impl PathRule for WithValues {
 
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
         // The caller may give other values.
-        if cx.depth() == 1 && cx.survey.is_called_from_elsewhere() {
+        if cx.depth() == 1 && cx.file_index.is_called_from_elsewhere() {
             return;
         }
         let Some(known) = cx.block_of_values().filter(|known| known.block.flags.intersects(self.trigger))

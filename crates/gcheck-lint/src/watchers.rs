@@ -12,7 +12,7 @@ use gcheck_diagnostics::{Finding, Severity};
 use gcheck_engine::{
     At, Ending, Event, Fault, FlowCx, FlowObserver, FlowResult, Model, Origin, Program, TravelKind,
 };
-use gcheck_program::{BlockFlags, Survey};
+use gcheck_program::{BlockFlags, FileIndex};
 use rustc_hash::FxHashMap;
 
 use crate::block_delete::{self, Key};
@@ -46,7 +46,7 @@ pub(crate) struct Watchers<'a, 'c> {
     environment: Environment<'a>,
     program: &'a Program<'a>,
     model: &'a Model<'a>,
-    survey: &'a Survey,
+    file_index: &'a FileIndex,
     rules: Vec<Active>,
     shared: SharedMemories,
     /// By bit of [`Watch`]: indices of the rules that watch it.
@@ -102,11 +102,11 @@ impl<'a, 'c> Watchers<'a, 'c> {
         environment: Environment<'a>,
         program: &'a Program<'a>,
         model: &'a Model<'a>,
-        survey: &'a Survey,
+        file_index: &'a FileIndex,
         rules: &[(&'static RuleEntry, Option<Severity>)],
         add: &'c mut dyn FnMut(Option<Severity>, Finding),
     ) -> Self {
-        let uses = Uses::new(environment, survey);
+        let uses = Uses::new(environment, file_index);
         let mut active = Vec::new();
         let mut shared = SharedMemories::default();
         for (entry, severity) in rules {
@@ -123,7 +123,7 @@ impl<'a, 'c> Watchers<'a, 'c> {
             environment,
             program,
             model,
-            survey,
+            file_index,
             rules: active,
             shared,
             lists,
@@ -202,7 +202,7 @@ impl<'a, 'c> Watchers<'a, 'c> {
 
     /// All paths were seen with one position of the block delete switch.
     pub(crate) fn followed(&mut self) {
-        let cx = FollowedCx { environment: self.environment, model: self.model, survey: self.survey };
+        let cx = FollowedCx { environment: self.environment, model: self.model, file_index: self.file_index };
         let nothing = BlockFlags::empty();
         self.each(Watch::FOLLOWED, nothing, &Cell::new(false), |rule, report| rule.followed(&cx, report));
     }
@@ -213,7 +213,7 @@ impl<'a, 'c> Watchers<'a, 'c> {
             environment: self.environment,
             program: self.program,
             model: self.model,
-            survey: self.survey,
+            file_index: self.file_index,
             result,
             others,
         };
@@ -292,7 +292,7 @@ impl<'a, 'c> Watchers<'a, 'c> {
             environment: self.environment,
             program: self.program,
             model: self.model,
-            survey: self.survey,
+            file_index: self.file_index,
             flow,
             read,
             had_enough,

@@ -96,7 +96,7 @@ impl Session {
     /// As [`Session::check`].
     pub fn toolpath(&mut self, text: &str, control: &str) -> Result<Toolpath, Refused> {
         let document = self.document(text, control)?;
-        let snapshot = self.database.outlined(document).ok_or_else(gone)?;
+        let snapshot = self.database.indexed(document).ok_or_else(gone)?;
         gcheck_ide::toolpath(&snapshot, MAX_BLOCKS, MAX_SEGMENTS, &|| false).map_err(|_| gone())
     }
 

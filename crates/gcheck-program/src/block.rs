@@ -60,6 +60,8 @@ bitflags::bitflags! {
         const AXIS_TWICE = 1 << 20;
         /// A word whose number has a blank between its digits: `X1. 5`.
         const DIVIDED_NUMBER = 1 << 21;
+        /// Text that is not code and reads like a remark without its parentheses. The letters and numbers in it mean nothing.
+        const REMARK = 1 << 22;
     }
 }
 

@@ -1,4 +1,4 @@
-//! A file ready to be executed: its chunks, its outline, and block tables on demand.
+//! A file ready to be executed: its chunks, its flow graph, and block tables on demand.
 //!
 //! Knows: how a text is cut and lowered, which tables are worth keeping. Must not know: what executing means. Memory stays
 //! bounded: of a large file only the tables in use are kept, and the others are lowered again when a jump needs them.
@@ -13,10 +13,10 @@ use std::sync::Arc;
 use gcheck_syntax::cuts;
 
 use crate::block::{Block, BlockFlags, BlockIx, BlockTable, Value};
+use crate::control_flow_graph::ControlFlowGraph;
 use crate::expression::ExprIx;
+use crate::file_index::code_region;
 use crate::lower::{Dialect, lower, skim};
-use crate::outline::Outline;
-use crate::survey::code_region;
 
 /// Bytes of text whose tables are kept.
 const KEPT: usize = 2 << 20;
@@ -29,7 +29,7 @@ pub struct Loaded<'a> {
     /// By chunk: what any of its blocks has.
     flags: Vec<BlockFlags>,
     region_end: u32,
-    outline: Arc<Outline>,
+    graph: Arc<ControlFlowGraph>,
     tables: RefCell<Tables>,
     /// What was looked at, when somebody asked to be told.
     touched: RefCell<Option<Touched>>,
@@ -98,7 +98,7 @@ impl Place {
 }
 
 impl<'a> Loaded<'a> {
-    /// Cuts, lowers and outlines a text; `see` looks at each table on the way, with its offset in the file and the chunk's text.
+    /// Cuts, lowers and flow graphs a text; `see` looks at each table on the way, with its offset in the file and the chunk's text.
     ///
     /// Of a chunk of a large file whose blocks only say where to (axis words and words of arcs, [without
     /// flags](BlockFlags)) `see` is shown the blocks without their words.
@@ -109,7 +109,7 @@ impl<'a> Loaded<'a> {
     ) -> Self {
         let text = text.into();
         let region_end = code_region(&text).end as u32;
-        let mut builder = Outline::builder();
+        let mut builder = ControlFlowGraph::builder();
         let mut chunks = Vec::new();
         let mut flags = Vec::new();
         let mut tables = Tables { slots: Vec::new(), kept: VecDeque::new(), bytes: 0 };
@@ -132,18 +132,18 @@ impl<'a> Loaded<'a> {
                 tables.keep(chunks.len() as u32 - 1, Rc::new(table), chunk.len());
             }
         }
-        let outline = Arc::new(builder.finish());
+        let graph = Arc::new(builder.finish());
         let (text, tables) = (Text::Whole(text), RefCell::new(tables));
-        Self { text, chunks, flags, region_end, outline, tables, touched: RefCell::default() }
+        Self { text, chunks, flags, region_end, graph, tables, touched: RefCell::default() }
     }
 
-    /// Puts a file together from chunks whose outline is known; `flags` says for each of them what any of its blocks
+    /// Puts a file together from chunks whose flow graph is known; `flags` says for each of them what any of its blocks
     /// has. Chunks after the part that the control reads may be left out.
     pub fn of_chunks(
         texts: Vec<Arc<str>>,
         flags: Vec<BlockFlags>,
         region_end: u32,
-        outline: Arc<Outline>,
+        graph: Arc<ControlFlowGraph>,
     ) -> Self {
         let mut end = 0;
         let ends = texts.iter().map(|text| {
@@ -158,7 +158,7 @@ impl<'a> Loaded<'a> {
             chunks,
             flags,
             region_end,
-            outline,
+            graph,
             tables: RefCell::new(tables),
             touched: RefCell::default(),
         }
@@ -175,7 +175,7 @@ impl<'a> Loaded<'a> {
     /// Notes a block as looked at, without reading it.
     pub fn note(&self, block: u32) {
         if let Some(touched) = &mut *self.touched.borrow_mut()
-            && let Some((chunk, _)) = self.outline.chunk_of(block)
+            && let Some((chunk, _)) = self.graph.chunk_of(block)
             && touched.chunks.last() != Some(&(chunk as u32))
         {
             touched.chunks.push(chunk as u32);
@@ -227,8 +227,8 @@ impl<'a> Loaded<'a> {
     }
 
     /// Labels, loops, programs, O-words by block number.
-    pub fn outline(&self) -> &Outline {
-        &self.outline
+    pub fn flow_graph(&self) -> &ControlFlowGraph {
+        &self.graph
     }
 
     /// The text of a chunk.
@@ -253,7 +253,7 @@ impl<'a> Loaded<'a> {
         }
         let chunks = (0..self.chunks.len())
             .filter(move |chunk| self.flags.get(*chunk).is_some_and(|f| f.intersects(flags)));
-        let blocks = chunks.flat_map(|chunk| self.outline.blocks_of(chunk));
+        let blocks = chunks.flat_map(|chunk| self.graph.blocks_of(chunk));
         blocks.filter_map(move |block| {
             let place = self.place(block, dialect)?;
             place.block().flags.intersects(flags).then_some((block, place))
@@ -262,10 +262,10 @@ impl<'a> Loaded<'a> {
 
     /// A block by its number in the file.
     pub fn place(&self, block: u32, dialect: &Dialect<'_>) -> Option<Place> {
-        if block >= self.outline.blocks() {
+        if block >= self.graph.blocks() {
             return None;
         }
-        let (chunk, index) = self.outline.chunk_of(block)?;
+        let (chunk, index) = self.graph.chunk_of(block)?;
         let base = self.chunks.get(chunk)?.start;
         let chunk = chunk as u32;
         let table = self.table(chunk, dialect);

@@ -538,11 +538,16 @@ impl<'t, 'd> LowerSink<'t, 'd> {
         let range = open.start..self.end;
         let text = self.slice(&range);
         let (letter, rest) = match text {
-            [b',', letter, rest @ ..] => (Letter::corner(*letter).or(Letter::new(*letter)), rest),
+            // `, R5.`: blanks may be between the comma and its letter.
+            [b',', parted @ ..] => match parted.trim_ascii_start() {
+                [letter, rest @ ..] => (Letter::corner(*letter).or(Letter::new(*letter)), rest),
+                [] => return,
+            },
             [letter, rest @ ..] => (Letter::new(*letter).or_else(|| Letter::sign(*letter)), rest),
             [] => return,
         };
         let Some(letter) = letter else { return };
+        let value_start = range.end - rest.len() as u32;
         // `X 1.`, `X 1. 5`, `X - 1.`: a number after all, spread over tokens.
         // `X--1.` is an expression: its signs are taken one after the other.
         let literal = !rest.is_empty()
@@ -557,7 +562,7 @@ impl<'t, 'd> LowerSink<'t, 'd> {
             }
             let (value, shape) = number::parse(rest);
             (Value::Number(value), shape)
-        } else if let Some(expr) = self.take_expr(open.ops, open.start + 1) {
+        } else if let Some(expr) = self.take_expr(open.ops, value_start) {
             (Value::Expr(expr), NumberShape::default())
         } else {
             (Value::Missing, NumberShape::default())
@@ -652,8 +657,24 @@ impl<'t, 'd> LowerSink<'t, 'd> {
         let range = open.start..self.end.max(open.start);
         let mut flags = self.block_flags;
         flags.set(BlockFlags::ERROR, errors);
+        flags.set(BlockFlags::REMARK, errors && self.reads_like_a_remark());
         self.push_block(range, flags, words);
         debug_assert_eq!(ix.index() + 1, self.table.blocks.len(), "one block a BLOCK node");
+    }
+
+    /// Is text of the open block in a script that no code is in, or at least three words long?
+    fn reads_like_a_remark(&self) -> bool {
+        let errors = self.table.errors.get(self.block_errors..).unwrap_or_default();
+        let mut foreign_letters = 0;
+        for (_, error) in errors.iter().filter(|(_, error)| error.kind == SyntaxErrorKind::Unexpected) {
+            let text =
+                self.text.get(error.range.start as usize..error.range.end as usize).unwrap_or_default();
+            if text.split_ascii_whitespace().filter(|word| word.len() > 1).nth(2).is_some() {
+                return true;
+            }
+            foreign_letters += text.chars().filter(|c| !c.is_ascii() && c.is_alphabetic()).count();
+        }
+        foreign_letters > 2
     }
 
     fn push_block(&mut self, range: Range<u32>, mut flags: BlockFlags, words: Range<u32>) {

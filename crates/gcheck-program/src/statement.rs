@@ -1,6 +1,6 @@
 //! Macro and O-word statements.
 //!
-//! Knows: their parts by index. Must not know: which blocks they join (see [`crate::survey`]).
+//! Knows: their parts by index. Must not know: which blocks they join (see [`crate::file index`]).
 
 use std::ops::Range;
 

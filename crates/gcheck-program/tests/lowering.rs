@@ -126,6 +126,53 @@ fn plain_motion_asks_for_no_attention() {
 }
 
 #[test]
+fn blanks_may_part_the_comma_of_a_corner_word_from_it() {
+    check(
+        "fanuc-mill",
+        "G1 X50. , R 15.\nX0. ,  C[#1]\nY5., RADIUS\n",
+        &expect![[r#"
+        "G1 X50. , R 15." BlockFlags(CODE)
+          G = 1  G1
+          X = 50 (0 decimals)
+          ,R = 15 (0 decimals)
+        "X0. ,  C[#1]" BlockFlags(EXPRESSION)
+          X = 0 (0 decimals)
+          ,C = #1
+        "Y5., RADIUS" BlockFlags(ERROR)
+          Y = 5 (0 decimals)
+          ! Unexpected ","
+          ! Unexpected "RADIUS"
+    "#]],
+    );
+}
+
+#[test]
+fn text_that_no_code_is_in_reads_like_a_remark() {
+    check(
+        "fanuc-mill",
+        "G37 Länge messen über Maß\nMOVE TO THE START X1.\nX1. Y\nX1. FOO\n",
+        &expect![[r#"
+        "G37 Länge messen über Maß" BlockFlags(CODE | ERROR | UNREAD_WORD | REMARK)
+          G = 37  G37
+          L = nothing
+          ! AddressWithoutValue "L"
+          ! Unexpected "ä"
+          ! Unexpected "nge messen über Maß"
+        "MOVE TO THE START X1." BlockFlags(ERROR | REMARK)
+          X = 1 (0 decimals)
+          ! Unexpected "MOVE TO THE START"
+        "X1. Y" BlockFlags(ERROR)
+          X = 1 (0 decimals)
+          Y = nothing
+          ! AddressWithoutValue "Y"
+        "X1. FOO" BlockFlags(ERROR)
+          X = 1 (0 decimals)
+          ! Unexpected "FOO"
+    "#]],
+    );
+}
+
+#[test]
 fn codes_are_resolved_and_numbers_keep_their_shape() {
     check(
         "haas-mill",
@@ -416,6 +463,8 @@ fn piece() -> impl Strategy<Value = &'static str> {
         " ",
         "/1",
         ",R1.",
+        ", R1.",
+        " , C ",
         "@1",
         "$0",
         "O<a b>",

@@ -8,7 +8,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, PoisonError, RwLock};
 
 use gcheck_db::{DocumentId, Snapshot};
-use gcheck_ide::RunFigures;
+use gcheck_ide::RunStatistics;
 
 use crate::proto::Uri;
 use crate::{InForce, OpenPrograms};
@@ -44,16 +44,16 @@ pub(crate) struct Document {
     /// The clock when its analysis used up its time: it is not tried again with the same text.
     pub(crate) too_long: Option<u64>,
     /// What its run amounted to, and the clock then.
-    pub(crate) figures: Option<(u64, Arc<RunFigures>)>,
+    pub(crate) figures: Option<(u64, Arc<RunStatistics>)>,
     /// The run for its figures that is under way.
-    pub(crate) run: FiguresRun,
+    pub(crate) run: StatisticsRun,
     /// When it was changed last, compared with others.
     pub(crate) touched: u64,
 }
 
 /// Is a run for the figures of a document under way?
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum FiguresRun {
+pub(crate) enum StatisticsRun {
     /// No.
     Idle,
     /// Yes.

@@ -144,7 +144,7 @@ impl Owner {
     }
 
     fn is_traced(&self) -> bool {
-        self.is_ready && self.client_settings.iter().any(|(_, settings)| settings.trace)
+        self.is_ready && self.client_settings.iter().any(|(_, settings)| settings.definitions)
     }
 
     /// Does work. A panic ends it and is reported; the data of the work may be broken and is made again.
@@ -209,10 +209,10 @@ impl Owner {
         self.database.snapshot(id).ok_or_else(|| not_open(uri))
     }
 
-    /// The same for who asks for survey or outline, which cost little after an edit.
-    pub(crate) fn outlined(&mut self, uri: &Uri) -> Result<Snapshot> {
+    /// The same for who asks for index or flow graph, which cost little after an edit.
+    pub(crate) fn indexed(&mut self, uri: &Uri) -> Result<Snapshot> {
         let id = self.document(uri)?.id;
-        self.database.outlined(id).ok_or_else(|| not_open(uri))
+        self.database.indexed(id).ok_or_else(|| not_open(uri))
     }
 
     /// For translating places of a document.

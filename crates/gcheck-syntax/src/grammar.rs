@@ -402,6 +402,7 @@ fn item<S: Sink>(p: &mut Parser<'_, S>) {
         Token::Word => word(p),
         Token::Letter if starts_prose(p, p.at) => prose(p),
         Token::Letter => address(p),
+        Token::Comma if starts_parted_corner_word(p) => parted_corner_word(p),
         Token::OName => o_statement(p),
         Token::Variable | Token::NamedVariable | Token::Hash => assignment(p),
         Token::LBracket => condition(p),
@@ -616,7 +617,24 @@ fn address<S: Sink>(p: &mut Parser<'_, S>) {
     p.sink.start_node(SyntaxKind::ADDRESS);
     p.bump();
     let letter = start..p.end_of_previous();
-    let value = match p.peek_past_blanks(0) {
+    let has_value = value_of_address(p);
+    p.sink.finish_node();
+    if !has_value {
+        p.error(SyntaxErrorKind::AddressWithoutValue, letter);
+        return;
+    }
+    if is_o && p.peek_past_blanks(0).is_some_and(is_o_keyword) {
+        p.sink.start_node_at(statement, SyntaxKind::O_STATEMENT);
+        o_tail(p, start);
+        p.sink.finish_node();
+        return;
+    }
+    needs_brackets(p);
+}
+
+/// What comes after the letter of an address, if it is a value.
+fn value_of_address<S: Sink>(p: &mut Parser<'_, S>) -> bool {
+    match p.peek_past_blanks(0) {
         Some(Token::Number) => {
             p.skip_blanks();
             if p.profile.blanks_in_numbers {
@@ -637,19 +655,38 @@ fn address<S: Sink>(p: &mut Parser<'_, S>) {
             true
         }
         _ => false,
-    };
+    }
+}
+
+/// Do blanks and the address of a corner word, `R` or `C`, come after the comma here?
+fn starts_parted_corner_word<S: Sink>(p: &Parser<'_, S>) -> bool {
+    let at = p.index_past_blanks(1);
+    let Some(next) = p.tokens.get(at) else { return false };
+    matches!(p.text.get(next.start as usize), Some(b'R' | b'C' | b'r' | b'c'))
+        && (next.token == Token::Word || next.token == Token::Letter && !starts_prose(p, at))
+}
+
+/// `, R 5.`: a corner word, with blanks after its comma.
+fn parted_corner_word<S: Sink>(p: &mut Parser<'_, S>) {
+    p.sink.start_node(SyntaxKind::ADDRESS);
+    p.bump();
+    p.skip_blanks();
+    let letter = p.offset();
+    let is_word = p.current() == Some(Token::Word);
+    let goes_on = p.number_goes_on(1);
+    if is_word && goes_on {
+        number_with_blanks(p);
+    } else {
+        p.bump();
+    }
+    let has_value = is_word || value_of_address(p);
+    let letter = letter..letter + 1;
     p.sink.finish_node();
-    if !value {
+    if has_value {
+        needs_brackets(p);
+    } else {
         p.error(SyntaxErrorKind::AddressWithoutValue, letter);
-        return;
     }
-    if is_o && p.peek_past_blanks(0).is_some_and(is_o_keyword) {
-        p.sink.start_node_at(statement, SyntaxKind::O_STATEMENT);
-        o_tail(p, start);
-        p.sink.finish_node();
-        return;
-    }
-    needs_brackets(p);
 }
 
 fn starts_operand(token: Token) -> bool {

@@ -75,7 +75,7 @@ use crate::{FileCx, Finding, Report, Run};",
         run: "Run::Program { check }",
         check: "\
 fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
-    for label in &cx.survey.labels {
+    for label in &cx.file_index.labels {
         if label.number == 0 {
             report.add(finding(label));
         }

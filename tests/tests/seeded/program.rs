@@ -73,7 +73,7 @@ impl Program {
         let dialect = Dialect::new(&facts);
         let loaded = Loaded::new(text.as_str(), &dialect, |_, _, _| {});
         let mut modes = Modes::default();
-        let blocks = (0..loaded.outline().blocks())
+        let blocks = (0..loaded.flow_graph().blocks())
             .filter_map(|number| loaded.place(number, &dialect))
             .map(|place| {
                 let absolute = |range: Range<u32>| {

@@ -10,7 +10,7 @@ use std::collections::BTreeSet;
 use std::rc::Rc;
 
 use super::heads::Heads;
-use super::trace::{Choice, Trace};
+use super::reaching_definitions::{Choice, ReachingDefinitions};
 use crate::origin::At;
 use crate::state::State;
 use crate::value::Abstract;
@@ -22,7 +22,7 @@ pub struct Branch {
     /// Where the way leads.
     pub(super) to: At,
     pub(super) state: State<Abstract>,
-    pub(super) trace: Trace,
+    pub(super) definitions: ReachingDefinitions,
     pub(super) before: Rc<Before>,
 }
 

@@ -23,7 +23,7 @@ impl Budget {
 
     /// The work for a program.
     pub fn of(self, program: &Program<'_>) -> u64 {
-        let blocks = program.file(0).map_or(0, |file| u64::from(file.loaded.outline().blocks()));
+        let blocks = program.file(0).map_or(0, |file| u64::from(file.loaded.flow_graph().blocks()));
         self.base.saturating_add(self.each_block.saturating_mul(blocks))
     }
 }

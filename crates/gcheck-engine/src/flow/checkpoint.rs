@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 
 use super::budget::GivenUp;
 use super::marks::Marks;
-use super::trace::{Facts, Parting, Trace};
+use super::reaching_definitions::{Facts, Parting, ReachingDefinitions};
 use crate::assumption::Assumption;
 use crate::origin::At;
 use crate::state::State;
@@ -21,7 +21,7 @@ pub struct Checkpoint {
     /// What may be the state.
     pub state: State<Abstract>,
     /// Where its facts were set.
-    pub trace: Trace,
+    pub definitions: ReachingDefinitions,
     /// A path has ended: what comes is no longer on every path.
     pub parted: bool,
     /// How many of the task's choices were made.

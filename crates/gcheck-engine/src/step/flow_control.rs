@@ -2,11 +2,10 @@
 //!
 //! Knows: where control goes, what a call keeps and what it gives. Must not know: conditions' values (the domain decides), motion.
 
-use std::ops::Range;
 use std::rc::Rc;
 
 use gcheck_controls::{CodeIx, Effect, Letter, ReturnTo, Unset};
-use gcheck_program::{BlockFlags, BlockTable, ExprIx, OKeyword, OLabel, Place, StatementKind, Value, Word};
+use gcheck_program::{BlockFlags, BlockTable, ExprIx, Place, Value, Word};
 
 use super::{Count, Ending, Executor, Flow, Outcome, Step};
 use crate::assumption::{Assumption, Unsettled};
@@ -33,6 +32,11 @@ impl<D: Domain> Callee<D> {
         Self { kind, target, repeats: Some(repeats), arguments: Vec::new(), bar_feed: Perhaps::No }
     }
 
+    /// A subroutine with the values of its arguments.
+    pub(super) fn of_subroutine(target: At, arguments: Vec<(u32, D::Value)>) -> Self {
+        Self { arguments, ..Self::plain(FrameKind::OWord, target, 0) }
+    }
+
     /// A macro with the words of its call.
     fn of_macro(target: At, repeats: u32, arguments: Vec<(u32, D::Value)>) -> Self {
         Self { arguments, ..Self::plain(FrameKind::Macro, target, repeats) }
@@ -51,7 +55,6 @@ const MOST_TARGETS: usize = 4097;
 /// Calls that nest deeper than this are taken for a recursion without end where the control names no limit.
 const DEEPEST: usize = 64;
 
-#[expect(clippy::unused_self, reason = "the parts of a step read as its methods")]
 impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// Goes where the block's codes said.
     pub(super) fn follow(&mut self, flow: Flow<D>, state: &mut State<D>) -> Step<Outcome<D>> {
@@ -88,7 +91,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let Some(file) = self.file(at.file) else { return Ok(None) };
         let forward = self.model.semantics().goto_forward_first;
         #[expect(clippy::cast_sign_loss, reason = "range checked above")]
-        let block = file.loaded.outline().label(whole as u32, at.block, forward);
+        let block = file.loaded.flow_graph().label(whole as u32, at.block, forward);
         Ok(block.map(|block| At { file: at.file, block }))
     }
 
@@ -96,11 +99,11 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     fn jump_anywhere(&mut self, value: &D::Value, state: &State<D>) -> Step<Outcome<D>> {
         let at = self.origin.at;
         let Some(file) = self.file(at.file) else { return Err(Fault::Undecidable) };
-        let outline = file.loaded.outline();
-        let part = outline.part_of(at.block);
+        let graph = file.loaded.flow_graph();
+        let part = graph.part_of(at.block);
         let (low, high) = D::bounds(value).unwrap_or((f64::NEG_INFINITY, f64::INFINITY));
         let fits = |number: u32| (low - 0.5..=high + 0.5).contains(&f64::from(number));
-        let targets: Vec<(At, State<D>)> = outline
+        let targets: Vec<(At, State<D>)> = graph
             .labels_in(part)
             .filter(|(number, _)| fits(*number))
             .take(MOST_TARGETS)
@@ -136,7 +139,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         state: &mut State<D>,
     ) -> Step<Outcome<D>> {
         let at = self.origin.at;
-        let end = self.file(at.file).and_then(|file| file.loaded.outline().end_of(at.block));
+        let end = self.file(at.file).and_then(|file| file.loaded.flow_graph().end_of(at.block));
         let Some(end) = end else { return Err(Fault::LoopMismatch) };
         let behind = At { file: at.file, block: end + 1 };
         let Some(condition) = condition else { return Ok(Outcome::Next) };
@@ -154,7 +157,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     }
 
     /// Forks on a condition, each way with what the condition then says.
-    fn both_ways(
+    pub(super) fn both_ways(
         &mut self,
         table: &BlockTable,
         condition: ExprIx,
@@ -172,7 +175,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// `END n`.
     pub(super) fn loop_end(&mut self) -> Step<Outcome<D>> {
         let at = self.origin.at;
-        let head = self.file(at.file).and_then(|file| file.loaded.outline().do_of(at.block));
+        let head = self.file(at.file).and_then(|file| file.loaded.flow_graph().do_of(at.block));
         head.map_or(Err(Fault::LoopMismatch), |block| Ok(Outcome::Jump(At { file: at.file, block })))
     }
 
@@ -419,7 +422,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         Ok(Outcome::Fork(ways))
     }
 
-    fn enter(&mut self, callee: Callee<D>, state: &mut State<D>) -> Step<Outcome<D>> {
+    pub(super) fn enter(&mut self, callee: Callee<D>, state: &mut State<D>) -> Step<Outcome<D>> {
         let limit = self.model.control().limits().call_depth.map_or(DEEPEST, usize::from);
         if state.calls.depth() > limit.min(DEEPEST) {
             return Err(Fault::TooDeep);
@@ -599,299 +602,5 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             self.end_program(false, state)?;
         }
         Ok(Outcome::End(Ending::Restart))
-    }
-
-    // ---- O-words ----
-
-    #[expect(clippy::too_many_lines, reason = "one arm for each keyword")]
-    pub(super) fn o_word(
-        &mut self,
-        place: &Place,
-        table: &BlockTable,
-        label: &OLabel,
-        keyword: OKeyword,
-        arguments: Range<u32>,
-        state: &mut State<D>,
-    ) -> Step<Outcome<D>> {
-        let at = self.origin.at;
-        let to = |block: u32| At { file: at.file, block };
-        let links = self.file(at.file).and_then(|file| file.loaded.outline().o_word(at.block));
-        let Some(links) = links else { return Err(Fault::LoopMismatch) };
-        let first = StatementKind::arguments(&arguments).next();
-        match keyword {
-            OKeyword::Sub => match links.end {
-                // The body runs only when it is called.
-                Some(end)
-                    if state.calls.last().is_none_or(|f| f.entry != at || f.kind != FrameKind::OWord) =>
-                {
-                    if self.holds_subroutine(at, end) {
-                        self.refuse(Fault::LoopMismatch)?;
-                    }
-                    Ok(Outcome::Jump(to(end + 1)))
-                }
-                Some(_) => Ok(Outcome::Next),
-                None => Err(Fault::LoopMismatch),
-            },
-            OKeyword::EndSub | OKeyword::Return => {
-                let is_called = state.calls.last().is_some_and(|f| f.kind == FrameKind::OWord);
-                if !is_called {
-                    return Err(Fault::StrayReturn);
-                }
-                let result = match first {
-                    Some(expr) => Some(self.evaluate(place, table, table.expr(expr), state)?),
-                    None => None,
-                };
-                self.leave(None, result, state)
-            }
-            OKeyword::Call => {
-                let mut values = Vec::new();
-                for (number, expr) in StatementKind::arguments(&arguments).enumerate() {
-                    let value = self.evaluate(place, table, table.expr(expr), state)?;
-                    values.push((number as u32 + 1, value));
-                }
-                if values.len() > self.model.semantics().locals[1] as usize {
-                    return Err(Fault::Conflict);
-                }
-                let computed = match label {
-                    // `O[#1] CALL`: the first expression is the label's.
-                    OLabel::Computed => {
-                        let number = (!values.is_empty()).then(|| values.remove(0).1);
-                        let number = number.as_ref().and_then(D::known).ok_or(Fault::Undecidable)?;
-                        for (slot, _) in &mut values {
-                            *slot -= 1;
-                        }
-                        #[expect(
-                            clippy::cast_sign_loss,
-                            reason = "negative numbers are no labels and become 0"
-                        )]
-                        Some(OLabel::Number(number.round() as u32))
-                    }
-                    _ => None,
-                };
-                let label = computed.as_ref().unwrap_or(label);
-                let Some(target) = self.program.find_subroutine(label, at.file) else {
-                    self.assumptions.insert(Assumption::MissingSubroutine(match label {
-                        OLabel::Name(name) => name.clone(),
-                        OLabel::Number(number) => number.to_string(),
-                        OLabel::Computed => String::new(),
-                    }));
-                    self.refuse_in(Fault::NoSuchProgram, state)?;
-                    self.lose_everything(state)?;
-                    return Ok(Outcome::Next);
-                };
-                let callee = Callee { arguments: values, ..Callee::plain(FrameKind::OWord, target, 0) };
-                self.enter(callee, state)
-            }
-            OKeyword::If | OKeyword::ElseIf => {
-                // An ELSEIF met by running into it ends the branch before.
-                if keyword == OKeyword::ElseIf
-                    && let Some(outcome) = self.unwanted_branch(at, links.end, state)?
-                {
-                    return Ok(outcome);
-                }
-                let Some(condition) = first else { return Err(Fault::Malformed) };
-                let truth = self.condition(place, table, condition, state)?;
-                let Some(next) = links.next.or(links.end) else {
-                    self.want_branch(None, state);
-                    return self.open_end(table, condition, truth, state);
-                };
-                match truth {
-                    Truth::True => {
-                        self.assume(table, condition, true, state);
-                        self.want_branch(None, state);
-                        Ok(Outcome::Next)
-                    }
-                    Truth::False => {
-                        self.assume(table, condition, false, state);
-                        self.want_branch(Some(to(next)), state);
-                        Ok(Outcome::Jump(to(next)))
-                    }
-                    Truth::Unknown => {
-                        let mut yes = state.clone();
-                        self.assume(table, condition, true, &mut yes);
-                        self.want_branch(None, &mut yes);
-                        let mut no = state.clone();
-                        self.assume(table, condition, false, &mut no);
-                        self.want_branch(Some(to(next)), &mut no);
-                        Ok(Outcome::Fork(vec![(at.next(), yes), (to(next), no)]))
-                    }
-                }
-            }
-            OKeyword::Else => {
-                if let Some(outcome) = self.unwanted_branch(at, links.end, state)? {
-                    return Ok(outcome);
-                }
-                self.want_branch(None, state);
-                Ok(Outcome::Next)
-            }
-            OKeyword::EndIf => {
-                if links.head.is_none() {
-                    return Err(Fault::LoopMismatch);
-                }
-                self.want_branch(None, state);
-                Ok(Outcome::Next)
-            }
-            OKeyword::While => {
-                let Some(condition) = first else { return Err(Fault::Malformed) };
-                let truth = self.condition(place, table, condition, state)?;
-                let (holds, fails) = match (links.head, links.end) {
-                    // The end of DO … WHILE.
-                    (Some(head), _) => (to(head + 1), at.next()),
-                    (None, Some(end)) => (at.next(), to(end + 1)),
-                    (None, None) => return self.open_end(table, condition, truth, state),
-                };
-                match truth {
-                    Truth::True => {
-                        self.assume(table, condition, true, state);
-                        Ok(Outcome::Jump(holds))
-                    }
-                    Truth::False => {
-                        self.assume(table, condition, false, state);
-                        Ok(Outcome::Jump(fails))
-                    }
-                    Truth::Unknown => Ok(self.both_ways(table, condition, holds, fails, state)),
-                }
-            }
-            OKeyword::EndWhile => {
-                links.head.map_or(Err(Fault::LoopMismatch), |head| Ok(Outcome::Jump(to(head))))
-            }
-            // The control looks for the end when it comes to it, or has to leave the loop.
-            OKeyword::Do => Ok(Outcome::Next),
-            OKeyword::Repeat => {
-                let Some(count) = first else { return Err(Fault::Malformed) };
-                let value = self.evaluate(place, table, table.expr(count), state)?;
-                // A half goes to the even neighbour (observed).
-                let turns = D::known(&value).map(|n| n.round_ties_even().max(0.0));
-                let Some(end) = links.end else {
-                    return if turns == Some(0.0) { Err(Fault::LoopMismatch) } else { Ok(Outcome::Next) };
-                };
-                #[expect(clippy::cast_sign_loss, reason = "not negative")]
-                match turns {
-                    Some(0.0) => Ok(Outcome::Jump(to(end + 1))),
-                    Some(turns) => {
-                        self.set_counter(at, Flat::Known(turns.min(f64::from(u32::MAX)) as u32), state);
-                        Ok(Outcome::Next)
-                    }
-                    None => {
-                        let skipped = state.clone();
-                        self.set_counter(at, Flat::Unknown, state);
-                        Ok(Outcome::Fork(vec![(at.next(), state.clone()), (to(end + 1), skipped)]))
-                    }
-                }
-            }
-            OKeyword::EndRepeat => {
-                let Some(head) = links.head.map(to) else { return Err(Fault::LoopMismatch) };
-                match state.calls.kept().and_then(|kept| kept.counters.get(head)) {
-                    Some(Flat::Known(left)) if left > 1 => {
-                        self.set_counter(head, Flat::Known(left - 1), state);
-                        Ok(Outcome::Jump(head.next()))
-                    }
-                    Some(Flat::Known(_)) | None => {
-                        self.drop_counter(head, state);
-                        Ok(Outcome::Next)
-                    }
-                    Some(Flat::Unknown) => {
-                        let mut done = state.clone();
-                        self.drop_counter(head, &mut done);
-                        Ok(Outcome::Fork(vec![(head.next(), state.clone()), (at.next(), done)]))
-                    }
-                }
-            }
-            OKeyword::Break => match links.leads_to {
-                Some(end) => {
-                    if let Some(head) = links.head {
-                        self.drop_counter(to(head), state);
-                    }
-                    Ok(Outcome::Jump(to(end + 1)))
-                }
-                None => Err(Fault::LoopMismatch),
-            },
-            // The control looks for the end of the loop first, also where the head decides.
-            OKeyword::Continue if links.end.is_none() => Err(Fault::LoopMismatch),
-            OKeyword::Continue => links.leads_to.map_or(Err(Fault::LoopMismatch), |end| {
-                let block = match (links.head, end) {
-                    // A WHILE decides at its head.
-                    (Some(head), end) if end == head => head,
-                    (_, end) => end,
-                };
-                Ok(Outcome::Jump(to(block)))
-            }),
-        }
-    }
-
-    /// A branch or a loop without its end in the text: the control looks for it only when it has to skip the blocks, and
-    /// refuses the program then. Where the condition is open the path that it refuses ends here.
-    fn open_end(
-        &mut self,
-        table: &BlockTable,
-        condition: ExprIx,
-        truth: Truth,
-        state: &mut State<D>,
-    ) -> Step<Outcome<D>> {
-        if truth == Truth::False {
-            return Err(Fault::LoopMismatch);
-        }
-        self.assume(table, condition, true, state);
-        Ok(Outcome::Next)
-    }
-
-    /// Is a subroutine defined inside the one that begins here?
-    fn holds_subroutine(&mut self, at: At, end: u32) -> bool {
-        if let Some(holds) = self.nested.get(&at) {
-            return *holds;
-        }
-        let is_sub = |outline: &gcheck_program::Outline, block: u32| {
-            outline.o_word(block).is_some_and(|links| links.keyword == OKeyword::Sub)
-        };
-        let file = self.file(at.file);
-        let holds = file.is_some_and(|file| {
-            let outline = file.loaded.outline();
-            (at.block + 1..end).any(|block| is_sub(outline, block))
-        });
-        self.nested.insert(at, holds);
-        holds
-    }
-
-    /// Where a branch leads that is not wanted: past its `IF`. `None` when it is wanted; both ways when nobody knows.
-    fn unwanted_branch(
-        &mut self,
-        at: At,
-        end: Option<u32>,
-        state: &mut State<D>,
-    ) -> Step<Option<Outcome<D>>> {
-        let wanted = state.calls.kept().map_or(Perhaps::No, |kept| kept.wanted_branch);
-        if wanted.yes() == Some(&at) {
-            return Ok(None);
-        }
-        let past = At { file: at.file, block: end.ok_or(Fault::LoopMismatch)? + 1 };
-        if !wanted.is_unknown() {
-            return Ok(Some(Outcome::Jump(past)));
-        }
-        let mut chosen = state.clone();
-        self.want_branch(Some(at), &mut chosen);
-        self.want_branch(None, state);
-        Ok(Some(Outcome::Fork(vec![(past, state.clone()), (at, chosen)])))
-    }
-
-    /// The branch of an IF that was jumped to because the condition before it failed.
-    fn want_branch(&mut self, branch: Option<At>, state: &mut State<D>) {
-        let branch = branch.map_or(Perhaps::No, Perhaps::Yes);
-        if state.calls.kept().is_some_and(|kept| kept.wanted_branch != branch)
-            && let Some(kept) = state.calls.kept_mut()
-        {
-            kept.wanted_branch = branch;
-        }
-    }
-
-    fn set_counter(&mut self, block: At, turns: Flat<u32>, state: &mut State<D>) {
-        if let Some(kept) = state.calls.kept_mut() {
-            kept.counters.set(block, turns);
-        }
-    }
-
-    fn drop_counter(&mut self, block: At, state: &mut State<D>) {
-        if let Some(kept) = state.calls.kept_mut() {
-            kept.counters.remove(block);
-        }
     }
 }

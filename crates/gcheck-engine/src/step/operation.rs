@@ -24,7 +24,7 @@ use crate::state::{Frame, FrameKind, ModeSet, State};
 use crate::value::Domain;
 
 /// An outline as its program was read.
-struct Outline {
+struct ControlFlowGraph {
     /// Its pieces from the start hole on; `None` when they are not all known.
     segments: Option<Vec<ProfileSegment>>,
     /// Increments or positions, as the program leaves them to the blocks after the pocket (Haas NGC mill manual 2017, p. 318).
@@ -190,17 +190,23 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     }
 
     /// The outline that a program draws from the start hole on; `None` when the program is not known.
-    fn outline(&mut self, program: Count, start: &Position, state: &State<D>) -> Step<Option<Outline>> {
+    fn outline(
+        &mut self,
+        program: Count,
+        start: &Position,
+        state: &State<D>,
+    ) -> Step<Option<ControlFlowGraph>> {
         let Count::Known(number) = program else { return Ok(None) };
         let at = self.origin.at;
-        let label = self.file(at.file).and_then(|file| file.loaded.outline().label(number, at.block, true));
+        let label =
+            self.file(at.file).and_then(|file| file.loaded.flow_graph().label(number, at.block, true));
         let found = label.map(|block| At { file: at.file, block });
         let Some(first) = found.or_else(|| self.program.find_number(number, at.file)) else {
             self.assumptions.insert(Assumption::MissingProgram(number));
             return Ok(None);
         };
         let last =
-            self.program.file(first.file).map_or(0, |file| file.loaded.outline().part_of(first.block).end);
+            self.program.file(first.file).map_or(0, |file| file.loaded.flow_graph().part_of(first.block).end);
         let blocks = ProfileBlocks { file: first.file, first: first.block, last: last.saturating_sub(1) };
         let mut drawn = state.clone();
         drawn.points.position = *start;
@@ -213,7 +219,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if !profile.complete {
             distance = distance.join(state.mode(Role::Distance));
         }
-        Ok(Some(Outline { segments: Some(profile.segments).filter(|_| profile.complete), distance }))
+        Ok(Some(ControlFlowGraph { segments: Some(profile.segments).filter(|_| profile.complete), distance }))
     }
 
     /// Radius of the tool that `D` names, now or before; 0 for `D0`, NaN unknown.

@@ -156,6 +156,6 @@ fn plain_block<'c, 'p>(
     let block = table.block(ix);
     let is_plain = block.flags.is_empty()
         && !block.letters.is_empty()
-        && at.block < cursor.file.loaded.outline().blocks();
+        && at.block < cursor.file.loaded.flow_graph().blocks();
     is_plain.then(|| (cursor, block, table.words(block)))
 }

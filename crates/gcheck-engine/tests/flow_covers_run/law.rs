@@ -280,7 +280,7 @@ fn finish(follower: &mut Follower<'_>, ran: &RunResult, look: &mut Look<'_, '_>)
                 follower.lacks(at, format!("ends, and no end was shown: {ending:?}"));
             }
             let Some(file) = look.program().file(0) else { return };
-            for block in 0..file.loaded.outline().blocks() {
+            for block in 0..file.loaded.flow_graph().blocks() {
                 let at = At { file: 0, block };
                 // A block that is skipped is come to, though not executed; so is the end of the tape.
                 let silent = BlockFlags::BLOCK_DELETE | BlockFlags::TAPE_MARK;

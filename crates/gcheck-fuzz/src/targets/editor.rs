@@ -97,7 +97,7 @@ impl World {
         }
         let range = offset..other;
         let _ = gcheck_ide::inlay_hints(&mut self.database, id, range.clone(), InlayOptions::default(), &go);
-        if let Ok(figures) = gcheck_ide::figures(&snapshot, 500, &go) {
+        if let Ok(figures) = gcheck_ide::run_statistics(&snapshot, 500, &go) {
             for lens in gcheck_ide::code_lenses(&snapshot, &figures) {
                 self.inside(id, &lens.range);
             }

@@ -15,7 +15,7 @@ pub(crate) fn run(bytes: &[u8]) {
     assert_eq!(flat, tree, "the tree and the tokens give the same blocks");
     let mut tools = ToolNames::new(case.control);
     let loaded = Loaded::new(&case.text, &dialect, |_, table, text| tools.look(table, text));
-    let blocks = loaded.outline().blocks();
+    let blocks = loaded.flow_graph().blocks();
     for block in 0..blocks {
         assert!(loaded.place(block, &dialect).is_some(), "block {block} of {blocks} has a place");
     }

@@ -10,9 +10,9 @@ use gcheck_program::{BlockFlags, Word};
 
 use super::action::{ActionKind, CodeAction};
 use super::points::pointed;
-use crate::pieces::touches;
-use crate::reading::Reading;
+use crate::lexemes::touches;
 use crate::state_at::look_at;
+use crate::state_reader::StateReader;
 
 /// Offers to write the arc at a place the other way.
 pub(super) fn offer(
@@ -63,7 +63,7 @@ fn rewritten(
     if moves.next().is_some() || arc.expanded || !is_plain || arc.turns.abs() > 1 {
         return None;
     }
-    let reading = Reading::new(snapshot, model);
+    let reader = StateReader::new(snapshot, model);
     let words = place.table.words(place.block());
     let written = |letters: LetterSet| -> Vec<&Word> {
         words.iter().filter(|word| letters.contains(word.letter) && !word.letter.is_corner()).collect()
@@ -72,11 +72,11 @@ fn rewritten(
     let centre_letters: Option<[char; 2]> =
         ['I', 'J', 'K'].get(first).zip(['I', 'J', 'K'].get(second)).map(|(a, b)| [*a, *b]);
     let centre_letters = centre_letters?;
-    let in_program = 1.0 / reading.units(after).in_mm();
+    let in_program = 1.0 / reader.units(after).in_mm();
     let shape = Shape::of(arc)?;
     let radius_words = written(LetterSet::of("R"));
     let centre_words = written(LetterSet::of("IJK"));
-    let decimals = least_decimals(snapshot, &reading, after);
+    let decimals = least_decimals(snapshot, &reader, after);
     match (radius_words.as_slice(), centre_words.as_slice()) {
         ([radius], []) => {
             let is_absolute = after.effect(Role::ArcCentre, model) == Some(Effect::ArcCentreAbsolute);
@@ -155,11 +155,11 @@ impl Shape {
 /// Decimals that the control resolves.
 fn least_decimals(
     snapshot: &Snapshot,
-    reading: &Reading<'_>,
+    reader: &StateReader<'_>,
     state: &gcheck_engine::State<gcheck_engine::Abstract>,
 ) -> i32 {
     let numbers = snapshot.control().numbers();
-    let least = match reading.units(state) {
+    let least = match reader.units(state) {
         gcheck_engine::Units::Inch => numbers.least_inch,
         gcheck_engine::Units::Mm => numbers.least_mm,
     };

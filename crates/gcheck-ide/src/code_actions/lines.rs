@@ -9,7 +9,7 @@ use gcheck_diagnostics::Edit;
 use gcheck_format::{Numbering, renumber};
 
 use super::action::{ActionKind, CodeAction};
-use crate::things::code_end;
+use crate::symbols::code_end;
 
 /// Lines that are changed together.
 const MOST_LINES: u32 = 100_000;
@@ -65,7 +65,7 @@ pub(super) fn offer_block_skip(snapshot: &Snapshot, range: &Range<u32>, actions:
 
 /// Offers to renumber the blocks, with all that names them.
 pub(super) fn offer_renumber(snapshot: &Snapshot, actions: &mut Vec<CodeAction>) {
-    if snapshot.survey().labels.is_empty() {
+    if snapshot.file_index().labels.is_empty() {
         return;
     }
     // The reason of a refusal is for people who ask for the action, not for those who look at the list.

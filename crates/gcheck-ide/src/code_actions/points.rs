@@ -9,7 +9,7 @@ use gcheck_program::{BlockFlags, Word};
 
 use super::action::{ActionKind, CodeAction};
 use crate::describe;
-use crate::figures::plain;
+use crate::number_text::plain;
 
 /// Words that are changed together.
 const MOST: usize = 100_000;
@@ -18,7 +18,7 @@ const MOST: usize = 100_000;
 pub(super) fn offer(snapshot: &Snapshot, actions: &mut Vec<CodeAction>) {
     let control = snapshot.control();
     let numbers = control.numbers();
-    if numbers.unpointed == Unpointed::AsWritten || snapshot.survey().unpointed.is_empty() {
+    if numbers.unpointed == Unpointed::AsWritten || snapshot.file_index().unpointed.is_empty() {
         return;
     }
     let words = words(snapshot);
@@ -74,14 +74,14 @@ fn words(snapshot: &Snapshot) -> Vec<Pointless> {
     let control = snapshot.control();
     let mut found = Vec::new();
     let mut seen = None;
-    for range in &snapshot.survey().unpointed {
+    for range in &snapshot.file_index().unpointed {
         let Some(chunk) = snapshot.chunk_at(range.start) else { continue };
         if seen == Some(chunk.index) {
             continue;
         }
         seen = Some(chunk.index);
         let Some(table) = snapshot.table(chunk.index) else { continue };
-        let end = crate::things::code_end(snapshot);
+        let end = crate::symbols::code_end(snapshot);
         for (_, block) in table.blocks() {
             if !block.flags.contains(BlockFlags::UNPOINTED)
                 || block.flags.contains(BlockFlags::ERROR)
@@ -133,7 +133,7 @@ fn changed_by_point(snapshot: &Snapshot, word: &Word, codes: &[Code<'_>]) -> Opt
 fn least_length(snapshot: &Snapshot) -> Option<f64> {
     let control = snapshot.control();
     let uses = |effect: Effect| {
-        let mut codes = snapshot.survey().codes.iter();
+        let mut codes = snapshot.file_index().codes.iter();
         codes.any(|(number, _)| control.code(*number).is_some_and(|code| code.effect() == effect))
     };
     match (uses(Effect::Inch), uses(Effect::Millimetre)) {

@@ -18,6 +18,8 @@ use gcheck_edit::{
 use gcheck_engine::{Assumption, Axis, Ending, Machine, Options, Role, RunResult, Stopped, Units};
 use gcheck_toolpath::{Act, Aspect, Differences, compare};
 
+use super::cycles::cycle_at;
+
 /// Acts of a run that are kept; of longer programs the command line proves changes.
 const MOST_ACTS: usize = 200_000;
 /// Bytes of a document whose changes are offered.
@@ -43,9 +45,19 @@ pub struct Proved {
     pub claim: String,
 }
 
+/// The change that fits the block at the cursor.
+pub fn proved_change_at(snapshot: &Snapshot, cursor: u32) -> Option<ProvedChange> {
+    if snapshot.len() > MOST_BYTES {
+        return None;
+    }
+    let range = cycle_at(snapshot, cursor)?;
+    let title = "Write this cycle as plain moves, with proof".to_owned();
+    Some(ProvedChange { title, name: "expand-cycle", range: Some(range) })
+}
+
 /// The changes that may fit a selection, or the whole document when nothing is selected.
 pub fn proved_changes(snapshot: &Snapshot, selected: &Range<u32>) -> Vec<ProvedChange> {
-    if snapshot.len() > MOST_BYTES || snapshot.survey().blocks == 0 {
+    if snapshot.len() > MOST_BYTES || snapshot.file_index().blocks == 0 {
         return Vec::new();
     }
     let range = (!selected.is_empty()).then(|| whole_lines(snapshot, selected));
@@ -53,7 +65,7 @@ pub fn proved_changes(snapshot: &Snapshot, selected: &Range<u32>) -> Vec<ProvedC
     let control = snapshot.control();
     let uses = |wanted: &dyn Fn(Effect) -> bool| {
         snapshot
-            .survey()
+            .file_index()
             .codes
             .iter()
             .any(|(number, _)| control.code(*number).is_some_and(|code| wanted(code.effect())))
@@ -61,7 +73,7 @@ pub fn proved_changes(snapshot: &Snapshot, selected: &Range<u32>) -> Vec<ProvedC
     let is = |effect: Effect| uses(&move |other| other == effect);
     let is_mill = control.machine() != MachineKind::Lathe;
     let has_cycle = uses(&|effect| Role::of(effect) == Some(Role::Cycle) && effect != Effect::CycleCancel);
-    let has_loop = !snapshot.survey().loops.is_empty() || !snapshot.survey().o_words.is_empty();
+    let has_loop = !snapshot.file_index().loops.is_empty() || !snapshot.file_index().o_words.is_empty();
     let is_whole = range.is_none();
     let offers = [
         (has_cycle, "expand-cycle", "Write canned cycles as plain moves"),
@@ -164,7 +176,7 @@ pub fn proved(
 
 /// The switches that a change is proved for: block delete off and, where a block has one, also on.
 fn runs(snapshot: &Snapshot) -> Vec<Options> {
-    let has_slash = snapshot.survey().block_deletes > 0;
+    let has_slash = snapshot.file_index().block_deletes > 0;
     if has_slash { vec![Options::NONE, Options::SKIP_ALL] } else { vec![Options::NONE] }
 }
 
@@ -334,7 +346,9 @@ impl Kept {
 mod tests {
     use std::ops::Range;
 
-    use super::{proved, proved_changes};
+    use expect_test::{Expect, expect};
+
+    use super::{proved, proved_change_at, proved_changes};
     use crate::fixture::{Fixture, applied};
 
     const PROGRAM: &str = "O1\nG21 G17 G90 G94 G54 G40 G80\nS1000 M3\nG0 X1. Y2. Z5.\nG1 Z-1. F100.\nG2 X3. Y2. I1.\nG0 Z5.\nG81 X5. Z-3. R2. F80.\nG80\nM30\n";
@@ -370,6 +384,106 @@ mod tests {
         let (text, _) = answer(PROGRAM, "expand-cycle", None).unwrap();
         assert!(text.contains("G0 X5.\nG0 Z2.\nG1 Z-3. F80.\nG0 Z5.\nG80"), "{text}");
         assert_eq!(answer(PROGRAM, "unroll-loop", None).unwrap().1, "there is nothing to change");
+    }
+
+    /// The title of the change at the cursor, and what it makes of the program.
+    fn check_at_cursor(control: &str, text: &str, expected: &Expect) {
+        let fixture = Fixture::new(control, text);
+        let snapshot = fixture.snapshot();
+        let Some(change) = proved_change_at(&snapshot, fixture.offset) else {
+            return expected.assert_eq("nothing is offered\n");
+        };
+        let answer = proved(&snapshot, change.name, change.range, 100_000, &|| false).unwrap();
+        let shown = match answer {
+            Ok(proved) => {
+                format!("{}: {}\n", applied(&snapshot.text(), &proved.edits).trim_end(), proved.claim)
+            }
+            Err(reason) => format!("{reason}\n"),
+        };
+        expected.assert_eq(&format!("{}\n{shown}", change.title));
+    }
+
+    #[test]
+    fn a_cycle_becomes_plain_moves() {
+        check_at_cursor(
+            "haas-mill",
+            "O1\nG21 G90 G54 G0 X0. Y0. Z10.\nN5 G99 G83$0 X1. Y2. Z-6. R2. Q3. F100.\nX5.\nG80\nG0 Z50.\nM30\n",
+            &expect![[r#"
+                Write this cycle as plain moves, with proof
+                O1
+                G21 G90 G54 G0 X0. Y0. Z10.
+                N5 G99
+                G0 X1. Y2.
+                G0 Z2.
+                G1 Z-1. F100.
+                G0 Z2.
+                G0 Z1.54
+                G1 Z-4.
+                G0 Z2.
+                G0 Z-1.46
+                G1 Z-6.
+                G0 Z2.
+                G0 X5.
+                G1 Z-1.
+                G0 Z2.
+                G0 Z1.54
+                G1 Z-4.
+                G0 Z2.
+                G0 Z-1.46
+                G1 Z-6.
+                G0 Z2.
+                G80
+                G0 Z50.
+                M30: every move is as before, within 0.001 mm (21 moves compared)
+            "#]],
+        );
+        check_at_cursor(
+            "linuxcnc",
+            "G21 G90 G0 X0 Y0 Z10\nG98 G82 X1 Y2 Z-6 R2 P0.5 F100$0\nG80\nG0 Z50\nM2\n",
+            &expect![[r#"
+                Write this cycle as plain moves, with proof
+                G21 G90 G0 X0 Y0 Z10
+                G98
+                G61
+                G0 X1 Y2
+                G0 Z2
+                G1 Z-6 F100
+                G4 P0.5
+                G0 Z10
+                G64
+                G80
+                G0 Z50
+                M2: every move is as before, within 0.001 mm (6 moves compared)
+            "#]],
+        );
+    }
+
+    #[test]
+    fn a_cycle_stays_where_other_cycles_go_on_or_it_is_more_than_moves() {
+        let text =
+            "O1\nG21 G90 G54 S500 M3 G0 X0. Y0. Z10.\nG84$0 X1. Y2. Z-6. R2. F500.\nG80\nG0 Z50.\nM30\n";
+        check_at_cursor(
+            "haas-mill",
+            text,
+            &expect![[r#"
+                nothing is offered
+            "#]],
+        );
+        let text = "O1\nG21 G90 G54 G0 X0. Y0. Z10.\nG81$0 X1. Y2. Z-6. R2. F100.\nG82 X5. P500\nG80\nG0 Z50.\nM30\n";
+        check_at_cursor(
+            "haas-mill",
+            text,
+            &expect![[r#"
+            nothing is offered
+        "#]],
+        );
+        check_at_cursor(
+            "haas-mill",
+            "O1\nG21 G90 G54\nG0$0 X0. Y0. Z10.\nM30\n",
+            &expect![[r#"
+            nothing is offered
+        "#]],
+        );
     }
 
     #[test]

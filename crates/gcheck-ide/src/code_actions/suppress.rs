@@ -6,7 +6,7 @@ use gcheck_db::Snapshot;
 use gcheck_diagnostics::{Edit, Finding};
 
 use super::action::{ActionKind, CodeAction};
-use crate::pieces::pieces;
+use crate::lexemes::lexemes;
 use gcheck_syntax::SyntaxKind;
 
 /// Stands for the reason, which only a person can give.
@@ -39,10 +39,10 @@ fn on_line(snapshot: &Snapshot, line: u32, comment: &str) -> Option<Edit> {
     if text.trim_start().starts_with('%') {
         return None;
     }
-    let tokens = pieces(snapshot, &text, range.start);
+    let tokens = lexemes(snapshot, &text, range.start);
     let is_open = tokens
         .iter()
-        .any(|piece| matches!(piece.kind, SyntaxKind::LINE_COMMENT | SyntaxKind::BROKEN_COMMENT));
+        .any(|lexeme| matches!(lexeme.kind, SyntaxKind::LINE_COMMENT | SyntaxKind::BROKEN_COMMENT));
     let length = text.chars().count() + comment.len() + 1;
     let is_long = snapshot.control().limits().line_length.is_some_and(|most| length > most as usize);
     if is_open || is_long {
@@ -59,10 +59,10 @@ fn head(snapshot: &Snapshot) -> u32 {
         let line = snapshot.line_at(offset) + 1;
         if line < snapshot.line_count() { snapshot.line_range(line).start } else { 0 }
     };
-    let survey = snapshot.survey();
-    let first = survey.first_block.as_ref().map_or(u32::MAX, |first| first.start);
-    let number = survey.programs.first().filter(|program| program.range.start <= first);
-    let mark = survey.tape_marks.first().filter(|mark| mark.start < first);
+    let file_index = snapshot.file_index();
+    let first = file_index.first_block.as_ref().map_or(u32::MAX, |first| first.start);
+    let number = file_index.programs.first().filter(|program| program.range.start <= first);
+    let mark = file_index.tape_marks.first().filter(|mark| mark.start < first);
     match (number, mark) {
         (Some(number), _) => behind(number.range.start),
         (None, Some(mark)) => behind(mark.start),

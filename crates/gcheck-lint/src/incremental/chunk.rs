@@ -1,12 +1,12 @@
 //! What one chunk gives by itself, whatever is around it.
 //!
-//! Knows: the tiers that see a block or less, what survey and outline collect. Must not know: where in the file the chunk is,
+//! Knows: the tiers that see a block or less, what index and flow graph collect. Must not know: where in the file the chunk is,
 //! other chunks.
 
 use std::ops::Range;
 
 use gcheck_diagnostics::Finding;
-use gcheck_program::{BlockFlags, ChunkOutline, Dialect, Survey, TapeMarks, lower};
+use gcheck_program::{BlockFlags, ChunkFlow, Dialect, FileIndex, TapeMarks, lower};
 
 use super::anchored::moved_on;
 use crate::check::{Collector, Omitted, Plan, check_blocks, count_lines};
@@ -16,8 +16,8 @@ use crate::{Environment, Selection};
 /// The facts of a chunk that the file as a whole is asked about. Every offset counts from the chunk's start.
 #[derive(Debug)]
 pub struct ChunkFacts {
-    pub(crate) survey: Survey,
-    pub(crate) outline: ChunkOutline,
+    pub(crate) file_index: FileIndex,
+    pub(crate) graph: ChunkFlow,
     pub(crate) tape: TapeMarks,
     pub(crate) flags: BlockFlags,
     pub(crate) directives: Vec<Range<u32>>,
@@ -29,8 +29,8 @@ impl ChunkFacts {
     pub fn new(text: &str, end: u32, dialect: &Dialect<'_>) -> Self {
         let table = lower(text, dialect);
         Self {
-            survey: Survey::of_chunk(&table, end, dialect),
-            outline: ChunkOutline::new(&table, end, text, dialect),
+            file_index: FileIndex::of_chunk(&table, end, dialect),
+            graph: ChunkFlow::new(&table, end, text, dialect),
             tape: TapeMarks::new(text),
             flags: table.flags(),
             directives: table.directives().to_vec(),
@@ -39,13 +39,13 @@ impl ChunkFacts {
     }
 
     /// Labels, codes and the like.
-    pub fn survey(&self) -> &Survey {
-        &self.survey
+    pub fn file_index(&self) -> &FileIndex {
+        &self.file_index
     }
 
-    /// Facts for the outline.
-    pub fn outline(&self) -> &ChunkOutline {
-        &self.outline
+    /// Facts for the flow graph.
+    pub fn flow(&self) -> &ChunkFlow {
+        &self.graph
     }
 
     /// What its blocks have, all together.

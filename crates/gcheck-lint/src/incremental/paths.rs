@@ -15,9 +15,9 @@ use std::rc::Rc;
 use gcheck_diagnostics::{Finding, Severity};
 use gcheck_engine::{
     Assumption, At, Checkpoint, Choice, Event, Facts, Fault, FlowCx, FlowObserver, FlowResult, GivenUp, Leg,
-    Machine, Model, Options, Parting, Program, ProgramFile, Task, Trace, flow_from,
+    Machine, Model, Options, Parting, Program, ProgramFile, ReachingDefinitions, Task, flow_from,
 };
-use gcheck_program::{BlockFlags, Survey};
+use gcheck_program::{BlockFlags, FileIndex};
 use rustc_hash::FxHashMap;
 
 use super::anchored::AnchoredFinding;
@@ -122,7 +122,7 @@ pub(crate) struct Inputs<'g> {
     pub(crate) environment: Environment<'g>,
     pub(crate) program: &'g Program<'g>,
     pub(crate) model: &'g Model<'g>,
-    pub(crate) survey: &'g Survey,
+    pub(crate) file_index: &'g FileIndex,
     pub(crate) rules: Rules<'g>,
     pub(crate) fuel: u64,
     pub(crate) layout: &'g Layout,
@@ -166,8 +166,8 @@ impl Paths {
         let found = RefCell::new(Vec::new());
         let mut add =
             |severity: Option<Severity>, finding: Finding| found.borrow_mut().push((severity, finding));
-        let Inputs { environment, program, model, survey, rules, .. } = *inputs;
-        let mut watchers = Watchers::new(environment, program, model, survey, rules.active, &mut add);
+        let Inputs { environment, program, model, file_index, rules, .. } = *inputs;
+        let mut watchers = Watchers::new(environment, program, model, file_index, rules.active, &mut add);
         let active = watchers.active();
         let is_known = !self.unsure
             && self.active == active
@@ -493,11 +493,12 @@ impl Segment {
 }
 
 fn number_again(checkpoint: &mut Checkpoint, layout: &Layout) -> bool {
-    layout.number_again(&mut checkpoint.at) && checkpoint.trace.places(&mut |at| layout.number_again(at))
+    layout.number_again(&mut checkpoint.at)
+        && checkpoint.definitions.places(&mut |at| layout.number_again(at))
 }
 
-/// Facts that were set by other blocks than the segments in hand say, and the trace that has them right.
-type Carried = Option<(Facts, Trace)>;
+/// Facts that were set by other blocks than the segments in hand say, and the definitions that have them right.
+type Carried = Option<(Facts, ReachingDefinitions)>;
 
 impl Entry {
     /// Was nothing put in between the block at which it begins and the one in front? What was put in there may have to be
@@ -511,8 +512,8 @@ impl Entry {
     }
 
     fn carry(&mut self, carried: &Carried) {
-        if let Some((facts, trace)) = carried {
-            self.checkpoint.trace.take(*facts, trace);
+        if let Some((facts, definitions)) = carried {
+            self.checkpoint.definitions.take(*facts, definitions);
         }
     }
 }
@@ -626,12 +627,12 @@ fn advance(
         let (entry, went_back) = (recorder.entry.take(), recorder.went_back);
         let is_far = recorder.enough.is_none();
         work.executed += recorder.executed;
-        if let Some(Joined { index, before, differing, trace }) = joined {
+        if let Some(Joined { index, before, differing, definitions }) = joined {
             at = index;
             if let Some(Some(Segment { entry: Some(entry), .. })) = old.get_mut(index) {
                 entry.before = before;
             }
-            carried = Some((differing, trace)).filter(|(facts, _)| !facts.is_empty());
+            carried = Some((differing, definitions)).filter(|(facts, _)| !facts.is_empty());
             continue;
         }
         if stopped {
@@ -675,7 +676,7 @@ struct Joined {
     /// The facts that were set elsewhere than it says.
     differing: Facts,
     /// Where they were set.
-    trace: Trace,
+    definitions: ReachingDefinitions,
 }
 
 /// Lets the rules watch, and cuts what they are shown into segments.
@@ -768,14 +769,14 @@ impl FlowObserver for Recorder<'_, '_, '_> {
         self.close(leg);
         self.watchers.forget_made();
         self.enough = self.enough.filter(|enough| checkpoint.at.block < *enough);
-        checkpoint.trace = checkpoint.trace.apart();
+        checkpoint.definitions = checkpoint.definitions.apart();
         let before = checkpoint.at.block.checked_sub(1).map(|block| {
             let mut before = At { block, ..checkpoint.at };
             self.layout.name(&mut before);
             before
         });
         self.layout.name(&mut checkpoint.at);
-        checkpoint.trace.places(&mut |at| {
+        checkpoint.definitions.places(&mut |at| {
             self.layout.name(at);
             true
         });
@@ -787,9 +788,9 @@ impl FlowObserver for Recorder<'_, '_, '_> {
             && entry.checkpoint.leads_on_as(&checkpoint)
             && *entry.rules == rules
         {
-            let differing = checkpoint.trace.differing(&entry.checkpoint.trace);
+            let differing = checkpoint.definitions.differing(&entry.checkpoint.definitions);
             if known.holds(self.layout, differing) {
-                self.joined = Some(Joined { index, before, differing, trace: checkpoint.trace });
+                self.joined = Some(Joined { index, before, differing, definitions: checkpoint.definitions });
                 return false;
             }
         }

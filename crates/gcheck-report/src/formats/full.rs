@@ -36,10 +36,10 @@ pub(super) fn write(report: &Report, colour: Colour, out: &mut dyn Write) -> io:
             }
         };
         drawn.clear();
-        let scene = Scene::new(report, file, finding);
-        let diagnostic = scene.diagnostic(finding);
+        let shown = ShownFiles::new(report, file, finding);
+        let diagnostic = shown.diagnostic(finding);
         let mut writer = Writer { out: &mut drawn, colour, severity: finding.severity, name_due: false };
-        match emit_to_write_style(&mut writer, &config, &scene, &diagnostic) {
+        match emit_to_write_style(&mut writer, &config, &shown, &diagnostic) {
             Ok(()) => write_trimmed(&drawn, out)?,
             // What cannot be drawn must still be reported.
             Err(_) => concise::write_line(file, finding, colour, out)?,
@@ -76,7 +76,7 @@ fn write_trimmed(drawn: &[u8], out: &mut dyn Write) -> io::Result<()> {
 }
 
 /// The files that one finding shows.
-struct Scene<'r> {
+struct ShownFiles<'r> {
     files: Vec<Shown<'r>>,
     /// Labels into files whose text is not at hand.
     elsewhere: Vec<String>,
@@ -88,7 +88,7 @@ struct Shown<'r> {
     excerpt: Excerpt,
 }
 
-impl<'r> Scene<'r> {
+impl<'r> ShownFiles<'r> {
     fn new(report: &'r Report, file: &'r File, finding: &'r Finding) -> Self {
         struct Wanted<'r> {
             path: &'r str,
@@ -153,7 +153,7 @@ fn level(severity: Severity) -> Level {
     }
 }
 
-impl<'a> Files<'a> for Scene<'_> {
+impl<'a> Files<'a> for ShownFiles<'_> {
     type FileId = usize;
     type Name = String;
     type Source = &'a str;

@@ -37,7 +37,7 @@ pub(crate) fn limited_by_modes(cx: &PathCx<'_>, finding: Finding) -> Finding {
     [(Role::Plane, "the plane"), (Role::Distance, "absolute or incremental")].into_iter().fold(
         finding,
         |finding, (role, what)| {
-            if cx.trace().set_by(Fact::Mode(role)).is_some() {
+            if cx.definitions().set_by(Fact::Mode(role)).is_some() {
                 return finding;
             }
             let code = cx.code_name(role).map_or_else(String::new, |code| format!(" (`{code}`)"));

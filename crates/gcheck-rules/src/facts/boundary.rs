@@ -69,7 +69,7 @@ pub(crate) fn ends_at_tape_mark(cx: &PathCx<'_>, ending: Ending) -> bool {
 
 /// Marks where the current tool was put in.
 pub(crate) fn with_tool_change(cx: &PathCx<'_>, finding: Finding) -> Finding {
-    match cx.trace().set_by(Fact::Tool).and_then(|at| cx.range_of(at)) {
+    match cx.definitions().set_by(Fact::Tool).and_then(|at| cx.range_of(at)) {
         Some(range) => finding.also(range, "the tool comes here"),
         None => finding,
     }

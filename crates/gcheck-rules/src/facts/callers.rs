@@ -34,7 +34,7 @@ impl CallerValues {
 
 /// Is the block one of a program that others call, and not of one that this program calls?
 fn is_called(cx: &PathCx<'_>) -> bool {
-    cx.depth() == 1 && cx.survey.is_called_from_elsewhere()
+    cx.depth() == 1 && cx.file_index.is_called_from_elsewhere()
 }
 
 /// Does the block read a variable that nobody has set yet, or a mode, a tool or an offset as the control starts with it?

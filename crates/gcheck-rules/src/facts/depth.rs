@@ -29,7 +29,7 @@ impl SharedMemory for Depth {
     fn moved(&mut self, cx: &PathCx<'_>, event: &Event) {
         // A tool begins with a rapid move; nearly all others are cuts, of which there may be millions.
         if !matches!(event, Event::Travel(travel) if travel.kind == TravelKind::Feed) {
-            let tool = cx.trace().set_by(Fact::Tool);
+            let tool = cx.definitions().set_by(Fact::Tool);
             if self.tool != tool {
                 *self = Self { tool, ..Self::default() };
             }

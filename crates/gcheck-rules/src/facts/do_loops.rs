@@ -77,12 +77,12 @@ fn ends_later(begin: &Loop, rest: &[Loop]) -> bool {
 /// Faults in the loops of every program of the file; none on controls without such loops.
 pub(crate) fn loop_faults<'a>(cx: &FileCx<'a>) -> Vec<LoopFault<'a>> {
     let mut all = Vec::new();
-    if cx.survey.loops.is_empty() || !cx.control().syntax().macro_statements {
+    if cx.file_index.loops.is_empty() || !cx.control().syntax().macro_statements {
         return all;
     }
     let depth =
         cx.control().limits().do_numbers.map(|[first, last]| usize::from(last.saturating_sub(first)) + 1);
-    let loops = cx.survey.loops.as_slice();
+    let loops = cx.file_index.loops.as_slice();
     let mut from = 0;
     for section in sections(cx) {
         let to = loops.partition_point(|l| l.range.start < section.range.end);

@@ -40,7 +40,7 @@ pub(crate) fn feed_per_turn(cx: &PathCx<'_>) -> Option<(f64, f64)> {
 
 /// The block that gave feed or speed, whichever is later.
 pub(crate) fn feed_or_speed_set_by(cx: &PathCx<'_>) -> Option<At> {
-    [Fact::Feed, Fact::Speed].into_iter().filter_map(|fact| cx.trace().set_by(fact)).max()
+    [Fact::Feed, Fact::Speed].into_iter().filter_map(|fact| cx.definitions().set_by(fact)).max()
 }
 
 /// Does a move go at least as far across the tool as along it?

@@ -41,7 +41,7 @@ pub(crate) fn argument_of<'a>(cx: &PathCx<'a>, variable: u32) -> Option<&'a str>
 /// empty one.
 pub(crate) fn is_assigned_before(cx: &PathCx<'_>, variable: u32) -> bool {
     let here = cx.range().start;
-    cx.survey.assigned.iter().any(|(number, range)| *number == variable && range.end <= here)
+    cx.file_index.assigned.iter().any(|(number, range)| *number == variable && range.end <= here)
 }
 
 /// The most serious use of a variable in a block, with its bytes. `None` when the block reads it in a way that its text

@@ -28,7 +28,7 @@ pub(crate) fn goes_by_feed(event: &Event) -> bool {
 
 /// The block whose `F` word gave a feed of zero, if that is why there is none.
 pub(crate) fn zero_feed_given(cx: &PathCx<'_>) -> Option<At> {
-    let at = cx.trace().set_by(Fact::Feed)?;
+    let at = cx.definitions().set_by(Fact::Feed)?;
     let place = cx.place_of(at)?;
     place.block().letters.contains(Letter::of('F')).then_some(at)
 }

@@ -78,7 +78,7 @@ pub(crate) fn switched_on_by(cx: &PathCx<'_>, mode: CodeIx) -> At {
         return here;
     }
     let role = cx.model.role(mode);
-    role.and_then(|role| cx.trace().set_by(Fact::Mode(role))).unwrap_or(here)
+    role.and_then(|role| cx.definitions().set_by(Fact::Mode(role))).unwrap_or(here)
 }
 
 /// What the block brings together that does not go together.

@@ -5,7 +5,7 @@
 use std::collections::HashSet;
 
 use gcheck_controls::{Code, Confidence, Control, LastingEnd, LastingFrom, Letter, LetterSet, Need};
-use gcheck_program::{CallKind, Survey};
+use gcheck_program::{CallKind, FileIndex};
 
 /// Words whose absence rules of their own report: feed, speed, tool, size of cutter compensation.
 const OF_OTHER_RULES: LetterSet = LetterSet::of("FSTD");
@@ -34,22 +34,22 @@ pub(crate) fn relied_on(control: &Control, code: Code<'_>) -> LetterSet {
 
 /// Does only following the program show whether a word is given? Calls or jumps may run a block that the text has after the
 /// code, or one of another file.
-pub(crate) fn goes_by_way(survey: &Survey, control: &Control, code: Code<'_>, letter: Letter) -> bool {
-    let moves_about = survey.letters.contains(letter) && !survey.jumps.is_empty();
-    (moves_about || !survey.calls.is_empty()) && relied_on(control, code).contains(letter)
+pub(crate) fn goes_by_way(file_index: &FileIndex, control: &Control, code: Code<'_>, letter: Letter) -> bool {
+    let moves_about = file_index.letters.contains(letter) && !file_index.jumps.is_empty();
+    (moves_about || !file_index.calls.is_empty()) && relied_on(control, code).contains(letter)
 }
 
 /// Where the text first calls a program that is not in the file: from there on that program may have given any word.
-pub(crate) fn first_call_elsewhere(survey: &Survey) -> Option<u32> {
-    let programs = survey.programs.iter().filter_map(|program| program.number);
-    let here: HashSet<u32> = programs.chain(survey.labels.iter().map(|label| label.number)).collect();
-    let o_words: HashSet<_> = survey.o_words.iter().map(|word| &word.label).collect();
+pub(crate) fn first_call_elsewhere(file_index: &FileIndex) -> Option<u32> {
+    let programs = file_index.programs.iter().filter_map(|program| program.number);
+    let here: HashSet<u32> = programs.chain(file_index.labels.iter().map(|label| label.number)).collect();
+    let o_words: HashSet<_> = file_index.o_words.iter().map(|word| &word.label).collect();
     let is_elsewhere = |target: &CallKind| match target {
         CallKind::Program(number) => !here.contains(number),
         CallKind::OWord(label) => !o_words.contains(label),
         CallKind::Unknown => true,
     };
-    survey.calls.iter().find(|call| is_elsewhere(&call.target)).map(|call| call.range.start)
+    file_index.calls.iter().find(|call| is_elsewhere(&call.target)).map(|call| call.range.start)
 }
 
 /// Does the control refuse the code where no block gives the word? Where the end of the program does not forget it, the word of

@@ -31,7 +31,8 @@ pub(crate) fn live_tool(cx: &PathCx<'_>) -> LiveTool {
         return LiveTool::No;
     }
     let here = cx.origin().at;
-    let changed = cx.trace().set_by(Fact::Tool).filter(|at| at.file == here.file && at.block <= here.block);
+    let changed =
+        cx.definitions().set_by(Fact::Tool).filter(|at| at.file == here.file && at.block <= here.block);
     let first = changed.map_or(0, |at| at.block).max(here.block.saturating_sub(BEFORE));
     let is_polar =
         cx.state().effect(Role::PolarInterpolation, cx.model) == Some(Effect::PolarInterpolationOn);

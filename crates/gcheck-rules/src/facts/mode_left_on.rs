@@ -57,7 +57,8 @@ impl ModeLeftOn {
         if !code.is_some() || cx.model.effect(code) != on {
             return None;
         }
-        let (set, changed) = (cx.trace().set_by(Fact::Mode(role))?, cx.trace().set_by(Fact::Tool)?);
+        let (set, changed) =
+            (cx.definitions().set_by(Fact::Mode(role))?, cx.definitions().set_by(Fact::Tool)?);
         if !is_before(first_tool, set) || !is_before(set, changed) || cx.file_uses(|effect| effect == off) {
             return None;
         }

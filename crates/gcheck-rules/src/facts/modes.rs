@@ -93,7 +93,7 @@ pub(crate) fn left_at_end(
     let Some(ActiveMode::Certain(code)) = left_on(cx, role, is_on) else { return None };
     let fact = Fact::Mode(role);
     // A mode as it was at the start was not switched on by the program.
-    cx.trace().set_by(fact)?;
+    cx.definitions().set_by(fact)?;
     let name = cx.name_of(code);
     let end = Boundary::ProgramEnd;
     let message = format!("{what} is still on {} (`{name}`)", end.words());

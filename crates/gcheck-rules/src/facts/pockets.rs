@@ -4,7 +4,7 @@
 
 use std::ops::Range;
 
-use gcheck_program::Outline;
+use gcheck_program::ControlFlowGraph;
 
 use crate::PathCx;
 use crate::facts::offset_schemes::whole;
@@ -13,10 +13,10 @@ use crate::facts::offset_schemes::whole;
 pub(crate) fn outline_of(cx: &PathCx<'_>) -> Option<Range<u32>> {
     let number = whole(cx.known_number('P')?)?;
     let file = cx.program.file(0)?;
-    let outline: &Outline = file.loaded.outline();
-    let first = match outline.label(number, cx.origin().at.block, true) {
+    let graph: &ControlFlowGraph = file.loaded.flow_graph();
+    let first = match graph.label(number, cx.origin().at.block, true) {
         Some(block) => block,
-        None => outline.program(number)?.blocks.start,
+        None => graph.program(number)?.blocks.start,
     };
-    Some(first..outline.part_of(first).end)
+    Some(first..graph.part_of(first).end)
 }

@@ -6,7 +6,7 @@
 use std::collections::BTreeSet;
 
 use gcheck_controls::WordEntry;
-use gcheck_program::{CallKind, Survey};
+use gcheck_program::{CallKind, FileIndex};
 
 use crate::Environment;
 
@@ -16,19 +16,19 @@ const PACKED: u32 = 10_000;
 /// The programs and labels of a file, as calls ask for them.
 pub(crate) struct Programs<'a> {
     environment: Environment<'a>,
-    survey: &'a Survey,
+    file_index: &'a FileIndex,
     here: BTreeSet<u32>,
 }
 
 impl<'a> Programs<'a> {
-    pub(crate) fn new(environment: Environment<'a>, survey: &'a Survey) -> Self {
-        Self { environment, survey, here: survey.programs.iter().filter_map(|p| p.number).collect() }
+    pub(crate) fn new(environment: Environment<'a>, file_index: &'a FileIndex) -> Self {
+        Self { environment, file_index, here: file_index.programs.iter().filter_map(|p| p.number).collect() }
     }
 
     /// The number of the program that a call means and that is neither in the file nor beside it; `word` is the one that
     /// names it.
     pub(crate) fn missing(&self, number: u32, word: &WordEntry) -> Option<u32> {
-        let is_label = || word.or_label && self.survey.labels.iter().any(|label| label.number == number);
+        let is_label = || word.or_label && self.file_index.labels.iter().any(|label| label.number == number);
         if word.elsewhere || self.is_known(number) || is_label() {
             return None;
         }
@@ -46,13 +46,13 @@ impl<'a> Programs<'a> {
 }
 
 /// Is a program called by a number that no program and no block of the file has?
-pub(crate) fn calls_other_files(survey: &Survey) -> bool {
+pub(crate) fn calls_other_files(file_index: &FileIndex) -> bool {
     let is_here = |number: u32| {
         let is = |known: u32| known == number || known == number % PACKED;
-        survey.programs.iter().filter_map(|program| program.number).any(is)
-            || survey.labels.iter().any(|label| is(label.number))
+        file_index.programs.iter().filter_map(|program| program.number).any(is)
+            || file_index.labels.iter().any(|label| is(label.number))
     };
-    survey.calls.iter().any(|call| matches!(call.target, CallKind::Program(number) if !is_here(number)))
+    file_index.calls.iter().any(|call| matches!(call.target, CallKind::Program(number) if !is_here(number)))
 }
 
 /// Numbers that begin with 8 or 9 belong to builders and makers of probes by custom: 8000 to 9999, and longer ones alike.

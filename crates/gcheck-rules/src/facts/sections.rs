@@ -6,7 +6,7 @@ use std::ops::Range;
 
 use crate::FileCx;
 use gcheck_controls::{Code, CodeIx, WordEntry, WordKind};
-use gcheck_program::{Label, ProgramNumber, Survey};
+use gcheck_program::{FileIndex, Label, ProgramNumber};
 
 /// One program of a file.
 #[derive(Debug, Clone)]
@@ -42,9 +42,9 @@ impl<'a> LabelIndex<'a> {
 
 /// The programs of the file in text order; never empty.
 pub(crate) fn sections<'a>(cx: &FileCx<'a>) -> Vec<Section<'a>> {
-    let survey: &'a Survey = cx.survey;
-    let mut sections: Vec<Section<'a>> = Vec::with_capacity(survey.programs.len().max(1));
-    for number in &survey.programs {
+    let file_index: &'a FileIndex = cx.file_index;
+    let mut sections: Vec<Section<'a>> = Vec::with_capacity(file_index.programs.len().max(1));
+    for number in &file_index.programs {
         let start = sections.last_mut().map_or(0, |previous| {
             previous.range.end = number.range.start;
             number.range.start
@@ -59,7 +59,7 @@ pub(crate) fn sections<'a>(cx: &FileCx<'a>) -> Vec<Section<'a>> {
 
 /// Bytes of the program in which an offset lies.
 pub(crate) fn program_around(cx: &FileCx<'_>, offset: u32) -> Range<u32> {
-    let programs = &cx.survey.programs;
+    let programs = &cx.file_index.programs;
     let next = programs.partition_point(|p| p.range.start <= offset);
     let start = |ix: usize| programs.get(ix).map(|p| p.range.start);
     match next {
@@ -70,7 +70,7 @@ pub(crate) fn program_around(cx: &FileCx<'_>, offset: u32) -> Range<u32> {
 
 /// An index of the file's sequence numbers.
 pub(crate) fn label_index<'a>(cx: &FileCx<'a>) -> LabelIndex<'a> {
-    let mut by_number: Vec<&Label> = cx.survey.labels.iter().collect();
+    let mut by_number: Vec<&Label> = cx.file_index.labels.iter().collect();
     // Stable: labels of one number stay in text order.
     by_number.sort_by_key(|l| l.number);
     LabelIndex { by_number }

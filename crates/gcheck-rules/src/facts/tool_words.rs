@@ -13,7 +13,7 @@ pub(crate) struct ToolWords(Option<ToolComment>);
 impl ToolWords {
     /// Of the tool that works.
     pub(crate) fn of(cx: &PathCx<'_>) -> Self {
-        let changed = cx.trace().set_by(Fact::Tool).filter(|at| at.file == 0);
+        let changed = cx.definitions().set_by(Fact::Tool).filter(|at| at.file == 0);
         Self(changed.and_then(|at| comment_of_tool(cx, at)))
     }
 

@@ -101,7 +101,7 @@ impl Turned {
         if self.frame != frame {
             *self = Self { frame, ..Self::default() };
         }
-        let tool = cx.trace().set_by(Fact::Tool);
+        let tool = cx.definitions().set_by(Fact::Tool);
         if self.tool != tool {
             (self.tool, self.chain, self.last) = (tool, None, None);
         }

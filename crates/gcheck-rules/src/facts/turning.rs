@@ -65,7 +65,7 @@ pub(crate) fn is_turned(program: &Uses<'_>) -> bool {
 
 /// Does the program turn: the control is a lathe's, or the program has said what X counts?
 pub(crate) fn turns(cx: &PathCx<'_>) -> bool {
-    cx.control().machine() == Machine::Lathe || cx.trace().set_by(Fact::Mode(Role::Diameter)).is_some()
+    cx.control().machine() == Machine::Lathe || cx.definitions().set_by(Fact::Mode(Role::Diameter)).is_some()
 }
 
 /// Does the part turn under a tool that does not, in the plane of X and Z?
@@ -84,7 +84,7 @@ pub(crate) fn profile_blocks(cx: &PathCx<'_>) -> Option<(At, At)> {
     let named = |letter: char| cx.known_number(letter).and_then(whole);
     let here = cx.origin().at;
     let file = cx.program.file(here.file).filter(|_| here.file == 0)?;
-    let label = |letter: char, from: u32| file.loaded.outline().label(named(letter)?, from, true);
+    let label = |letter: char, from: u32| file.loaded.flow_graph().label(named(letter)?, from, true);
     let first = label('P', here.block)?;
     let last = label('Q', first).filter(|last| *last >= first)?;
     Some((At { block: first, ..here }, At { block: last, ..here }))

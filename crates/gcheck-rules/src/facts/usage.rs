@@ -7,7 +7,7 @@ use std::rc::Rc;
 use crate::Environment;
 use gcheck_controls::{Effect, Ends, SystemValue};
 use gcheck_engine::{At, Model, Program, ProgramFile};
-use gcheck_program::{BlockFlags, EndMark, OKeyword, Op, Place, StatementKind, Survey};
+use gcheck_program::{BlockFlags, EndMark, FileIndex, OKeyword, Op, Place, StatementKind};
 
 /// The blocks of the main file that have any of these flags.
 pub(crate) fn blocks_with(
@@ -110,11 +110,11 @@ pub(crate) fn leads_away(place: &Place, model: &Model<'_>) -> bool {
 
 /// May the program be called by one that is not in the file? Then it has its caller's words too, which the text does not show.
 /// A program after the main program of the file is called by that.
-pub(crate) fn may_be_called(survey: &Survey) -> bool {
-    let second = survey.programs.get(1).map_or(0, |second| second.range.start);
+pub(crate) fn may_be_called(file_index: &FileIndex) -> bool {
+    let second = file_index.programs.get(1).map_or(0, |second| second.range.start);
     let is_of_main =
         |end: &EndMark| end.range.start < second && end.ends == Ends::Program && !end.conditional;
-    survey.is_called_from_elsewhere()
-        || second > 0 && !survey.ends.iter().any(is_of_main)
-        || survey.o_words.iter().any(|word| word.keyword == OKeyword::Sub)
+    file_index.is_called_from_elsewhere()
+        || second > 0 && !file_index.ends.iter().any(is_of_main)
+        || file_index.o_words.iter().any(|word| word.keyword == OKeyword::Sub)
 }

@@ -10,8 +10,8 @@ use crate::PathCx;
 /// The first work offset, where this cut is in one that nothing chose.
 pub(crate) fn unchosen_work_offset(cx: &PathCx<'_>) -> Option<String> {
     let first = cx.control().codes().find(|code| code.effect() == Effect::WorkOffset(1))?;
-    let is_chosen = cx.trace().set_by(Fact::Mode(Role::WorkOffset)).is_some()
-        || cx.trace().set_by(Fact::Shift).is_some()
+    let is_chosen = cx.definitions().set_by(Fact::Mode(Role::WorkOffset)).is_some()
+        || cx.definitions().set_by(Fact::Shift).is_some()
         || cx.is_after_unknown_program();
     let is_in_machine_coordinates = cx.has_effect(|effect| effect == Effect::MachineCoordinates);
     let is_free = is_chosen || is_in_machine_coordinates || cx.model.semantics().tools.change_by_t;
@@ -25,7 +25,10 @@ pub(crate) fn never_chooses_work_offset(cx: &PathCx<'_>) -> bool {
     let comes_back = semantics.confidence == Confidence::Manual && cx.end_resets(Role::WorkOffset);
     let has_length = cx.state().effect(Role::Length, cx.model) == Some(Effect::LengthPlus)
         && Abstract::known(cx.state().h()).is_some_and(|offset| offset > 0.0);
-    has_length && cx.trace().set_by(Fact::Tool).is_some() && !comes_back && !cx.file_uses(chooses_work_offset)
+    has_length
+        && cx.definitions().set_by(Fact::Tool).is_some()
+        && !comes_back
+        && !cx.file_uses(chooses_work_offset)
 }
 
 /// Does the code choose a work offset?

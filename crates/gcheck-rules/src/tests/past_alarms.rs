@@ -172,3 +172,38 @@ fn an_alarm_that_a_jump_was_to_pass_is_not_reached() {
     "#]],
     );
 }
+
+#[test]
+fn a_remark_without_its_parentheses_does_nothing() {
+    let program = "%\nO1\n(\nИзмерение длины G37 G91\n)\nG21 G17 G40 G49 G80\nT1 M6\nM30\n%\n";
+    check(
+        "fanuc-mill",
+        program,
+        &expect![[r#"
+        3 error unclosed-comment
+        4 error non-ascii-text
+        5 error stray-parenthesis
+    "#]],
+    );
+}
+
+#[test]
+fn what_is_after_the_end_breaks_nothing() {
+    check(
+        "fanuc-mill",
+        "%\nO1\nM30\nG1 X[#1+2\nG999 X1.\n%\n",
+        &expect![[r#"
+        4 info unclosed-bracket
+        5 info unknown-code
+        5 warning unreachable-block
+    "#]],
+    );
+    // A label may be jumped to by the operator.
+    check(
+        "fanuc-mill",
+        "%\nO1\nM30\nN5 G1 X[#1+2\nM30\n%\n",
+        &expect![[r#"
+        4 error unclosed-bracket
+    "#]],
+    );
+}

@@ -135,7 +135,7 @@ fn words_of(control: &Control, block: &str) -> (Vec<Word>, LetterSet) {
 fn each_block(control: &Control, text: &str, mut see: impl FnMut(&gcheck_program::Place)) {
     let dialect = Dialect::new(control);
     let loaded = Loaded::new(text, &dialect, |_, _, _| {});
-    for number in 0..loaded.outline().blocks() {
+    for number in 0..loaded.flow_graph().blocks() {
         if let Some(place) = loaded.place(number, &dialect) {
             see(&place);
         }

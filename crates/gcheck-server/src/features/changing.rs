@@ -115,8 +115,8 @@ impl Owner {
         Ok(Some(out))
     }
 
-    /// Changes that are proved when they are chosen: where something is selected, or where somebody asks for refactorings, as a
-    /// proof is not for every move of the cursor.
+    /// Changes that are proved when they are chosen: all that may fit where something is selected or refactorings are asked
+    /// for, and else the one for the block at the cursor.
     fn offer_proved(
         &self,
         params: &CodeActionParams,
@@ -127,12 +127,16 @@ impl Owner {
         let kind = CodeActionKind::REFACTOR_REWRITE;
         let only = params.context.only.as_deref();
         let is_asked = only.is_some_and(|only| is_wanted(&kind, Some(only)));
-        if !self.abilities.resolves_actions || !(is_asked || only.is_none() && !range.is_empty()) {
+        if !self.abilities.resolves_actions || !(is_asked || only.is_none()) {
             return;
+        }
+        let mut changes: Vec<_> = gcheck_ide::proved_change_at(snapshot, range.start).into_iter().collect();
+        if is_asked || !range.is_empty() {
+            changes.extend(gcheck_ide::proved_changes(snapshot, range));
         }
         let uri = &params.text_document.uri;
         let Ok(document) = self.document(uri) else { return };
-        for change in gcheck_ide::proved_changes(snapshot, range) {
+        for change in changes {
             let asked = Asked {
                 uri: uri.clone(),
                 version: document.version,

@@ -78,7 +78,7 @@ impl Owner {
     ) -> Result<Option<Vec<DocumentHighlight>>> {
         let at = &params.text_document_position_params;
         let (_, offset) = self.place(at)?;
-        let snapshot = self.outlined(&at.text_document.uri)?;
+        let snapshot = self.indexed(&at.text_document.uri)?;
         let mut places = self.places(&snapshot);
         let found =
             gcheck_ide::highlights(&snapshot, offset).into_iter().map(|highlight| DocumentHighlight {
@@ -95,7 +95,7 @@ impl Owner {
         &mut self,
         params: &SelectionRangeParams,
     ) -> Result<Option<Vec<SelectionRange>>> {
-        let snapshot = self.outlined(&params.text_document.uri)?;
+        let snapshot = self.indexed(&params.text_document.uri)?;
         let mut places = self.places(&snapshot);
         let ranges = params.positions.iter().map(|position| {
             let offset = places.offset(*position);

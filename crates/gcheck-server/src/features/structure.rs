@@ -5,10 +5,10 @@
 use std::sync::Arc;
 
 use gcheck_db::Snapshot;
-use gcheck_ide::{FoldKind, InlayKind, RunFigures, Symbol};
+use gcheck_ide::{FoldKind, InlayKind, RunStatistics, Symbol};
 
 use super::{LARGE, given_up, markdown, within};
-use crate::documents::FiguresRun;
+use crate::documents::StatisticsRun;
 use crate::mailbox::{Kind, Reply};
 use crate::owner::Owner;
 use crate::position::Places;
@@ -117,7 +117,7 @@ impl Owner {
         if range.is_some() {
             self.look_ahead(uri, &|| reply.is_cancelled());
         }
-        let snapshot = if range.is_some() { self.outlined(uri) } else { self.snapshot(uri) };
+        let snapshot = if range.is_some() { self.indexed(uri) } else { self.snapshot(uri) };
         let snapshot = match snapshot {
             Ok(snapshot) => snapshot,
             Err(error) => return reply.send(Err(error)),
@@ -221,11 +221,11 @@ impl Owner {
         reply: Option<Reply<Option<Vec<CodeLens>>>>,
     ) {
         let Some(document) = self.documents.get_mut(uri) else { return };
-        if document.run != FiguresRun::Idle && reply.is_none() {
-            document.run = FiguresRun::AskedAgain;
+        if document.run != StatisticsRun::Idle && reply.is_none() {
+            document.run = StatisticsRun::AskedAgain;
             return;
         }
-        document.run = FiguresRun::UnderWay;
+        document.run = StatisticsRun::UnderWay;
         let clock = document.clock.clone();
         let (uri, now) = (uri.clone(), clock.now());
         let (mailbox, encoding) = (self.mailbox.clone(), self.abilities.encoding);
@@ -233,7 +233,7 @@ impl Owner {
         self.workers.start_work(move || {
             // An edit outdates the run: the program may have been endless, and is no longer.
             let stop = || clock.now() != now || reply.as_ref().is_some_and(Reply::is_cancelled);
-            let Ok(figures) = gcheck_ide::figures(&snapshot, fuel, &stop) else {
+            let Ok(figures) = gcheck_ide::run_statistics(&snapshot, fuel, &stop) else {
                 if let Some(reply) = reply {
                     reply.send(Err(Error::content_modified()));
                 }
@@ -252,7 +252,7 @@ impl Owner {
         });
     }
 
-    fn put_figures(&mut self, uri: &Uri, at: u64, figures: Arc<RunFigures>, is_shown: bool) {
+    fn put_figures(&mut self, uri: &Uri, at: u64, figures: Arc<RunStatistics>, is_shown: bool) {
         let Some(document) = self.documents.get_mut(uri) else { return };
         let is_news = document.figures.as_ref().is_none_or(|(_, known)| *known != figures);
         document.figures = Some((at, figures));
@@ -265,9 +265,9 @@ impl Owner {
     /// A client that asked while an outdated run was under way got old figures, and does not ask again by itself.
     fn run_has_ended(&mut self, uri: &Uri) {
         let Some(document) = self.documents.get_mut(uri) else { return };
-        let ended = std::mem::replace(&mut document.run, FiguresRun::Idle);
+        let ended = std::mem::replace(&mut document.run, StatisticsRun::Idle);
         let is_old = document.figures.as_ref().is_none_or(|(at, _)| *at != document.clock.now());
-        if ended == FiguresRun::AskedAgain
+        if ended == StatisticsRun::AskedAgain
             && is_old
             && let Ok(snapshot) = self.snapshot(uri)
         {
@@ -276,7 +276,11 @@ impl Owner {
     }
 }
 
-fn lenses(snapshot: &Snapshot, figures: &RunFigures, encoding: crate::position::Encoding) -> Vec<CodeLens> {
+fn lenses(
+    snapshot: &Snapshot,
+    figures: &RunStatistics,
+    encoding: crate::position::Encoding,
+) -> Vec<CodeLens> {
     let mut places = Places::new(snapshot, encoding);
     let found = gcheck_ide::code_lenses(snapshot, figures).into_iter();
     found

@@ -8,7 +8,7 @@ use gcheck_db::Snapshot;
 
 use super::{Owner, fallback_settings};
 use crate::client::Moment;
-use crate::documents::{Clock, Document, FiguresRun, Stale};
+use crate::documents::{Clock, Document, Stale, StatisticsRun};
 use crate::proto::{
     DidChangeTextDocumentParams, DidCloseTextDocumentParams, DidOpenTextDocumentParams,
     DidSaveTextDocumentParams, MessageType, TextDocumentContentChangeEvent, Uri, WorkspaceDiagnosticRefresh,
@@ -58,7 +58,7 @@ impl Owner {
             failed: None,
             too_long: None,
             figures: None,
-            run: FiguresRun::Idle,
+            run: StatisticsRun::Idle,
             touched,
             path,
         };
@@ -202,6 +202,6 @@ pub(crate) fn path_of(uri: &Uri) -> Option<PathBuf> {
 
 /// Does a program call anything that may lie in another file?
 fn calls_others(snapshot: &Snapshot) -> bool {
-    let survey = snapshot.survey();
-    !survey.calls.is_empty() || !survey.o_words.is_empty()
+    let file_index = snapshot.file_index();
+    !file_index.calls.is_empty() || !file_index.o_words.is_empty()
 }

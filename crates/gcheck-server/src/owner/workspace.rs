@@ -135,9 +135,9 @@ impl Owner {
         let mut workspace = Workspace::default();
         let mut addresses = BTreeMap::new();
         for (path, (id, uri, version)) in loaded {
-            // Of an open document all is kept that survey and outline are made of; a file on disk may never be asked for them.
+            // Of an open document all is kept that index and flow graph are made of; a file on disk may never be asked for them.
             let snapshot =
-                if version.is_some() { self.database.outlined(id) } else { self.database.snapshot(id) };
+                if version.is_some() { self.database.indexed(id) } else { self.database.snapshot(id) };
             let Some(snapshot) = snapshot else { continue };
             workspace.files.push(WorkspaceFile { id, name: file_name(&path), snapshot });
             addresses.insert(id, (uri, version));

@@ -28,6 +28,9 @@ const LIMITS: [&str; 4] = ["MIN_LIMIT", "MAX_LIMIT", "MAX_VELOCITY", "MAX_ACCELE
 /// Bytes of a longer line are not those of a key.
 const LONGEST_LINE: usize = 2000;
 
+/// What the control does by itself and may be told to do by a procedure: integrator's manual, "Remap Extending G-code".
+const OWN_CODES: [&str; 8] = ["M0", "M1", "M6", "M60", "M61", "T", "S", "F"];
+
 /// Files that include each other go no deeper.
 const DEEPEST: usize = 16;
 /// A larger file is not a part of a configuration.
@@ -105,6 +108,7 @@ pub(super) fn read(sheet: &mut Sheet<'_>, folder: &Path) -> Option<(PathBuf, Ran
             break;
         }
     }
+    file.remapped_codes(sheet);
     let table = file.take("EMCIO", "TOOL_TABLE").filter(|entry| !entry.value.is_empty());
     file.rest(sheet, &axes);
     table.map(|entry| (folder.join(&entry.value), entry.range))
@@ -511,6 +515,39 @@ impl IniFile {
         } else if let Some(jerk) = sheet.positive(entry.first(), &entry.range, &entry.place()) {
             let key = ["machine", "jerk", &axis.to_string()];
             sheet.put(&key, Value::of_axis(axis, jerk), &entry.range, &entry.place());
+        }
+    }
+
+    /// The codes that procedures of the machine carry out: `REMAP=M400 modalgroup=10 argspec=Pq ngc=myprocedure`.
+    fn remapped_codes(&mut self, sheet: &mut Sheet<'_>) {
+        for entry in &mut self.entries {
+            if *entry.section != *"RS274NGC" || entry.key != "REMAP" {
+                continue;
+            }
+            entry.used = true;
+            let code = entry.first().to_ascii_uppercase();
+            let what = format!("{} = {code}", entry.place());
+            let number = code.strip_prefix(['G', 'M']).and_then(|number| number.parse::<f64>().ok());
+            if OWN_CODES.contains(&code.as_str()) {
+                let why =
+                    "the procedure may do more or less than the code, and gcheck follows the code alone";
+                sheet.leave(&entry.range, what, why);
+                continue;
+            }
+            if number.is_none() {
+                sheet.leave(&entry.range, what, "it is neither a G nor an M code");
+                continue;
+            }
+            let words = entry.value.split_whitespace();
+            let procedure = words
+                .filter_map(|word| word.split_once('='))
+                .find(|(key, _)| matches!(*key, "ngc" | "python"));
+            let Some((_, procedure)) = procedure else {
+                sheet.leave(&entry.range, what, "it names no procedure (`ngc=` or `python=`)");
+                continue;
+            };
+            let title = Value::Text(format!("remapped to {procedure}"));
+            sheet.put(&["codes", &code, "title"], title, &entry.range, &entry.place());
         }
     }
 

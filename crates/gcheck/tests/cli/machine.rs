@@ -74,6 +74,46 @@ fn an_ini_file_gives_axes_limits_and_its_tool_table() {
 }
 
 #[test]
+fn remapped_codes_are_codes_of_the_shop() {
+    check(
+        "mill.ini",
+        "[TRAJ]\nLINEAR_UNITS = mm\n[RS274NGC]\n\
+            REMAP = M400 modalgroup=10 argspec=Pq ngc=clamp\n\
+            REMAP=g88.6 modalgroup=1 argspec=XYZ python=g886\n\
+            REMAP=M6 modalgroup=6 ngc=change\n\
+            REMAP=M401 modalgroup=10\n\
+            REMAP=X1 ngc=none\n",
+        "",
+        &expect![[r#"
+            wrote gcheck.toml: 2 values
+            next: `gcheck check --show-settings`
+            ! mill.ini:6: not used: [RS274NGC] REMAP = M6: the procedure may do more or less than the code, and gcheck follows the code alone
+            ! mill.ini:7: not used: [RS274NGC] REMAP = M401: it names no procedure (`ngc=` or `python=`)
+            ! mill.ini:8: not used: [RS274NGC] REMAP = X1: it is neither a G nor an M code
+            exit 0
+            # Configuration of gcheck for the programs in this folder and below.
+
+            [codes]
+            M400 = { title = "remapped to clamp" }  # from mill.ini, [RS274NGC] REMAP
+            "G88.6" = { title = "remapped to g886" }  # from mill.ini, [RS274NGC] REMAP
+        "#]],
+    );
+    let shop = Shop::with(&[
+        ("mill.ini", "[RS274NGC]\nREMAP=M21 ngc=clamp\n"),
+        ("part.ngc", "G21 G90\nM21\nM22\nM2\n"),
+    ]);
+    shop.gcheck("machine import mill.ini --control linuxcnc");
+    let found = shop.gcheck("check --output-format concise part.ngc");
+    expect![[r#"
+        part.ngc:3:1: warning[unknown-code] unknown code `M22`
+        ! part.ngc: control linuxcnc, set in gcheck.toml
+        ! 1 warning in 1 file (4 lines)
+        exit 0
+    "#]]
+    .assert_eq(&format!("{found}"));
+}
+
+#[test]
 fn settings_count_in_millimetres_and_homing_decides_where_travel_is() {
     check(
         "dump.txt",

@@ -105,6 +105,19 @@ async function actionsAt(document: vscode.TextDocument, text: string): Promise<v
   return askList<vscode.CodeAction>("vscode.executeCodeActionProvider", document, range);
 }
 
+/** Makes a change that is proved when it is chosen, and gives the program after it; the program is put back. */
+async function afterProof(document: vscode.TextDocument, range: vscode.Range, title: RegExp): Promise<string> {
+  const kind = vscode.CodeActionKind.RefactorRewrite.value;
+  const all = 100;
+  const offered = await askList<vscode.CodeAction>("vscode.executeCodeActionProvider", document, range, kind, all);
+  const action = offered.find((action) => title.test(action.title));
+  assert.ok(action?.edit, `${title} is offered and proved; there are: ${offered.map((one) => one.title).join("; ")}`);
+  assert.ok(await vscode.workspace.applyEdit(action.edit));
+  const after = document.getText();
+  await vscode.commands.executeCommand("workbench.action.files.revert");
+  return after;
+}
+
 /** Does an action at a text, and gives the program after it; the program is put back. */
 async function afterAction(document: vscode.TextDocument, text: string, title: RegExp): Promise<string> {
   const offered = await actionsAt(document, text);
@@ -344,7 +357,6 @@ export const commands: Test[] = [
       assert.match(await afterAction(document, "X10 Y5", /^Ignore `missing-decimal-point` on this line/), /gcheck: ignore missing-decimal-point/);
       assert.match(await afterAction(document, "X10 Y5", /^Ignore `missing-decimal-point` in this file/), /gcheck: ignore-file missing-decimal-point/);
       assert.match(await afterAction(document, "R20.", /^Write this arc with its centre/), /^G2 X20\. Y15\. I/m);
-      assert.match(await afterAction(document, "G81", /^Write this cycle as \d+ plain moves/), /^G0?1 Z-3\./m);
       assert.ok(lines(await afterAction(document, "G0 Z5.", /^Add block delete to this block/)).includes("/G0 Z5."));
       assert.match(await afterAction(document, "O1010", /^Renumber blocks in tens/), /^N(\d+0) G0 Z50$[^]*GOTO \1$/m);
       assert.ok(lines(await afterAction(document, "O1010", /^Write 3 numbers with decimal points/)).includes("G0 X0.01 Y0.005"));
@@ -354,6 +366,22 @@ export const commands: Test[] = [
       assert.equal(explain?.command?.command, "gcheck.explain");
       await vscode.commands.executeCommand(explain.command.command, ...(explain.command.arguments ?? []));
       await until("the page", async () => ((await browser<string>("frames")).includes("missing-decimal-point") ? true : undefined));
+      await closeAll();
+    },
+  ],
+  [
+    "changes with proof are made where the cursor is, of a selection and of the whole program",
+    async () => {
+      const { document } = await create("proved.nc", ACTIONS.replace(/X10 Y5/, "X10. Y5.").replace(/Z50$/m, "Z50."));
+      const cycle = place(document, "G81");
+      const atCursor = await afterProof(document, new vscode.Range(cycle, cycle), /^Write this cycle as plain moves, with proof$/);
+      assert.match(atCursor, /^G98$\n^G0 X30\.[^]*^G0?1 Z-3\. F50\.$[^]*^G80$/m);
+      const cut = document.lineAt(place(document, "G1 Z-1.").line).range;
+      const slower = await afterProof(document, cut, /^Scale the feeds to 90 % in the selected lines, with proof$/);
+      assert.match(slower, /^G1 Z-1\. F90\.$\n^G2 X20\. Y15\. R20\. F100\.$/m);
+      const top = new vscode.Range(0, 0, 0, 0);
+      const mirrored = await afterProof(document, top, /^Mirror the path at X0 .*, with proof$/);
+      assert.match(mirrored, /^G0 X-10\. Y5\.$[^]*^G3 X-20\. Y15\. R20\.$/m);
       await closeAll();
     },
   ],

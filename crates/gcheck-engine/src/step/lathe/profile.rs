@@ -109,7 +109,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             }
             #[expect(clippy::cast_sign_loss, reason = "range checked above")]
             let number = number.round() as u32;
-            file.loaded.outline().label(number, from, true).ok_or(Fault::NoSuchLabel(number))
+            file.loaded.flow_graph().label(number, from, true).ok_or(Fault::NoSuchLabel(number))
         };
         let first = find(first, at.block, 'P')?;
         let last = find(last, first, 'Q')?;
@@ -314,7 +314,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let Some(sub) = self.program.find_subroutine(&OLabel::Number(label), at.file) else {
             return Err(Fault::NoSuchProgram);
         };
-        let end = self.program.file(sub.file).and_then(|file| file.loaded.outline().o_word(sub.block)?.end);
+        let end =
+            self.program.file(sub.file).and_then(|file| file.loaded.flow_graph().o_word(sub.block)?.end);
         let Some(end) = end else { return Err(Fault::LoopMismatch) };
         let blocks = ProfileBlocks { file: sub.file, first: sub.block + 1, last: end.saturating_sub(1) };
         let mut scratch = state.clone();

@@ -71,7 +71,7 @@ impl PathRule for ArcModeLeftOn {
         let setting = cx.control().settings().iter().find(|setting| setting.title == SETTING.0);
         let value =
             setting.and_then(|setting| cx.environment.setting(&setting.number)).map(|(value, _)| value);
-        if value == Some(SETTING.1) || !self.told.insert(cx.trace().set_by(fact)) {
+        if value == Some(SETTING.1) || !self.told.insert(cx.definitions().set_by(fact)) {
             return;
         }
         let mut finding = cx

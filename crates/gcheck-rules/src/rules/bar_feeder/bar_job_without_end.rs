@@ -93,7 +93,7 @@ fn check(cx: &PathCx<'_>, back: Effect, report: &mut Report<'_>) {
     let is_limited = limits
         .iter()
         .any(|limit| cx.state().variables().is_written(*limit) && cx.known_variable(*limit) != Some(0.0));
-    let has_end = cx.survey.ends.iter().any(|end| end.ends == Ends::Program);
+    let has_end = cx.file_index.ends.iter().any(|end| end.ends == Ends::Program);
     if is_limited || has_end {
         return;
     }

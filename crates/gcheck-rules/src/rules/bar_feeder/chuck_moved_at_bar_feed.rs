@@ -59,7 +59,7 @@ impl PathRule for ChuckMovedAtBarFeed {
         if bar_feeder(cx).is_none() || !cx.has_effect(|effect| effect == Effect::ChuckClamp) {
             return;
         }
-        let Some(at) = cx.trace().set_by(Fact::Chuck) else { return };
+        let Some(at) = cx.definitions().set_by(Fact::Chuck) else { return };
         let feed = cx.find_word(at, |word| cx.model.effect(word.code) == Effect::BarFeed);
         let Some(feed) = feed.filter(|_| cx.state().bar().clamped() == Truth::True) else { return };
         let closer = cx.name_of_effect(Effect::ChuckClamp).unwrap_or_default();

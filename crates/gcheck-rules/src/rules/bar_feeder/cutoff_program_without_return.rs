@@ -60,7 +60,7 @@ impl PathRule for CutoffProgramWithoutReturn {
             return;
         }
         let Some(file) = cx.program.file(entry.file) else { return };
-        let part = file.loaded.outline().part_of(entry.block);
+        let part = file.loaded.flow_graph().part_of(entry.block);
         if part.end.saturating_sub(part.start) > MOST_BLOCKS {
             return;
         }

@@ -70,7 +70,7 @@ impl PathRule for CompensationInThread {
         }
         let Some(ActiveMode::Certain(code)) = left_on(cx, Role::Compensation, is_on) else { return };
         let fact = Fact::Mode(Role::Compensation);
-        let set_by = cx.trace().set_by(fact);
+        let set_by = cx.definitions().set_by(fact);
         if set_by.is_none() || set_by == self.told {
             return;
         }

@@ -81,7 +81,7 @@ impl PathRule for CompensationLeftOn {
 impl CompensationLeftOn {
     fn judge(&mut self, cx: &PathCx<'_>, place: Boundary, report: &mut Report<'_>) {
         let Some(ActiveMode::Certain(code)) = left_on(cx, Role::Compensation, is_on) else { return };
-        let set_by = cx.trace().set_by(Fact::Mode(Role::Compensation));
+        let set_by = cx.definitions().set_by(Fact::Mode(Role::Compensation));
         if set_by.is_some() && set_by == self.told {
             return;
         }
@@ -117,7 +117,7 @@ impl CompensationLeftOn {
     fn judge_stop(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
         let Some(refusals) = refused_at_end(cx) else { return };
         let Some(ActiveMode::Certain(code)) = left_on(cx, Role::Compensation, is_on) else { return };
-        let set_by = cx.trace().set_by(Fact::Mode(Role::Compensation));
+        let set_by = cx.definitions().set_by(Fact::Mode(Role::Compensation));
         if set_by.is_some() && set_by == self.told {
             return;
         }

@@ -70,7 +70,7 @@ impl PathRule for CompensationOffsetMissing {
         let Some(code) = cx.state().mode(Role::Compensation).only() else { return };
         let is_by_number =
             matches!(cx.model.effect(code), Effect::CompensationLeft | Effect::CompensationRight);
-        let Some(at) = cx.trace().set_by(Fact::Mode(Role::Compensation)) else { return };
+        let Some(at) = cx.definitions().set_by(Fact::Mode(Role::Compensation)) else { return };
         // Only a zero of a word: `T0100` of a turret cancels all offsets.
         let is_zero = |word: &gcheck_program::Word| {
             word.letter.ascii() == b'D' && (word.is_computed() || word.number() == Some(0.0))
@@ -99,7 +99,7 @@ fn without_word(cx: &PathCx<'_>, code: CodeIx, at: At) -> Option<Finding> {
     let d = Letter::of('D');
     let range = cx.find_word(at, |word| word.code == code)?;
     let is_never_given =
-        cx.survey.never_given.iter().any(|given| given.letter == d && given.range.start == range.start);
+        cx.file_index.never_given.iter().any(|given| given.letter == d && given.range.start == range.start);
     let lasts = |word: &WordEntry| word.need == Need::Modal && Letter::parse(&word.letter) == Some(d);
     let lasts = cx.code_of(code)?.entry().words.iter().any(lasts);
     if is_never_given || !lasts || cx.is_called_only() || cx.find_word(at, |word| word.letter == d).is_some()

@@ -95,17 +95,17 @@ impl PathRule for DiameterOffsetOfAnotherTool {
             return;
         }
         // Compensation that the tool before left on is that tool's, and another rule reports that.
-        let on = cx.trace().set_by(Fact::Mode(Role::Compensation));
-        if on.zip(cx.trace().set_by(Fact::Tool)).is_some_and(|(on, changed)| is_before(on, changed)) {
+        let on = cx.definitions().set_by(Fact::Mode(Role::Compensation));
+        if on.zip(cx.definitions().set_by(Fact::Tool)).is_some_and(|(on, changed)| is_before(on, changed)) {
             return;
         }
         let Some(offset) = Abstract::known(state.d()).and_then(whole) else { return };
-        self.pairs.add(tool, offset, cx.trace().set_by(Fact::Tool), || {
-            let set_by = cx.trace().set_by(Fact::Mode(Role::Compensation));
+        self.pairs.add(tool, offset, cx.definitions().set_by(Fact::Tool), || {
+            let set_by = cx.definitions().set_by(Fact::Mode(Role::Compensation));
             let range = set_by.and_then(|at| cx.find_word(at, |word| word.letter.ascii() == b'D'));
             let message = format!("tool {tool} cuts with diameter offset {offset} (`D{offset}`, `T{tool}`)");
             let finding = cx.finding(&META, range.clone().unwrap_or_else(|| cx.range()), message);
-            let finding = match cx.trace().set_by(Fact::Tool).and_then(|at| cx.range_of(at)) {
+            let finding = match cx.definitions().set_by(Fact::Tool).and_then(|at| cx.range_of(at)) {
                 Some(range) => finding.also(range, format!("tool {tool} comes into the spindle here")),
                 None => finding,
             };

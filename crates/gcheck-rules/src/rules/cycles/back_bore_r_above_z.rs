@@ -71,7 +71,7 @@ impl PathRule for BackBoreRAboveZ {
         let above = words.r - words.z;
         // False for unknown numbers.
         let is_above = above > 1e-4;
-        if !is_above || !self.told.insert(cx.trace().set_by(Fact::Mode(Role::Cycle))) {
+        if !is_above || !self.told.insert(cx.definitions().set_by(Fact::Mode(Role::Cycle))) {
             return;
         }
         let name = code.number();

@@ -71,7 +71,7 @@ impl PathRule for BoreWithoutShift {
         if !travel.expanded || !rules.shift_optional || !cx.state().cycle().lacks(LetterSet::of("QIJ")) {
             return;
         }
-        if !self.told.insert(cx.trace().set_by(Fact::Mode(Role::Cycle))) {
+        if !self.told.insert(cx.definitions().set_by(Fact::Mode(Role::Cycle))) {
             return;
         }
         let name = code.number();

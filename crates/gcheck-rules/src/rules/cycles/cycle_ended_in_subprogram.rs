@@ -78,7 +78,7 @@ impl PathRule for CycleEndedInSubprogram {
 
     fn moved(&mut self, cx: &PathCx<'_>, _: &Event, report: &mut Report<'_>) {
         let active = cx.state().active_cycle(cx.model).filter(|code| code.is_some());
-        let given = cx.trace().set_by(Fact::Mode(Role::Cycle)).filter(|_| active.is_some());
+        let given = cx.definitions().set_by(Fact::Mode(Role::Cycle)).filter(|_| active.is_some());
         let ended = std::mem::replace(&mut self.cycle, active).zip(std::mem::replace(&mut self.given, given));
         let Some((cycle, given)) = ended.filter(|_| active.is_none()) else { return };
         let goes = |effect| matches!(effect, Effect::Rapid | Effect::Linear);

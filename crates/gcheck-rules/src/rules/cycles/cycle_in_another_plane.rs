@@ -43,8 +43,8 @@ struct CycleInAnotherPlane;
 impl PathRule for CycleInAnotherPlane {
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
         // What a program does not choose, the start-up codes of a lathe may.
-        let is_chosen =
-            cx.code_of_role(Role::Plane).is_some() || cx.trace().set_by(Fact::Mode(Role::Plane)).is_some();
+        let is_chosen = cx.code_of_role(Role::Plane).is_some()
+            || cx.definitions().set_by(Fact::Mode(Role::Plane)).is_some();
         if !is_chosen {
             return;
         }

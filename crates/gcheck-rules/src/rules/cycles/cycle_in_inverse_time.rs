@@ -91,7 +91,7 @@ fn makes_moves(effect: Effect) -> bool {
 impl CycleInInverseTime {
     fn tell(&mut self, cx: &PathCx<'_>, severity: Severity, report: &mut Report<'_>) {
         let fact = Fact::Mode(Role::FeedMode);
-        if !self.told.insert(cx.trace().set_by(fact)) {
+        if !self.told.insert(cx.definitions().set_by(fact)) {
             return;
         }
         let name = cx.code_name(Role::FeedMode).unwrap_or_default();

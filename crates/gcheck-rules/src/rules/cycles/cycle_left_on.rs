@@ -97,7 +97,7 @@ impl PathRule for CycleLeftOn {
 impl CycleLeftOn {
     fn tell(&mut self, cx: &PathCx<'_>, harm: CycleBoundary, name: &str, report: &mut Report<'_>) {
         let fact = Fact::Mode(Role::Cycle);
-        if cx.trace().set_by(fact).is_none() || !self.told.insert(cx.trace().set_by(fact)) {
+        if cx.definitions().set_by(fact).is_none() || !self.told.insert(cx.definitions().set_by(fact)) {
             return;
         }
         let finding = cx

@@ -71,7 +71,7 @@ impl PathRule for CycleRBelowBottom {
         let has_depth = !is_own_operation(cx) || cx.origin().letters.contains(Letter::of('Z'));
         if *fault != Fault::Cycle(CycleFault::RBelowBottom)
             || !has_depth
-            || !self.told.insert(cx.trace().set_by(Fact::Mode(Role::Cycle)))
+            || !self.told.insert(cx.definitions().set_by(Fact::Mode(Role::Cycle)))
         {
             return;
         }
@@ -89,7 +89,7 @@ impl PathRule for CycleRBelowBottom {
         let words = cx.state().cycle();
         let upward = words.z - words.r;
         // False for unknown numbers.
-        if upward > 1e-4 && self.told.insert(cx.trace().set_by(Fact::Mode(Role::Cycle))) {
+        if upward > 1e-4 && self.told.insert(cx.definitions().set_by(Fact::Mode(Role::Cycle))) {
             report.add(finding(cx).at_most(Severity::Warning));
         }
     }

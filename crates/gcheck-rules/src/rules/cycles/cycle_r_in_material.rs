@@ -224,11 +224,11 @@ impl PathRule for CycleRInMaterial {
 
 impl CycleRInMaterial {
     fn doubt(&mut self, cx: &PathCx<'_>, travel: &Travel, stroke: &Stroke) {
-        let cycle = cx.trace().set_by(Fact::Mode(Role::Cycle));
+        let cycle = cx.definitions().set_by(Fact::Mode(Role::Cycle));
         let start = travel.from.raw(Axis::Z);
         let comes_from_above = start >= 0.0;
         // Words of a cycle that began in increments count from elsewhere.
-        let mode = cx.trace().set_by(Fact::Mode(Role::Distance));
+        let mode = cx.definitions().set_by(Fact::Mode(Role::Distance));
         let is_switched = mode.zip(cycle).is_some_and(|(mode, cycle)| is_before(cycle, mode));
         if cx.state().is_incremental(cx.model) != Some(false) || is_switched {
             return;

@@ -63,7 +63,7 @@ impl PathRule for CycleReturnNotStated {
         if self.is_told
             || !cx.has_effect(is_cycle)
             || cx.code_of_role(Role::ReturnLevel).is_some()
-            || cx.trace().set_by(Fact::Mode(Role::ReturnLevel)).is_some()
+            || cx.definitions().set_by(Fact::Mode(Role::ReturnLevel)).is_some()
             || cx.is_after_unknown_program()
             || cx.is_called_only()
         {

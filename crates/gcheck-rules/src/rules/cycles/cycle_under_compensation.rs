@@ -101,7 +101,7 @@ impl PathRule for CycleUnderCompensation {
 impl CycleUnderCompensation {
     fn tell(&mut self, cx: &PathCx<'_>, severity: Severity, report: &mut Report<'_>) {
         let fact = Fact::Mode(Role::Compensation);
-        if !self.told.insert(cx.trace().set_by(fact)) {
+        if !self.told.insert(cx.definitions().set_by(fact)) {
             return;
         }
         let name = cx.code_name(Role::Compensation).unwrap_or_default();

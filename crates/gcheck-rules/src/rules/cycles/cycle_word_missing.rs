@@ -102,8 +102,8 @@ impl CycleWordMissing {
         let word = code.entry().words.iter().find(|word| Letter::parse(&word.letter) == Some(letter));
         let begins = cx.has_effect(|effect| effect == code.effect());
         let told_by_text =
-            !may_be_called(cx.survey)
-                && cx.survey.never_given.iter().any(|missing| {
+            !may_be_called(cx.file_index)
+                && cx.file_index.never_given.iter().any(|missing| {
                     missing.letter == letter && cx.model.effect(missing.code) == code.effect()
                 });
         // A letter of an arc or a call elsewhere in the text does not belong to the cycle.

@@ -78,7 +78,7 @@ impl PathRule for HoleAfterCoolantOff {
         }
         match event {
             Event::Coolant { kind: Coolant::Flood | Coolant::Mist, on: false } => {
-                let begun = cx.trace().set_by(Fact::Mode(Role::Cycle));
+                let begun = cx.definitions().set_by(Fact::Mode(Role::Cycle));
                 let is_under_it = begun.is_some() && begun == self.cooled;
                 self.off = Some(cx.origin().at).filter(|_| is_under_it);
             }
@@ -99,12 +99,12 @@ impl PathRule for HoleAfterCoolantOff {
         }
         let (flood, mist) = cx.state().coolant();
         if flood == Truth::True || mist == Truth::True {
-            self.cooled = cx.trace().set_by(Fact::Mode(Role::Cycle));
+            self.cooled = cx.definitions().set_by(Fact::Mode(Role::Cycle));
             return;
         }
         let Some(off) = self.off.take().filter(|off| *off != cx.origin().at) else { return };
         let is_off = flood == Truth::False && mist == Truth::False;
-        let is_of_cycle = cx.trace().set_by(Fact::Mode(Role::Cycle)) == self.cooled;
+        let is_of_cycle = cx.definitions().set_by(Fact::Mode(Role::Cycle)) == self.cooled;
         if !is_off || self.through || !is_of_cycle || !cx.is_on_every_path() || cx.has_effect(is_cycle) {
             return;
         }

@@ -64,7 +64,7 @@ impl PathRule for MaybeCycleLeftOn {
         let Some(harm) = cycle_boundary(cx).filter(|harm| *harm != CycleBoundary::ProgramEnd) else { return };
         let Some(ActiveMode::Possible(code)) = left_on(cx, Role::Cycle, is_cycle) else { return };
         let fact = Fact::Mode(Role::Cycle);
-        if !self.told.insert(cx.trace().set_by(fact)) {
+        if !self.told.insert(cx.definitions().set_by(fact)) {
             return;
         }
         let name = cx.name_of(code);

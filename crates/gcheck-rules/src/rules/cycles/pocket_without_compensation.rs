@@ -83,7 +83,7 @@ fn with_offset_zero(cx: &PathCx<'_>) -> Option<Finding> {
     let is_off = cx.has_effect(|effect| effect == Effect::CompensationOff);
     let written = cx.word('D').is_some();
     let d = if written { cx.known_number('D') } else { Abstract::known(cx.state().d()) };
-    let is_told = cx.survey.never_given.iter().any(|missing| missing.letter == Letter::of('D'));
+    let is_told = cx.file_index.never_given.iter().any(|missing| missing.letter == Letter::of('D'));
     if !is_on || is_off || d != Some(0.0) || !written && is_told {
         return None;
     }

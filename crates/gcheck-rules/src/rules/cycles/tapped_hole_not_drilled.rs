@@ -209,7 +209,7 @@ impl TappedHoleNotDrilled {
             self.is_blind = true;
             return;
         }
-        let tool = cx.trace().set_by(Fact::Tool);
+        let tool = cx.definitions().set_by(Fact::Tool);
         // Pecks go down again and again.
         if let Some(last) = self.holes.last_mut()
             && last.frame == frame
@@ -235,7 +235,7 @@ impl TappedHoleNotDrilled {
             let (a, b) = (distance(a.at, at), distance(b.at, at));
             a.total_cmp(&b)
         });
-        let tool = cx.trace().set_by(Fact::Tool);
+        let tool = cx.definitions().set_by(Fact::Tool);
         let missed = match nearest {
             Some(hole) if distance(hole.at, at) <= NEAR => {
                 self.below(cx, frame, at, bottom);
@@ -264,7 +264,7 @@ impl TappedHoleNotDrilled {
         }
         let Some(hole) = holes().min_by(|a, b| a.bottom.total_cmp(&b.bottom)) else { return };
         let Some(pitch) = pitch(cx).filter(|pitch| hole.bottom - bottom > CHAMFER * pitch) else { return };
-        let series = cx.trace().set_by(Fact::Mode(Role::Cycle));
+        let series = cx.definitions().set_by(Fact::Mode(Role::Cycle));
         if self.short.iter().any(|(own, _)| *own == series) {
             return;
         }

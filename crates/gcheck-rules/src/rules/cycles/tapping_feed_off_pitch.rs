@@ -90,7 +90,7 @@ impl PathRule for TappingFeedOffPitch {
         if !cx.has_effect(is_tapping) || cx.depth() > 1 {
             return;
         }
-        let Some(changed) = cx.trace().set_by(Fact::Tool) else { return };
+        let Some(changed) = cx.definitions().set_by(Fact::Tool) else { return };
         let state = cx.state();
         let given = |letter: char, before: Option<f64>| {
             if cx.origin().letters.contains(Letter::of(letter)) { cx.known_number(letter) } else { before }
@@ -100,7 +100,7 @@ impl PathRule for TappingFeedOffPitch {
         let (Some(feed), Some(speed), Some(units)) = (feed, speed, state.units(cx.model)) else { return };
         // A mode in the block itself, and a feed from before a change of modes, are not what the state holds.
         let is_switched = cx.code_of_role(Role::FeedMode).is_some() || cx.code_of_role(Role::Units).is_some();
-        let is_older = |fact| cx.trace().set_by(fact).is_some_and(|at| is_before(at, changed));
+        let is_older = |fact| cx.definitions().set_by(fact).is_some_and(|at| is_before(at, changed));
         let by_turns = state.feed_mode(cx.model) == Some(FeedMode::PerRevolution);
         let is_carried = !by_turns && is_older(Fact::Speed) && !cx.origin().letters.contains(Letter::of('S'));
         if self.told == Some(changed) || is_switched || feed <= 0.0 || speed <= 0.0 {
@@ -121,8 +121,8 @@ impl PathRule for TappingFeedOffPitch {
             return;
         }
         // A program without units has its feed in those that fit the pitch.
-        let are_written =
-            cx.trace().set_by(Fact::Mode(Role::Units)).is_some() || cx.environment.machine.units_are_told;
+        let are_written = cx.definitions().set_by(Fact::Mode(Role::Units)).is_some()
+            || cx.environment.machine.units_are_told;
         let in_others = a_turn / units.in_mm() * other(units).in_mm() / thread.pitch;
         if !are_written && (SHORT..=LONG).contains(&in_others) {
             return;
@@ -140,7 +140,9 @@ impl PathRule for TappingFeedOffPitch {
             finding = finding
                 .label(format!("belongs to `S{turns}`, and the speed is `S{}`", trimmed(speed)))
                 .help("give the speed of the tap (`S`) after the tool change");
-            if let Some(given) = cx.trace().set_by(Fact::Speed).and_then(|at| cx.find_word(at, is_speed)) {
+            if let Some(given) =
+                cx.definitions().set_by(Fact::Speed).and_then(|at| cx.find_word(at, is_speed))
+            {
                 finding = finding.also(given, "the last speed, from before the tool change");
             }
         } else {

@@ -82,7 +82,7 @@ impl PathRule for ThreadLeadOffPitch {
         if !cx.has_effect(is_thread) || cx.depth() > 1 || cx.is_malformed() {
             return;
         }
-        let changed = cx.trace().set_by(Fact::Tool);
+        let changed = cx.definitions().set_by(Fact::Tool);
         if self.told.contains(&changed) {
             return;
         }
@@ -94,7 +94,7 @@ impl PathRule for ThreadLeadOffPitch {
             (lead - right).abs() <= right * SLACK
         };
         // A program that does not state its units has the lead in those that fit the pitch.
-        let is_stated = cx.trace().set_by(Fact::Mode(gcheck_engine::Role::Units)).is_some()
+        let is_stated = cx.definitions().set_by(Fact::Mode(gcheck_engine::Role::Units)).is_some()
             || cx.environment.machine.units_are_told;
         let has_starts = cx.word('Q').is_some() && {
             let starts = lead * units.in_mm() / thread.pitch;

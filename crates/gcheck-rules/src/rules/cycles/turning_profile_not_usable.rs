@@ -65,7 +65,7 @@ impl PathRule for TurningProfileNotUsable {
         let Some(file) = cx.program.file(0) else { return };
         let here = cx.origin().at.block;
         let label = |letter: char, from: u32| {
-            file.loaded.outline().label(cx.known_number(letter).and_then(whole)?, from, true)
+            file.loaded.flow_graph().label(cx.known_number(letter).and_then(whole)?, from, true)
         };
         let Some(first) = label('P', here) else { return };
         let Some(last) = label('Q', first) else { return };

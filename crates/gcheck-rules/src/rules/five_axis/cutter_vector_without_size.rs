@@ -95,7 +95,7 @@ impl PathRule for CutterVectorWithoutSize {
 /// Does another block give a `D`?
 fn is_given_elsewhere(cx: &PathCx<'_>) -> bool {
     let d = Letter::of('D');
-    cx.survey.letters.contains(d) && !cx.origin().letters.contains(d)
+    cx.file_index.letters.contains(d) && !cx.origin().letters.contains(d)
 }
 
 #[cfg(test)]

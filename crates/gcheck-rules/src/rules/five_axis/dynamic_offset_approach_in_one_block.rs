@@ -61,7 +61,7 @@ impl PathRule for DynamicOffsetApproach {
 
     fn moved(&mut self, cx: &PathCx<'_>, _: &Event, report: &mut Report<'_>) {
         let role = Role::DynamicOffset;
-        let set_by = cx.trace().set_by(Fact::Mode(role));
+        let set_by = cx.definitions().set_by(Fact::Mode(role));
         let is_on = cx.state().effect(role, cx.model) == Some(Effect::DynamicOffsetOn);
         if !is_on || set_by.is_none() || self.seen == set_by {
             return;

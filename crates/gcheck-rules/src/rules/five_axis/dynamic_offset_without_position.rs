@@ -71,7 +71,7 @@ impl PathRule for DynamicOffsetWithoutPosition {
 
     fn moved(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
         let role = Role::DynamicOffset;
-        let set_by = cx.trace().set_by(Fact::Mode(role));
+        let set_by = cx.definitions().set_by(Fact::Mode(role));
         if set_by.is_none() || cx.state().effect(role, cx.model) != Some(Effect::DynamicOffsetOn) {
             return;
         }

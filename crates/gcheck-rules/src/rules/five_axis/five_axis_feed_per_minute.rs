@@ -64,7 +64,7 @@ impl PathRule for FiveAxisFeedPerMinute {
             return;
         }
         let fact = Fact::Mode(Role::FeedMode);
-        let set_by = [cx.trace().set_by(Fact::Mode(Role::Length)), cx.trace().set_by(fact)];
+        let set_by = [cx.definitions().set_by(Fact::Mode(Role::Length)), cx.definitions().set_by(fact)];
         if self.told.replace(set_by) == Some(set_by) {
             return;
         }

@@ -98,7 +98,7 @@ impl FiveAxisLengthLeftOn {
     ) {
         let Some(ActiveMode::Certain(code)) = left_on(cx, Role::Length, is_along_tool) else { return };
         let fact = Fact::Mode(Role::Length);
-        let set_by = cx.trace().set_by(fact);
+        let set_by = cx.definitions().set_by(fact);
         if set_by.is_none() || set_by == self.told {
             return;
         }

@@ -62,7 +62,7 @@ impl PathRule for MaybeFiveAxisLengthInIncremental {
         };
         for role in [Role::Length, Role::Distance] {
             let set_by =
-                cx.trace().set_by(gcheck_engine::Fact::Mode(role)).filter(|at| *at != cx.origin().at);
+                cx.definitions().set_by(gcheck_engine::Fact::Mode(role)).filter(|at| *at != cx.origin().at);
             if let Some(range) = set_by.and_then(|at| sets(at, role)) {
                 finding = finding.also(range, "on one of the paths set here");
             }

@@ -74,7 +74,7 @@ impl PathRule for ReferenceReturnUnderTilt {
         }
         for (role, on, off) in TILTS {
             let ends_here = cx.has_effect(|effect| effect == off);
-            let set_by = cx.trace().set_by(Fact::Mode(role));
+            let set_by = cx.definitions().set_by(Fact::Mode(role));
             if ends_here
                 || cx.state().effect(role, cx.model) != Some(on)
                 || set_by.is_none()

@@ -81,7 +81,7 @@ impl PathRule for RotaryAxisJumps {
             return;
         };
         let fact = Fact::Mode(Role::Length);
-        if !self.told.insert(cx.trace().set_by(fact)) {
+        if !self.told.insert(cx.definitions().set_by(fact)) {
             return;
         }
         let name = cx.code_name(Role::Length).unwrap_or_default();

@@ -68,7 +68,7 @@ impl PathRule for RotaryFeedPerMinute {
             return;
         }
         let fact = Fact::Mode(Role::FeedMode);
-        let set_by = cx.trace().set_by(fact);
+        let set_by = cx.definitions().set_by(fact);
         let Some(code) = state.mode(Role::FeedMode).only() else { return };
         if !self.told.insert(set_by) {
             return;

@@ -75,7 +75,7 @@ impl PathRule for RotaryMotionUnderDynamicOffset {
                 && travel.from.raw(*axis).to_bits() != travel.to.raw(*axis).to_bits()
         };
         let Some(axis) = Axis::ALL.into_iter().find(turns) else { return };
-        let set_by = cx.trace().set_by(Fact::Mode(role));
+        let set_by = cx.definitions().set_by(Fact::Mode(role));
         if set_by.is_none() || self.told == set_by {
             return;
         }

@@ -87,7 +87,7 @@ impl PathRule for AlarmReached {
             return;
         }
         let in_macro = cx.state().frames().iter().any(|frame| frame.kind == FrameKind::Macro);
-        if cx.survey.is_called_from_elsewhere() && !in_macro {
+        if cx.file_index.is_called_from_elsewhere() && !in_macro {
             return;
         }
         let text = text_of(cx);

@@ -66,7 +66,7 @@ impl PathRule for CheckedPastAlarm {
         }
         // `M99 P…` of a program that is called from another file names a block there.
         let is_elsewhere = matches!(fault, Fault::NoSuchLabel(_))
-            && cx.survey.is_called_from_elsewhere()
+            && cx.file_index.is_called_from_elsewhere()
             && cx.state().frames().len() <= 1;
         // What the machine's builder or user added is not in the file.
         let is_users =

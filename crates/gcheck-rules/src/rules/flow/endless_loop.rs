@@ -113,7 +113,7 @@ fn waits_for_somebody(cx: &PathCx<'_>, head: At, turn: At) -> bool {
             return true;
         }
         if let Some(file) = cx.program.file(head.file) {
-            blocks = file.loaded.outline().part_of(head.block);
+            blocks = file.loaded.flow_graph().part_of(head.block);
         }
     }
     blocks.take(20_000).any(|block| has(block, &waits))

@@ -75,7 +75,7 @@ impl PathRule for FallIntoSubprogram {
 
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
         // If `O` does not number programs, a program has no head.
-        if cx.survey.programs.len() < 2 && cx.survey.jumps.is_empty() {
+        if cx.file_index.programs.len() < 2 && cx.file_index.jumps.is_empty() {
             cx.enough();
             return;
         }
@@ -88,7 +88,7 @@ impl PathRule for FallIntoSubprogram {
             _ => return,
         };
         let is_program =
-            cx.program.file(0).is_some_and(|file| file.loaded.outline().part_of(entry).start == entry);
+            cx.program.file(0).is_some_and(|file| file.loaded.flow_graph().part_of(entry).start == entry);
         let came_from_above = match frame.kind {
             FrameKind::Main | FrameKind::Subprogram | FrameKind::Macro => {
                 !is_program || frame.entry.block < entry
@@ -121,34 +121,34 @@ impl FallIntoSubprogram {
         let entry = entries.range(..=At { file: 0, block }).next_back()?.block;
         let file = cx.program.file(0)?;
         // Execution may have left the straight run, so later blocks do not show how the subprogram was entered.
-        (block <= file.loaded.outline().straight_from(entry).end.max(entry)).then_some(entry)
+        (block <= file.loaded.flow_graph().straight_from(entry).end.max(entry)).then_some(entry)
     }
 }
 
 fn entries(cx: &PathCx<'_>) -> BTreeSet<At> {
     let Some(file) = cx.program.file(0) else { return BTreeSet::new() };
-    let outline = file.loaded.outline();
+    let graph = file.loaded.flow_graph();
     let is_call = |code| cx.model.effect(code) == Effect::CallLocal;
     let mut entries = BTreeSet::new();
-    for jump in &cx.survey.jumps {
+    for jump in &cx.file_index.jumps {
         let Some(number) = jump.target.filter(|_| is_call(jump.code)) else { continue };
         let is_also_jumped_to = cx
-            .survey
+            .file_index
             .jumps
             .iter()
             .any(|other| other.target.is_none_or(|n| n == number) && !is_call(other.code));
-        let mut blocks = outline.labels(number);
+        let mut blocks = graph.labels(number);
         if let (Some(block), None, false) = (blocks.next(), blocks.next(), is_also_jumped_to) {
             entries.insert(At { file: 0, block });
         }
     }
     if cx.control().syntax().program_number && !cx.control().syntax().o_words {
-        for part in outline.programs().skip(1) {
-            let above = part.blocks.start.checked_sub(1).map_or(0..0, |block| outline.part_of(block));
+        for part in graph.programs().skip(1) {
+            let above = part.blocks.start.checked_sub(1).map_or(0..0, |block| graph.part_of(block));
             // Another rule reports a program without any end.
             let bytes = |block: u32| cx.range_of(At { file: 0, block }).map_or(u32::MAX, |range| range.start);
             let (from, to) = (bytes(above.start), bytes(part.blocks.start));
-            let has_end = cx.survey.ends.iter().any(|end| {
+            let has_end = cx.file_index.ends.iter().any(|end| {
                 matches!(end.ends, Ends::Program | Ends::Subprogram) && (from..to).contains(&end.range.start)
             });
             if has_end && part.number.is_some() {

@@ -51,11 +51,11 @@ struct JumpIntoLoop;
 
 impl PathRule for JumpIntoLoop {
     fn finish(&mut self, cx: &FinishCx<'_>, report: &mut Report<'_>) {
-        if cx.survey.loops.is_empty() || cx.survey.jumps.is_empty() {
+        if cx.file_index.loops.is_empty() || cx.file_index.jumps.is_empty() {
             return;
         }
         let Some(file) = cx.program.file(0) else { return };
-        let outline = file.loaded.outline();
+        let graph = file.loaded.flow_graph();
         let mut loops: Vec<Range<u32>> = Vec::new();
         let mut jumps: Vec<(u32, u32, Range<u32>)> = Vec::new();
         let forward = cx.model.semantics().goto_forward_first;
@@ -63,12 +63,12 @@ impl PathRule for JumpIntoLoop {
             for statement in place.table.statements(place.ix) {
                 match &statement.kind {
                     StatementKind::Do { .. } => {
-                        loops.extend(outline.end_of(at.block).map(|end| at.block..end + 1));
+                        loops.extend(graph.end_of(at.block).map(|end| at.block..end + 1));
                     }
                     StatementKind::Goto { target: Some(target) } => {
                         let number = place.table.constant(*target).filter(|n| (0.0..1e9).contains(n));
                         #[expect(clippy::cast_sign_loss, reason = "range checked above")]
-                        let to = number.and_then(|n| outline.label(n as u32, at.block, forward));
+                        let to = number.and_then(|n| graph.label(n as u32, at.block, forward));
                         let bytes = place.base + statement.range.start..place.base + statement.range.end;
                         jumps.extend(to.map(|to| (at.block, to, bytes)));
                     }

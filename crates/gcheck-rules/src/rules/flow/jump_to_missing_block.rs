@@ -52,7 +52,7 @@ impl PathRule for JumpToMissingBlock {
         let Fault::NoSuchLabel(number) = fault else { return };
         let block = cx.range();
         // Other rules report a written number without executing the program.
-        let literal = cx.survey.jumps.iter().any(|jump| {
+        let literal = cx.file_index.jumps.iter().any(|jump| {
             jump.target == Some(*number)
                 && block.contains(&jump.range.start)
                 && !cx
@@ -62,7 +62,7 @@ impl PathRule for JumpToMissingBlock {
                     .is_some_and(|code| code.entry().words.iter().any(|word| word.elsewhere))
         });
         // `M99 P…` of a program that is called from another file names a block there.
-        let is_elsewhere = cx.survey.is_called_from_elsewhere()
+        let is_elsewhere = cx.file_index.is_called_from_elsewhere()
             && cx.state().frames().len() <= 1
             && cx.has_effect(|effect| effect == Effect::Return);
         if literal || is_elsewhere {

@@ -106,14 +106,14 @@ impl PathRule for LoopConditionUnchanged {
 /// The condition and the blocks of a loop that begins here.
 fn loop_at(cx: &FinishCx<'_>, at: At, place: &Place) -> Option<(ExprIx, Range<u32>)> {
     let file = cx.program.file(0)?;
-    let outline = file.loaded.outline();
+    let graph = file.loaded.flow_graph();
     // A jump before the loop's statement would be its exit.
     place.table.statements(place.ix).find_map(|statement| match &statement.kind {
         StatementKind::Do { condition: Some(condition), .. } => {
-            Some((*condition, at.block + 1..outline.end_of(at.block)?))
+            Some((*condition, at.block + 1..graph.end_of(at.block)?))
         }
         StatementKind::OWord { keyword: OKeyword::While, arguments, .. } => {
-            let links = outline.o_word(at.block)?;
+            let links = graph.o_word(at.block)?;
             // The `while` at the end of a `do` has its body before it.
             if links.head.is_some() {
                 return None;

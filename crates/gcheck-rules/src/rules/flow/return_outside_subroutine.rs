@@ -55,7 +55,7 @@ impl PathRule for ReturnOutsideSubroutine {
 /// Does a `SUB` before the block have its label? Then the control refuses the `SUB`, which another rule reports.
 fn is_in_refused_subroutine(cx: &PathCx<'_>) -> bool {
     let here = cx.range().start;
-    let words = &cx.survey.o_words;
+    let words = &cx.file_index.o_words;
     let own = words.iter().find(|word| word.range.start >= here);
     let before = words.iter().take_while(|word| word.range.start < here);
     own.is_some_and(|own| {

@@ -93,11 +93,14 @@ fn check(cx: &PathCx<'_>, at_end_of_text: bool, report: &mut Report<'_>) {
     }
     let Some(entry) = cx.range_of(frame.entry) else { return };
     let Some(file) = cx.program.file(0) else { return };
-    let part = file.loaded.outline().part_of(frame.entry.block);
+    let part = file.loaded.flow_graph().part_of(frame.entry.block);
     let end = cx.range_of(At { file: 0, block: part.end }).map_or(u32::MAX, |next| next.start);
     // If the called program has a return anywhere, this end is one of several.
     let returns = |range: std::ops::Range<u32>| {
-        cx.survey.ends.iter().any(|mark| mark.ends == Ends::Subprogram && range.contains(&mark.range.start))
+        cx.file_index
+            .ends
+            .iter()
+            .any(|mark| mark.ends == Ends::Subprogram && range.contains(&mark.range.start))
     };
     let own = match frame.kind {
         FrameKind::Local => entry.start..cx.range().end.min(end),

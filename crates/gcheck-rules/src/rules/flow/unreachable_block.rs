@@ -81,7 +81,7 @@ impl PathRule for UnreachableBlock {
     fn fault(&mut self, cx: &PathCx<'_>, fault: &Fault, _: &mut Report<'_>) {
         self.is_unsure |= matches!(fault, Fault::Undecidable | Fault::Alarm(_));
         // A block with a mistake does not reach the program that it names.
-        let names_program = || cx.survey.calls.iter().any(|call| cx.range().contains(&call.range.start));
+        let names_program = || cx.file_index.calls.iter().any(|call| cx.range().contains(&call.range.start));
         self.lost_way |= loses_way(fault) || names_program();
     }
 
@@ -101,7 +101,7 @@ impl PathRule for UnreachableBlock {
         }
         // A condition may depend on arguments and modes that a caller or the operator gives.
         let decided_elsewhere = has_conditions(cx.program, cx.environment)
-            && (cx.survey.is_called_from_elsewhere()
+            && (cx.file_index.is_called_from_elsewhere()
                 || reads_start_state(cx.program, cx.model, cx.environment));
         if decided_elsewhere {
             return;
@@ -114,8 +114,8 @@ impl PathRule for UnreachableBlock {
 
 /// Jumps or calls whose target is computed may lead to any block.
 fn goes_anywhere(cx: &FinishCx<'_>) -> bool {
-    cx.survey.jumps.iter().any(|jump| jump.target.is_none())
-        || cx.survey.calls.iter().any(|call| call.target == CallKind::Unknown)
+    cx.file_index.jumps.iter().any(|jump| jump.target.is_none())
+        || cx.file_index.calls.iter().any(|call| call.target == CallKind::Unknown)
 }
 
 struct Group {
@@ -145,10 +145,10 @@ enum Start {
 /// Runs of blocks that no path reaches. Past an alarm, those that follow an end of the program and have no label.
 fn groups(cx: &FinishCx<'_>, past_alarm: bool) -> Vec<Group> {
     let Some(file) = cx.program.file(0) else { return Vec::new() };
-    let outline = file.loaded.outline();
+    let graph = file.loaded.flow_graph();
     let profiles = profiles(cx);
     let mut groups = Vec::new();
-    for part in outline.programs() {
+    for part in graph.programs() {
         let is_reached = |block: u32| {
             cx.result.reach(At { file: 0, block }) != Reach::Never
                 || !cx.is_never_reached(At { file: 0, block })
@@ -181,9 +181,9 @@ fn groups(cx: &FinishCx<'_>, past_alarm: bool) -> Vec<Group> {
                 continue;
             }
             // The body of a subroutine runs when it is called; an uncalled one is whole.
-            let uncalled = outline.sub_around(block).is_some_and(|sub| !is_reached(sub + 1));
+            let uncalled = graph.sub_around(block).is_some_and(|sub| !is_reached(sub + 1));
             // The `while` at the end of a `do`, after a `break`.
-            let ends_loop = outline.o_word(block).is_some_and(|links| links.head.is_some());
+            let ends_loop = graph.o_word(block).is_some_and(|links| links.head.is_some());
             if uncalled || !does_something(&place, ends_loop) {
                 continue;
             }
@@ -221,9 +221,9 @@ fn cause(cx: &FinishCx<'_>, above: Option<&Place>, last: u32, block: u32) -> Opt
         });
     }
     // A subprogram may run with other arguments elsewhere.
-    let outline = cx.program.file(0)?;
-    let outline = outline.loaded.outline();
-    let is_called = outline.sub_around(block).is_some() || !outline.main().contains(&block);
+    let graph = cx.program.file(0)?;
+    let graph = graph.loaded.flow_graph();
+    let is_called = graph.sub_around(block).is_some() || !graph.main().contains(&block);
     let decides = above.block().flags.contains(BlockFlags::STATEMENT)
         && !above
             .table
@@ -239,7 +239,7 @@ fn section(cx: &FinishCx<'_>, above: &Place, last: u32, block: u32) -> Option<St
         let label = place.table.words(place.block()).iter().find(|word| word.letter.ascii() == b'N')?;
         label.integer()
     };
-    let part_end = file.loaded.outline().part_of(block).end;
+    let part_end = file.loaded.flow_graph().part_of(block).end;
     let place = |block: u32| file.loaded.place(block, cx.environment.dialect);
     // If every block has a number, no number marks a section.
     let all_have_numbers = place(block + 1).is_some_and(|place| number(&place).is_some());
@@ -275,13 +275,13 @@ fn ends_program(place: &Place, cx: &FinishCx<'_>) -> bool {
 /// Does a statement or jump of the text lead to the block?
 fn is_led_to(cx: &FinishCx<'_>, block: u32) -> bool {
     let Some(file) = cx.program.file(0) else { return false };
-    if !file.loaded.outline().may_be_target(block) {
+    if !file.loaded.flow_graph().may_be_target(block) {
         return false;
     }
     let Some(place) = file.loaded.place(block, cx.environment.dialect) else { return false };
     let label = place.table.words(place.block()).iter().find(|word| word.letter.ascii() == b'N');
     match label.and_then(gcheck_program::Word::integer) {
-        Some(number) => cx.survey.jumps.iter().any(|jump| jump.target == Some(number)),
+        Some(number) => cx.file_index.jumps.iter().any(|jump| jump.target == Some(number)),
         None => place.table.statements(place.ix).next().is_some(),
     }
 }
@@ -289,7 +289,7 @@ fn is_led_to(cx: &FinishCx<'_>, block: u32) -> bool {
 /// Blocks that a code reads as a profile or calls by their sequence numbers (`G70 P10 Q20`), wherever they are.
 fn profiles(cx: &FinishCx<'_>) -> Vec<Range<u32>> {
     let Some(file) = cx.program.file(0) else { return Vec::new() };
-    let outline = file.loaded.outline();
+    let graph = file.loaded.flow_graph();
     let is_flow = |code| {
         matches!(
             cx.model.effect(code),
@@ -301,12 +301,12 @@ fn profiles(cx: &FinishCx<'_>) -> Vec<Range<u32>> {
         )
     };
     let named: Vec<_> =
-        cx.survey.jumps.iter().filter(|jump| jump.code.is_some() && !is_flow(jump.code)).collect();
-    let blocks = |number: Option<u32>| number.into_iter().flat_map(|number| outline.labels(number));
+        cx.file_index.jumps.iter().filter(|jump| jump.code.is_some() && !is_flow(jump.code)).collect();
+    let blocks = |number: Option<u32>| number.into_iter().flat_map(|number| graph.labels(number));
     let mut profiles = Vec::new();
     for (ix, jump) in named.iter().enumerate() {
         for from in blocks(jump.target) {
-            let end = outline.part_of(from).end;
+            let end = graph.part_of(from).end;
             let next = named.get(ix + 1).filter(|next| next.code == jump.code);
             let to = blocks(next.and_then(|next| next.target)).find(|to| (from..end).contains(to));
             let returns = |block: u32| {

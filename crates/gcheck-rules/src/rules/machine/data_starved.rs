@@ -91,7 +91,7 @@ impl PathRule for DataStarved {
         self.moves += 1;
         self.length += length;
         self.seconds += seconds;
-        let set_by = cx.trace().set_by(Fact::Feed);
+        let set_by = cx.definitions().set_by(Fact::Feed);
         if self.late <= full || (self.told.is_some() && self.told == set_by) {
             return;
         }

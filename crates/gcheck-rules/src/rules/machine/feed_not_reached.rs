@@ -78,7 +78,7 @@ impl PathRule for FeedNotReached {
         if reach.speed >= asked * ENOUGH || cx.is_called_only() {
             return;
         }
-        if !self.told.insert(cx.trace().set_by(Fact::Feed)) {
+        if !self.told.insert(cx.definitions().set_by(Fact::Feed)) {
             return;
         }
         let only_turns = matches!(reach.holder, Holder::Axis(axis) if axis.is_rotary());

@@ -78,7 +78,7 @@ impl PathRule for FeedTooLargeForTool {
         if set_by.is_none() || self.told == set_by {
             return;
         }
-        let comment = cx.trace().set_by(Fact::Tool).and_then(|at| comment_of_tool(cx, at));
+        let comment = cx.definitions().set_by(Fact::Tool).and_then(|at| comment_of_tool(cx, at));
         if comment
             .is_some_and(|comment| comment.has(&["HIGH", "HIGHFEED", "HFM", "HPC", "HSM", "TAP", "PROBE"]))
         {

@@ -79,7 +79,7 @@ impl PathRule for SurfaceSpeedOutsideLimits {
             return;
         }
         let set_by =
-            [Fact::Speed, Fact::Tool].map(|fact| cx.trace().set_by(fact)).into_iter().max().flatten();
+            [Fact::Speed, Fact::Tool].map(|fact| cx.definitions().set_by(fact)).into_iter().max().flatten();
         if !self.told.insert(set_by) {
             return;
         }

@@ -135,7 +135,7 @@ impl SynchronisedFeedAboveLimit {
             return;
         }
         let set_by =
-            [Fact::Speed, Fact::Feed].map(|fact| cx.trace().set_by(fact)).into_iter().max().flatten();
+            [Fact::Speed, Fact::Feed].map(|fact| cx.definitions().set_by(fact)).into_iter().max().flatten();
         if self.told.insert(set_by) {
             report.add(finding(cx, &driven, reach, asked, turns));
         }

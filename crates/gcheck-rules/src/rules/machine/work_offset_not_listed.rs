@@ -76,7 +76,7 @@ impl PathRule for WorkOffsetNotListed {
             return;
         }
         // The program did not choose the offset of the start.
-        let Some(chosen) = cx.trace().set_by(Fact::Mode(Role::WorkOffset)) else { return };
+        let Some(chosen) = cx.definitions().set_by(Fact::Mode(Role::WorkOffset)) else { return };
         let is_offset = |word: &gcheck_program::Word| {
             matches!(cx.model.effect(word.code), Effect::WorkOffset(_) | Effect::WorkOffsetByP(_))
         };

@@ -58,7 +58,7 @@ impl PathRule for CommonVariableNeverSet {
 
     fn concerns(&self, program: &Uses<'_>) -> bool {
         program.environment.control().semantics().unset == Unset::Vacant
-            && !program.survey.is_called_from_elsewhere()
+            && !program.file_index.is_called_from_elsewhere()
     }
 
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {

@@ -83,7 +83,7 @@ impl PathRule for EmptyVariable {
         let is_emptied = is_assigned_before(cx, variable);
         let in_macro = is_in_macro(cx);
         // Local variables of a program that others call are arguments that it may get.
-        if is_local && !in_macro && cx.survey.is_called_from_elsewhere() {
+        if is_local && !in_macro && cx.file_index.is_called_from_elsewhere() {
             return;
         }
         let argument = argument_of(cx, variable).filter(|_| in_macro && is_local && !is_emptied);

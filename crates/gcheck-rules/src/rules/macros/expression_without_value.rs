@@ -83,7 +83,7 @@ impl PathRule for ExpressionWithoutValue {
             ValueFault::Malformed | ValueFault::NoSuchFunction => return,
         };
         let in_macro = cx.state().frames().iter().any(|frame| frame.kind != FrameKind::Main);
-        if cx.survey.is_called_from_elsewhere() && !in_macro {
+        if cx.file_index.is_called_from_elsewhere() && !in_macro {
             return;
         }
         let mut finding = cx.finding(&META, place(cx, *fault), message).label(label).help(help);

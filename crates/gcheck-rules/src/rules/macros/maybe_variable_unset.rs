@@ -71,7 +71,7 @@ impl PathRule for MaybeVariableUnset {
             .frames()
             .iter()
             .any(|frame| frame.kind != FrameKind::Main && frame.kind != FrameKind::Local)
-            || cx.survey.is_called_from_elsewhere()
+            || cx.file_index.is_called_from_elsewhere()
         {
             return;
         }

@@ -93,7 +93,7 @@ impl ModalCallLeftOn {
         let is_on = |effect| effect == Effect::MacroModal;
         let Some(ActiveMode::Certain(code)) = left_on(cx, Role::MacroModal, is_on) else { return };
         let fact = Fact::Mode(Role::MacroModal);
-        let set_by = cx.trace().set_by(fact);
+        let set_by = cx.definitions().set_by(fact);
         if set_by.is_none() || set_by == self.told {
             return;
         }

@@ -52,7 +52,7 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
     let mut local: Known<'_> = Known::new();
     let mut in_sub = false;
     let mut open_dos: HashSet<&OLabel> = HashSet::new();
-    for word in &cx.survey.o_words {
+    for word in &cx.file_index.o_words {
         match word.keyword {
             OKeyword::Sub => {
                 define(cx, &mut subs, word, report);

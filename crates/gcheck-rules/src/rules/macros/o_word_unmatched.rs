@@ -58,7 +58,7 @@ const DEEPEST: usize = 256;
 
 fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
     let structural = |o: &&OWord| !matches!(o.keyword, OKeyword::Call | OKeyword::Return);
-    let words: Vec<&OWord> = cx.survey.o_words.iter().filter(structural).collect();
+    let words: Vec<&OWord> = cx.file_index.o_words.iter().filter(structural).collect();
     // A computed label could be any.
     if words.is_empty() || !cx.control().syntax().o_words || words.iter().any(|o| o.label == OLabel::Computed)
     {

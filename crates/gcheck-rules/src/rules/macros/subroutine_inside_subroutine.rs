@@ -44,7 +44,7 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
     if !cx.control().syntax().o_words {
         return;
     }
-    let words = &cx.survey.o_words;
+    let words = &cx.file_index.o_words;
     let mut around: Option<&OWord> = None;
     for (ix, word) in words.iter().enumerate() {
         match (word.keyword, around) {

@@ -41,14 +41,14 @@ impl PathRule for SwitchedOffAtEnd {
     fn concerns(&self, program: &Uses<'_>) -> bool {
         let control = program.environment.control();
         let is_kept = |number: u32| matches!(control.variable(number), Variable::Known(v) if v.zero_at_end);
-        program.survey.assigned.iter().any(|(number, _)| is_kept(*number))
+        program.file_index.assigned.iter().any(|(number, _)| is_kept(*number))
     }
 
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
         if boundary(cx) != Some(Boundary::ProgramEnd) {
             return;
         }
-        for (number, range) in &cx.survey.assigned {
+        for (number, range) in &cx.file_index.assigned {
             let Variable::Known(entry) = cx.control().variable(*number) else { continue };
             let value = cx.known_variable(*number).filter(|value| *value != 0.0);
             let Some(value) = value.filter(|_| entry.zero_at_end && entry.access != Access::Read) else {

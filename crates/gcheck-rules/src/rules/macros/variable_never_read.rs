@@ -54,8 +54,9 @@ const MOST: usize = 1000;
 
 fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
     // Subprograms share the variables of their callers.
-    let shares = !cx.survey.calls.is_empty() || cx.survey.ends.iter().any(|end| end.ends == Ends::Subprogram);
-    if shares || cx.survey.assigned.is_empty() || !cx.survey.o_words.is_empty() {
+    let shares =
+        !cx.file_index.calls.is_empty() || cx.file_index.ends.iter().any(|end| end.ends == Ends::Subprogram);
+    if shares || cx.file_index.assigned.is_empty() || !cx.file_index.o_words.is_empty() {
         return;
     }
     let [first, last] = cx.control().semantics().locals;

@@ -51,7 +51,7 @@ impl PathRule for VariableNumberNotWhole {
             return;
         }
         let is_main = cx.state().frames().iter().all(|frame| frame.kind == FrameKind::Main);
-        if is_main && cx.survey.is_called_from_elsewhere() {
+        if is_main && cx.file_index.is_called_from_elsewhere() {
             return;
         }
         let finding = cx

@@ -75,7 +75,7 @@ impl PathRule for VariableReadBeforeSet {
             return;
         }
         let in_macro = is_in_macro(cx);
-        if !in_macro && cx.survey.is_called_from_elsewhere() || is_assigned_before(cx, variable) {
+        if !in_macro && cx.file_index.is_called_from_elsewhere() || is_assigned_before(cx, variable) {
             return;
         }
         let Some(place) = cx.place() else { return };

@@ -54,7 +54,7 @@ impl PathRule for CylinderFeedMode {
     fn cut(&mut self, cx: &PathCx<'_>, _: &Event, report: &mut Report<'_>) {
         let state = cx.state();
         let fact = Fact::Mode(Role::FeedMode);
-        let set_by = cx.trace().set_by(fact);
+        let set_by = cx.definitions().set_by(fact);
         if state.wrapped().cylinder().is_none() || set_by.is_none() || set_by == self.told {
             return;
         }

@@ -115,7 +115,7 @@ impl CylinderLeftOn {
         if place == Place::Reference && !takes_away(cx, cylinder) {
             return;
         }
-        let set_by = cx.trace().set_by(Fact::Mode(Role::Cylinder));
+        let set_by = cx.definitions().set_by(Fact::Mode(Role::Cylinder));
         if set_by.is_none() || set_by == self.told {
             return;
         }

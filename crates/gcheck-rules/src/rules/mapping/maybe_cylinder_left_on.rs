@@ -62,7 +62,7 @@ impl PathRule for MaybeCylinderLeftOn {
         let is_on = |effect| effect == Effect::CylinderMapping;
         let Some(ActiveMode::Possible(code)) = left_on(cx, Role::Cylinder, is_on) else { return };
         let fact = Fact::Mode(Role::Cylinder);
-        let set_by = cx.trace().set_by(fact);
+        let set_by = cx.definitions().set_by(fact);
         if set_by.is_none() || set_by == self.told || cx.is_after_unknown_program() {
             return;
         }

@@ -78,7 +78,7 @@ impl DistanceModeNotStated {
         }
         self.is_done = true;
         let is_stated =
-            cx.trace().set_by(Fact::Mode(Role::Distance)).is_some() || cx.is_after_unknown_program();
+            cx.definitions().set_by(Fact::Mode(Role::Distance)).is_some() || cx.is_after_unknown_program();
         let is_default = |effect| effect == Effect::Absolute;
         if is_stated
             || cx.is_called_only()

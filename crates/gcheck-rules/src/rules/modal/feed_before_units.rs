@@ -52,7 +52,8 @@ impl PathRule for FeedBeforeUnits {
             return;
         }
         let state = cx.state();
-        let old = state.units(cx.model).filter(|_| cx.trace().set_by(Fact::Mode(Role::Units)).is_some());
+        let old =
+            state.units(cx.model).filter(|_| cx.definitions().set_by(Fact::Mode(Role::Units)).is_some());
         let new = cx.codes().iter().find_map(|ix| match cx.model.effect(*ix) {
             Effect::Inch => Some((Units::Inch, *ix)),
             Effect::Millimetre => Some((Units::Mm, *ix)),

@@ -104,7 +104,7 @@ impl IncrementalIntoSubprogram {
         if depth < 2 || ignores_distance_mode(cx) || !cx.origin().letters.intersects(LetterSet::of("XYZ")) {
             return;
         }
-        let set_by = cx.trace().set_by(Fact::Mode(Role::Distance));
+        let set_by = cx.definitions().set_by(Fact::Mode(Role::Distance));
         // The caller set it: the last block that did is outside the call.
         let is_callers = matches!((set_by, self.depth_set), (Some(at), Some((set, set_depth))) if at == set && set_depth < depth);
         let (Some(frame), Some(is_incremental)) =

@@ -127,7 +127,7 @@ impl PathRule for IncrementalLeftOn {
         }
         match boundary(cx) {
             Some(Boundary::ToolChange) => {
-                let set_by = cx.trace().set_by(Fact::Mode(Role::Distance));
+                let set_by = cx.definitions().set_by(Fact::Mode(Role::Distance));
                 self.change = Some((boundary_range(cx, Boundary::ToolChange), set_by));
             }
             Some(Boundary::ProgramEnd) => self.end(cx, report),
@@ -161,7 +161,7 @@ impl IncrementalLeftOn {
         let has_others = self.begins_in_positions;
         self.begins_in_positions |= cx.state().is_incremental(cx.model) == Some(false);
         let states = cx.state().is_incremental(cx.model) == Some(true)
-            && cx.trace().set_by(Fact::Mode(Role::Distance)) == Some(cx.origin().at);
+            && cx.definitions().set_by(Fact::Mode(Role::Distance)) == Some(cx.origin().at);
         let is_meant = cx.depth() > 1 || cx.origin().flags.contains(BlockFlags::EXPRESSION);
         let chooses_offset = cx.code_of_role(Role::WorkOffset).is_some();
         let moves_nothing = moves_nothing(cx);
@@ -188,7 +188,7 @@ impl IncrementalLeftOn {
         if ignores_distance_mode(cx) || !cx.origin().letters.intersects(LetterSet::of("XYZ")) {
             return;
         }
-        let set_by = cx.trace().set_by(Fact::Mode(Role::Distance));
+        let set_by = cx.definitions().set_by(Fact::Mode(Role::Distance));
         self.relies_on_start |= !self.has_moved && set_by.is_none();
         self.has_moved = true;
         let is_incremental = cx.state().is_incremental(cx.model) == Some(true);

@@ -97,7 +97,7 @@ impl MaybeIncrementalLeftOn {
         if !has(Effect::Incremental) || !has(Effect::Absolute) || std::mem::replace(&mut self.is_told, true) {
             return;
         }
-        if cx.is_called_only() || cx.trace().set_by(Fact::Mode(Role::Distance)).is_none() {
+        if cx.is_called_only() || cx.definitions().set_by(Fact::Mode(Role::Distance)).is_none() {
             return;
         }
         let incremental = cx.name_of_effect(Effect::Incremental).unwrap_or_default();

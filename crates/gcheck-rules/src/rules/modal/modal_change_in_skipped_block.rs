@@ -130,7 +130,7 @@ impl PathRule for ModalChangeInSkippedBlock {
     }
 
     fn concerns(&self, program: &Uses<'_>) -> bool {
-        program.survey.block_deletes != 0
+        program.file_index.block_deletes != 0
     }
 
     fn block(&mut self, cx: &PathCx<'_>, _: &mut Report<'_>) {
@@ -258,7 +258,7 @@ impl ModalChangeInSkippedBlock {
     }
 
     fn moves(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
-        if cx.survey.block_deletes == 0 {
+        if cx.file_index.block_deletes == 0 {
             cx.enough();
             return;
         }
@@ -276,7 +276,7 @@ impl ModalChangeInSkippedBlock {
         for change in std::mem::take(&mut self.changes) {
             let skipped = self.skipped.iter().find(|(role, _)| *role == change.role).map(|(_, code)| *code);
             // Another program may have set it since; a plane matters to arcs only.
-            let is_still = cx.trace().set_by(Fact::Mode(change.role)) == Some(change.at)
+            let is_still = cx.definitions().set_by(Fact::Mode(change.role)) == Some(change.at)
                 && cx.state().mode(change.role).only() == Some(change.code);
             let matters = change.role != Role::Plane || cx.origin().letters.intersects(LetterSet::of("IJKR"));
             if !is_still || skipped == Some(change.code) {

@@ -72,7 +72,7 @@ impl PathRule for RestartWithChangedMode {
     fn moved(&mut self, cx: &PathCx<'_>, _: &Event, _: &mut Report<'_>) {
         cx.enough();
         for role in RELIED_ON {
-            if cx.trace().set_by(Fact::Mode(role)).is_none()
+            if cx.definitions().set_by(Fact::Mode(role)).is_none()
                 && let Some(code) = cx.state().mode(role).only()
                 && code.is_some()
             {

@@ -96,7 +96,7 @@ impl SafeStartMissing {
             Machine::Mill => &OF_MILLS,
             Machine::Lathe => &OF_LATHES,
         };
-        let is_stated = |role: Role| cx.trace().set_by(Fact::Mode(role)).is_some();
+        let is_stated = |role: Role| cx.definitions().set_by(Fact::Mode(role)).is_some();
         // Increments with their own letters need no mode.
         let has_own_letters = !cx.model.semantics().increments.is_empty();
         let mut missing: Vec<CodeNumber> = Vec::new();

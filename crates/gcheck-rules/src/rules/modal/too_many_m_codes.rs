@@ -81,7 +81,7 @@ mod tests {
             "G65 P9010 M1 M2 M3 M4\nM3 M8 M51 M59\n",
             &expect![[r#"
                 2 | M3 M8 M51 M59
-                  |           ^^^ warning[too-many-m-codes] 4 M codes in one block
+                  |           ^^^ info[too-many-m-codes] 4 M codes in one block
             "#]],
         );
     }

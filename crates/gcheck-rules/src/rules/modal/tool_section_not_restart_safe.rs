@@ -134,7 +134,7 @@ impl PathRule for ToolSectionNotRestartSafe {
         let Some(section) = self.section.take() else { return };
         let start = section.finding.range.start;
         let in_section = |at: At| cx.range_of(at).is_some_and(|range| range.start >= start);
-        let set_now = |role: Role| cx.trace().set_by(Fact::Mode(role)).is_some_and(in_section);
+        let set_now = |role: Role| cx.definitions().set_by(Fact::Mode(role)).is_some_and(in_section);
         let mut missing = Vec::new();
         let by_turret = cx.model.semantics().tools.change_by_t;
         for (needed, role, word) in [
@@ -160,14 +160,14 @@ impl PathRule for ToolSectionNotRestartSafe {
                         Needed::Plane => by_turret,
                         _ => cx.environment.machine.units_are_told,
                     };
-                    !is_known && role.is_some_and(|role| cx.trace().set_by(Fact::Mode(role)).is_some())
+                    !is_known && role.is_some_and(|role| cx.definitions().set_by(Fact::Mode(role)).is_some())
                 }
                 // A length from the tool before; another rule reports a missing length.
                 Needed::Length => {
                     let is_off = |effect| matches!(effect, Effect::LengthOff | Effect::None);
                     !by_turret
                         && cx.state().effect(Role::Length, cx.model).is_some_and(|effect| !is_off(effect))
-                        && cx.trace().set_by(Fact::Length).is_some_and(|at| !in_section(at))
+                        && cx.definitions().set_by(Fact::Length).is_some_and(|at| !in_section(at))
                 }
                 // On since an earlier part of the program, or off as far as is known.
                 Needed::Coolant => self.has_coolant,

@@ -73,7 +73,7 @@ impl PathRule for UnitsChanged {
         let fact = Fact::Mode(Role::Units);
         let (Some(new), Some(old)) = (new, cx.state().units(cx.model)) else { return };
         let Some(code) = cx.state().mode(Role::Units).only() else { return };
-        if new == old || cx.trace().set_by(fact).is_none() {
+        if new == old || cx.definitions().set_by(fact).is_none() {
             return;
         }
         self.is_told = true;

@@ -70,7 +70,7 @@ impl UnitsNotStated {
             return;
         }
         self.is_done = true;
-        let is_stated = cx.trace().set_by(Fact::Mode(Role::Units)).is_some()
+        let is_stated = cx.definitions().set_by(Fact::Mode(Role::Units)).is_some()
             || cx.environment.machine.units_are_told
             || cx.is_after_unknown_program();
         if is_stated || cx.is_called_only() {

@@ -81,7 +81,7 @@ impl PathRule for WordInSkippedBlock {
     }
 
     fn concerns(&self, program: &Uses<'_>) -> bool {
-        program.survey.block_deletes != 0
+        program.file_index.block_deletes != 0
     }
 
     fn block(&mut self, cx: &PathCx<'_>, _: &mut Report<'_>) {

@@ -79,7 +79,7 @@ impl PathRule for AxisWordsWithoutMotionMode {
             report.add(cx.resting_on(finding, Fact::Mode(Role::Motion), "the motion mode"));
             return;
         }
-        let set = |role| cx.trace().set_by(Fact::Mode(role));
+        let set = |role| cx.definitions().set_by(Fact::Mode(role));
         let cause = set(Role::Cycle).max(set(Role::Motion));
         if cause.is_none() && (self.unknown_code || cx.is_called_only()) || !self.told.insert(cause) {
             return;

@@ -48,7 +48,7 @@ struct CornerBeforeRapid;
 
 impl PathRule for CornerBeforeRapid {
     fn concerns(&self, program: &Uses<'_>) -> bool {
-        program.survey.letters.intersects(ON_LATHES.or(corners()))
+        program.file_index.letters.intersects(ON_LATHES.or(corners()))
     }
 
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {

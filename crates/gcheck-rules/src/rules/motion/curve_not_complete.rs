@@ -107,7 +107,7 @@ impl PathRule for CurveNotComplete {
             .help(help)
             .at_most(limit(entry.confidence));
         // A caller may have begun the curve.
-        let is_own = *fault == Fault::TooFewPoints || !may_be_called(cx.survey);
+        let is_own = *fault == Fault::TooFewPoints || !may_be_called(cx.file_index);
         report.add(if is_own { finding } else { finding.at_most(Severity::Warning) });
     }
 }

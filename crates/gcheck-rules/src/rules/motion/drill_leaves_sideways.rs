@@ -120,7 +120,7 @@ impl PathRule for DrillLeavesSideways {
 
 impl DrillLeavesSideways {
     fn feed(&mut self, cx: &PathCx<'_>, from: Spot, to: Spot) {
-        let tool = cx.trace().set_by(Fact::Tool);
+        let tool = cx.definitions().set_by(Fact::Tool);
         let is_along = from[0].abs() < SLACK && to[0].abs() < SLACK;
         let turns = cx.state().spindle().is_some_and(|spindle| spindle != Spindle::Stopped);
         if !is_along || !turns {
@@ -134,7 +134,7 @@ impl DrillLeavesSideways {
     }
 
     fn rapid(&mut self, cx: &PathCx<'_>, from: Spot, to: Spot, report: &mut Report<'_>) {
-        let tool = cx.trace().set_by(Fact::Tool);
+        let tool = cx.definitions().set_by(Fact::Tool);
         let Some(hole) = self.hole.as_ref().filter(|hole| hole.tool == tool) else { return };
         let is_sideways = if to[0].is_nan() { goes_home(cx) } else { (to[0] - from[0]).abs() > SHORT };
         let is_inside = from[0].abs() < SLACK && from[1] < -UNDER && from[1] < hole.top - UNDER;

@@ -87,11 +87,11 @@ impl PathRule for DwellVeryLong {
 /// from another machine may have one, such as `G90` on a lathe, and moves nothing.
 fn may_cut(cx: &PathCx<'_>) -> bool {
     let control = cx.control();
-    let mut codes = cx.survey.codes.iter().filter_map(|(number, _)| control.code(*number));
+    let mut codes = cx.file_index.codes.iter().filter_map(|(number, _)| control.code(*number));
     let cuts = [Motion::Feed, Motion::Arc, Motion::Thread, Motion::Cycle, Motion::Operation, Motion::Curve];
-    let goes = cx.survey.letters.intersects(LetterSet::of("XYZUVWABCIJK"));
-    cx.survey.has_computed_codes
-        || !cx.survey.calls.is_empty()
+    let goes = cx.file_index.letters.intersects(LetterSet::of("XYZUVWABCIJK"));
+    cx.file_index.has_computed_codes
+        || !cx.file_index.calls.is_empty()
         || goes && codes.any(|code| cuts.contains(&code.motion()))
 }
 

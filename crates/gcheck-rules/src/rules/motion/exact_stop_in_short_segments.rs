@@ -105,7 +105,7 @@ impl PathRule for ExactStopInShortSegments {
         self.moves += 1;
         self.length += length;
         let fact = Fact::Mode(Role::PathControl);
-        let set_by = cx.trace().set_by(fact);
+        let set_by = cx.definitions().set_by(fact);
         if self.moves <= MANY || !self.told.insert(set_by) {
             return;
         }

@@ -92,11 +92,11 @@ impl PathRule for FeedImplausible {
             _ => return,
         };
         // A mode that the program does not set may differ on the machine; lathes usually start in feed per turn.
-        let is_stated = cx.trace().set_by(Fact::Mode(Role::FeedMode)).is_some();
+        let is_stated = cx.definitions().set_by(Fact::Mode(Role::FeedMode)).is_some();
         if !is_stated && (cx.is_mill() || !is_fast) || taps(cx) {
             return;
         }
-        let Some(given) = cx.trace().set_by(Fact::Feed) else { return };
+        let Some(given) = cx.definitions().set_by(Fact::Feed) else { return };
         // Other rules report a feed that was given under the other mode, and a missing decimal point.
         let (now, then) = (state.mode(Role::FeedMode).only(), state.feed_given_under().only());
         let word = |word: &gcheck_program::Word| word.letter == Letter::of('F');

@@ -63,7 +63,7 @@ impl PathRule for FeedMissing {
         if *fault != Fault::NoFeed || inverse_time || is_probing_motion(cx) || zero_feed_given(cx).is_some() {
             return;
         }
-        let cause = cx.trace().set_by(Fact::Feed);
+        let cause = cx.definitions().set_by(Fact::Feed);
         // A called program has the feed of its caller.
         if cause.is_none() && cx.is_called_only() || !self.causes.insert(cause) {
             return;

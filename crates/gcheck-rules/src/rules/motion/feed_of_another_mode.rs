@@ -82,7 +82,7 @@ impl PathRule for FeedOfAnotherMode {
             return;
         }
         let (Some(changed), Some(at)) =
-            (cx.trace().set_by(Fact::Mode(Role::FeedMode)), cx.trace().set_by(Fact::Feed))
+            (cx.definitions().set_by(Fact::Mode(Role::FeedMode)), cx.definitions().set_by(Fact::Feed))
         else {
             return;
         };

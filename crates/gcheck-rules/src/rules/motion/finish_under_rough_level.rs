@@ -82,7 +82,7 @@ impl PathRule for FinishUnderRoughLevel {
             Event::Smoothing(smoothing) => match (smoothing.level, smoothing.tolerance) {
                 (Some(ROUGH), _) => {
                     self.rough = Some(cx.origin().at);
-                    self.tool = cx.trace().set_by(Fact::Tool);
+                    self.tool = cx.definitions().set_by(Fact::Tool);
                 }
                 // A tolerance alone keeps the level.
                 (None, Some(_)) => {}
@@ -101,7 +101,7 @@ impl PathRule for FinishUnderRoughLevel {
         let Some(comment) = finishing(cx, cx.origin().at) else { return };
         self.told = Some(rough);
         let name = cx.name_of_effect(Effect::Smoothing).unwrap_or_default();
-        let is_of_another = self.tool != cx.trace().set_by(Fact::Tool);
+        let is_of_another = self.tool != cx.definitions().set_by(Fact::Tool);
         let label = if is_of_another {
             "the level of the tool before is still on"
         } else {

@@ -54,7 +54,7 @@ impl PathRule for InverseTimeFeedMissing {
 
     fn fault(&mut self, cx: &PathCx<'_>, fault: &Fault, report: &mut Report<'_>) {
         let fact = Fact::Mode(Role::FeedMode);
-        if *fault != Fault::NoInverseTimeFeed || !self.told.insert(cx.trace().set_by(fact)) {
+        if *fault != Fault::NoInverseTimeFeed || !self.told.insert(cx.definitions().set_by(fact)) {
             return;
         }
         let Some(code) = cx.state().mode(Role::FeedMode).only().and_then(|ix| cx.control().code_at(ix))

@@ -59,7 +59,7 @@ impl PathRule for MaybeFeedMissing {
         if !may_be_none || cx.state().feed_mode(cx.model) == Some(FeedMode::InverseTime) {
             return;
         }
-        let Some(at) = cx.trace().set_by(Fact::Feed).filter(|at| *at != cx.origin().at) else { return };
+        let Some(at) = cx.definitions().set_by(Fact::Feed).filter(|at| *at != cx.origin().at) else { return };
         // A computed feed may be zero for other reasons.
         if !is_plain(cx, at) || !self.told.insert(at) {
             return;

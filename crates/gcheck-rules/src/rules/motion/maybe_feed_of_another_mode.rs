@@ -87,7 +87,8 @@ impl PathRule for MaybeFeedOfAnotherMode {
         if !goes_by_feed(event) || Abstract::known(state.feed()) == Some(0.0) {
             return;
         }
-        let (Some((other, before)), Some(changed)) = (other, cx.trace().set_by(Fact::Mode(Role::FeedMode)))
+        let (Some((other, before)), Some(changed)) =
+            (other, cx.definitions().set_by(Fact::Mode(Role::FeedMode)))
         else {
             return;
         };
@@ -110,7 +111,8 @@ impl MaybeFeedOfAnotherMode {
         let state = cx.state();
         // Where the number depends on the path too, mode and number may have been chosen together.
         let is_one = Abstract::known(state.feed_word()).is_some_and(|feed| feed > 0.0);
-        let (true, true, Some(given)) = (is_one, goes_by_feed(event), cx.trace().set_by(Fact::Feed)) else {
+        let (true, true, Some(given)) = (is_one, goes_by_feed(event), cx.definitions().set_by(Fact::Feed))
+        else {
             return;
         };
         let modes = state.mode(Role::FeedMode).alternatives();

@@ -125,13 +125,13 @@ impl PlungeAtCuttingFeed {
         let Some(fed) = fed(cx).filter(|fed| fed.given != slow.given && fed.mode == slow.mode) else {
             return;
         };
-        if fed.rate > slow.rate * FASTER && cx.trace().set_by(Fact::Tool) == self.tool {
+        if fed.rate > slow.rate * FASTER && cx.definitions().set_by(Fact::Tool) == self.tool {
             self.fast = Some(fed.given);
         }
     }
 
     fn plunge(&mut self, cx: &PathCx<'_>, event: &Event, [x, y, z]: [f64; 3], report: &mut Report<'_>) {
-        let tool = cx.trace().set_by(Fact::Tool);
+        let tool = cx.definitions().set_by(Fact::Tool);
         if self.tool != tool {
             *self = Self { tool, ..Self::default() };
         }
@@ -157,7 +157,7 @@ impl PlungeAtCuttingFeed {
 fn fed(cx: &PathCx<'_>) -> Option<Fed> {
     let rate = Abstract::known(cx.state().feed()).filter(|rate| *rate > 0.0)?;
     let mode = cx.state().feed_mode(cx.model).filter(|mode| *mode != FeedMode::InverseTime)?;
-    Some(Fed { given: cx.trace().set_by(Fact::Feed)?, rate, mode })
+    Some(Fed { given: cx.definitions().set_by(Fact::Feed)?, rate, mode })
 }
 
 /// Where a move straight down ends; `None` for another one.

@@ -97,7 +97,7 @@ impl PathRule for ProbeWithoutFeed {
 
 impl ProbeWithoutFeed {
     fn tell(&mut self, cx: &PathCx<'_>, finding: Finding, report: &mut Report<'_>) {
-        let cause = cx.trace().set_by(Fact::Feed);
+        let cause = cx.definitions().set_by(Fact::Feed);
         // A called program has the feed of its caller.
         if !(cause.is_none() && cx.is_called_only()) && self.told.insert(cause) {
             report.add(finding.help("give `F` in this block or before it"));

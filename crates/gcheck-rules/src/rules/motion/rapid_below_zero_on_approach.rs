@@ -94,7 +94,7 @@ impl PathRule for RapidBelowZeroOnApproach {
     fn moved(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
         let approach = self.approach.take();
         let Event::Travel(travel) = event else { return };
-        let tool = cx.trace().set_by(Fact::Tool);
+        let tool = cx.definitions().set_by(Fact::Tool);
         // Most moves come after the first one of their tool.
         if approach.is_none() && self.has_moved && self.tool == tool {
             return;

@@ -478,8 +478,8 @@ impl RapidBetweenCuts {
         let goes_on = first.file == at.file
             && at.block == last.block + 1
             && (last.block - first.block) as usize == way.pieces;
-        let stands =
-            cx.state().spindle() == Some(Spindle::Stopped) && cx.trace().set_by(Fact::Spindle).is_some();
+        let stands = cx.state().spindle() == Some(Spindle::Stopped)
+            && cx.definitions().set_by(Fact::Spindle).is_some();
         if way.is_new == Some(true) && goes_on && !stands {
             let message = "rapid move down into the part and up again, and nothing is cut";
             let finding = tell(cx, way, message, "the tool goes up again");

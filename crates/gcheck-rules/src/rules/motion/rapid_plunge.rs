@@ -302,7 +302,7 @@ impl RapidPlunge {
                 let finding =
                     tell(cx, plunge, "the one rapid move down to a cut", "the tool cuts on from there");
                 self.odd = Some(Odd { finding, count: 1, is_closed: false });
-                let tool = cx.trace().set_by(Fact::Tool);
+                let tool = cx.definitions().set_by(Fact::Tool);
                 let is_level = |(own, level): &(Option<At>, f64)| *own == tool && (level - z).abs() < LEVEL;
                 if self.levels.iter().any(is_level) {
                     let (low, high) = ([x.min(x1), y.min(y1)], [x.max(x1), y.max(y1)]);
@@ -315,7 +315,7 @@ impl RapidPlunge {
 
     /// Keeps a level that the tool is fed down to.
     fn keep_level(&mut self, cx: &PathCx<'_>, travel: &Travel) {
-        let level = (cx.trace().set_by(Fact::Tool), travel.to.raw(Axis::Z));
+        let level = (cx.definitions().set_by(Fact::Tool), travel.to.raw(Axis::Z));
         if self.levels.len() < MOST_LEVELS && !self.levels.contains(&level) {
             self.levels.push(level);
         }
@@ -338,7 +338,7 @@ impl RapidPlunge {
             if self.places.len() >= MOST_PLACES {
                 self.places.remove(0);
             }
-            self.places.push((cx.trace().set_by(Fact::Tool), Place::new(at)));
+            self.places.push((cx.definitions().set_by(Fact::Tool), Place::new(at)));
         } else if let Some((_, place)) = self.places.last_mut() {
             place.add(to, is_arc);
         }
@@ -371,7 +371,7 @@ impl RapidPlunge {
         if cuts.passes_over([x, y], z) {
             return Some(Solid::PassedOver);
         }
-        let tool = cx.trace().set_by(Fact::Tool);
+        let tool = cx.definitions().set_by(Fact::Tool);
         let is_here = |(own, place): &&(Option<At>, Place)| {
             let [x1, y1, z1] = place.at;
             *own == tool && distance([x1, y1], [x, y]) < NEAR && z1 > z + NEAR

@@ -58,7 +58,7 @@ impl PathRule for ReturnLevelForFeedMode {
         }
         // The first cut decides.
         cx.enough();
-        let set_by = |role| cx.trace().set_by(Fact::Mode(role));
+        let set_by = |role| cx.definitions().set_by(Fact::Mode(role));
         let Some(given) = set_by(Role::ReturnLevel).filter(|_| set_by(Role::FeedMode).is_none()) else {
             return;
         };

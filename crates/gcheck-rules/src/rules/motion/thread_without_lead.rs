@@ -49,7 +49,7 @@ impl PathRule for ThreadWithoutLead {
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
         let Some(code) = thread_from_feed(cx) else { return };
         // The feed of a cut; a word alone, or one with a rapid move, may be meant as the lead.
-        let Some(given) = cx.trace().set_by(Fact::Feed) else { return };
+        let Some(given) = cx.definitions().set_by(Fact::Feed) else { return };
         let Some(place) = cx.place_of(given) else { return };
         let words = place.table.words(place.block());
         let is_cut = words.iter().any(|word| is_cut(cx.model.effect(word.code)));

@@ -130,7 +130,7 @@ impl PathRule for ToleranceAboveFeature {
             _ => return,
         };
         let fact = Fact::Mode(Role::PathControl);
-        let set_by = cx.trace().set_by(fact);
+        let set_by = cx.definitions().set_by(fact);
         if size.is_nan() || size >= tolerance.0 * (1.0 - 1e-9) || !self.told.insert(set_by) {
             return;
         }

@@ -96,10 +96,10 @@ impl ToolDownAtEnd {
     fn end(&self, cx: &PathCx<'_>, report: &mut Report<'_>) {
         // A program without Y, or in the ZX plane, may be for turning.
         let is_mill = cx.is_mill()
-            && cx.survey.letters.contains(Letter::of('Y'))
+            && cx.file_index.letters.contains(Letter::of('Y'))
             && cx.state().plane(cx.model) != Some(Plane::Zx);
         // A probe and a pen work without the spindle, and may end anywhere.
-        let works = self.has_cut && cx.trace().set_by(Fact::Spindle).is_some();
+        let works = self.has_cut && cx.definitions().set_by(Fact::Spindle).is_some();
         let (Some(z), Some(highest)) = (cx.state().actual().get(Axis::Z), self.highest) else { return };
         let is_down = z < SURFACE && z < highest - LIFT;
         if is_mill && works && is_down && !cx.origin().letters.contains(Letter::of('Z')) {

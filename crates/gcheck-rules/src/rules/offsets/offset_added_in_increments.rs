@@ -74,7 +74,9 @@ impl PathRule for OffsetAddedInIncrements {
         if cx.state().effect(Role::Distance, cx.model) != Some(Effect::Incremental) {
             return;
         }
-        let Some(switched) = cx.trace().set_by(mode).filter(|at| self.told != Some(*at)) else { return };
+        let Some(switched) = cx.definitions().set_by(mode).filter(|at| self.told != Some(*at)) else {
+            return;
+        };
         let moves = |at: At| cx.place_of(at).is_some_and(|place| cx.has_axis_among(place.block().letters));
         let gives = cx.origin().letters.contains(Letter::of('R')) || cx.names_axes();
         let is_zero = |letter: char| cx.known_number(letter) == Some(0.0);

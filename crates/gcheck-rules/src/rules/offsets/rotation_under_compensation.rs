@@ -35,6 +35,16 @@ declare_rule! {
     /// G69
     /// M30
     /// ```
+    /// A Fanuc mill turns a path that is offset, unless it is scaled too.
+    /// ```nc,quiet,fanuc-mill
+    /// G17 G90 G54 G0 X0. Y0.
+    /// G41 D1 G1 X10. F100.
+    /// G68 X0. Y0. R90.
+    /// Y10.
+    /// G69
+    /// G40 X20.
+    /// M30
+    /// ```
     rule "rotation-under-compensation" in "offsets" {
         summary: "rotation that begins or ends under cutter compensation",
         severity: Warning,
@@ -59,6 +69,10 @@ impl PathRule for RotationUnderCompensation {
             return;
         }
         if cx.has_effect(|effect| effect == Effect::CompensationOff) {
+            return;
+        }
+        let is_scaled = cx.state().effect(Role::Scaling, cx.model) == Some(Effect::ScalingOn);
+        if cx.control().semantics().compensation.rotates_within && !is_scaled {
             return;
         }
         let Some(ActiveMode::Certain(compensation)) = left_on(cx, Role::Compensation, is_on) else { return };
@@ -87,12 +101,30 @@ mod tests {
     fn both_ends_are_judged() {
         check_rule(
             &RULE,
-            "fanuc-mill",
+            "haas-mill",
             "G17 G90 G54\nG68 X0. Y0. R30.\nG41 D1 G1 X10. F100.\nG69\nG40 X0.\nG69\nM30\n",
             &expect![[r#"
                 4 | G69
                   | ^^^ warning[rotation-under-compensation] a rotation ends under cutter compensation (`G69` under `G41`)
             "#]],
+        );
+    }
+
+    #[test]
+    fn a_control_may_turn_the_path_unless_it_is_scaled() {
+        let program = "G17 G90 G54\nG41 D1 G1 X10. F100.\nG68 X0. Y0. R30.\nY10.\nG69\nG40 X0.\nM30\n";
+        check_rule(&RULE, "fanuc-mill", program, &expect![[""]]);
+        let scaled = format!("G51 X0. Y0. P2000\n{program}");
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            &scaled,
+            &expect![[r#"
+            4 | G68 X0. Y0. R30.
+              | ^^^ warning[rotation-under-compensation] a rotation begins under cutter compensation (`G68` under `G41`)
+            6 | G69
+              | ^^^ warning[rotation-under-compensation] a rotation ends under cutter compensation (`G69` under `G41`)
+        "#]],
         );
     }
 }

@@ -82,7 +82,7 @@ impl ToolTiltLeftOn {
                 continue;
             }
             let Some(ActiveMode::Certain(code)) = left_on(cx, role, |effect| effect == on) else { continue };
-            let set_by = cx.trace().set_by(Fact::Mode(role));
+            let set_by = cx.definitions().set_by(Fact::Mode(role));
             if set_by.is_none() || set_by == *told {
                 continue;
             }

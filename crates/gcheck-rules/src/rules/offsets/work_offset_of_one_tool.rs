@@ -96,7 +96,7 @@ impl PathRule for WorkOffsetOfOneTool {
     fn cut(&mut self, cx: &PathCx<'_>, _: &Event, _: &mut Report<'_>) {
         let tool = Abstract::known(cx.state().tool()).and_then(whole);
         let (Some(tool), Some(offset)) = (tool.filter(|tool| *tool > 0), cx.state().work()) else { return };
-        let Some(section) = cx.trace().set_by(Fact::Tool) else { return };
+        let Some(section) = cx.definitions().set_by(Fact::Tool) else { return };
         let is_known = self.works.iter().any(|work| (work.section, work.offset) == (section, offset));
         if is_known || self.works.len() >= MOST_WORKS || cx.is_called_only() {
             return;
@@ -107,7 +107,7 @@ impl PathRule for WorkOffsetOfOneTool {
             .finding(&META, cx.range(), message)
             .label("its first cut")
             .help("check the offset; if it is right, say so in a suppression");
-        if let Some(at) = cx.trace().set_by(Fact::Mode(Role::WorkOffset))
+        if let Some(at) = cx.definitions().set_by(Fact::Mode(Role::WorkOffset))
             && let Some(range) = cx.range_of(at)
         {
             finding = finding.also(range, format!("`{name}` chosen here"));

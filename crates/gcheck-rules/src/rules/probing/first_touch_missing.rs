@@ -81,7 +81,7 @@ fn finding(cx: &PathCx<'_>) -> crate::Finding {
 /// A code in the text before the block that keeps a touch; no path to the block executes it.
 fn passed_by(cx: &PathCx<'_>) -> Option<std::ops::Range<u32>> {
     let control = cx.control();
-    let mut codes = cx.survey.codes.iter();
+    let mut codes = cx.file_index.codes.iter();
     let keeps = |number| {
         control.code_at(control.code_ix(number)).is_some_and(|code| code.effect() == Effect::KeepTouch)
     };

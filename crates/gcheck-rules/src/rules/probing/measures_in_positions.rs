@@ -51,7 +51,7 @@ impl PathRule for MeasuresInPositions {
             ModeInBlock::Several(_) => return,
         };
         let fact = Fact::Mode(Role::Distance);
-        let is_callers = !is_written && cx.is_called_only() && cx.trace().set_by(fact).is_none();
+        let is_callers = !is_written && cx.is_called_only() && cx.definitions().set_by(fact).is_none();
         let Some(code) = probing_code(cx).and_then(|ix| cx.code_of(ix)) else { return };
         let wanted = cx.name_of_effect(Effect::Incremental).unwrap_or_default();
         if cx.model.effect(mode) != Effect::Absolute

@@ -59,7 +59,7 @@ impl PathRule for ProbingInWrongMode {
                 ModeInBlock::Several(_) => continue,
             };
             let is_callers =
-                !is_written && cx.is_called_only() && cx.trace().set_by(Fact::Mode(role)).is_none();
+                !is_written && cx.is_called_only() && cx.definitions().set_by(Fact::Mode(role)).is_none();
             if is_callers || !is_wrong(mode) {
                 continue;
             }

@@ -46,14 +46,14 @@ declare_rule! {
 }
 
 fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
-    if cx.survey.jumps.is_empty() {
+    if cx.file_index.jumps.is_empty() {
         return;
     }
     let index = label_index(cx);
     let mut told: BTreeSet<(u32, u32)> = BTreeSet::new();
     let places =
-        cx.places(cx.survey.jumps.iter().filter_map(|jump| Some((jump.target?, jump.range.clone()))));
-    for jump in &cx.survey.jumps {
+        cx.places(cx.file_index.jumps.iter().filter_map(|jump| Some((jump.target?, jump.range.clone()))));
+    for jump in &cx.file_index.jumps {
         let Some(target) = jump.target else { continue };
         let word = target_word(cx, jump.code, WordKind::Label, cx.slice(jump.range.clone()));
         if word.is_some_and(|(code, word)| word.elsewhere || code.motion() != Motion::None) {

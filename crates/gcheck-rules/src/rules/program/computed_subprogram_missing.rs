@@ -49,7 +49,7 @@ struct ComputedSubprogramMissing;
 impl PathRule for ComputedSubprogramMissing {
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
         // The caller may give another number.
-        let is_called = cx.depth() == 1 && cx.survey.is_called_from_elsewhere();
+        let is_called = cx.depth() == 1 && cx.file_index.is_called_from_elsewhere();
         if is_called || cx.origin().flags.contains(BlockFlags::ERROR) {
             return;
         }
@@ -61,7 +61,7 @@ impl PathRule for ComputedSubprogramMissing {
             let Some(entry) = entries.find(|entry| Letter::parse(&entry.letter) == Some(word.letter)) else {
                 continue;
             };
-            if let Some(missing) = Programs::new(cx.environment, cx.survey).missing(number, entry) {
+            if let Some(missing) = Programs::new(cx.environment, cx.file_index).missing(number, entry) {
                 report.add(finding(cx, word, &code.entry().code, missing));
             }
         }

@@ -44,11 +44,11 @@ declare_rule! {
 }
 
 fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
-    if cx.survey.labels.len() < 2 || !has_jumps(cx) {
+    if cx.file_index.labels.len() < 2 || !has_jumps(cx) {
         return;
     }
     let mut labels: Vec<(u32, u32, &Label)> =
-        cx.survey.labels.iter().map(|l| (program_around(cx, l.range.start).start, l.number, l)).collect();
+        cx.file_index.labels.iter().map(|l| (program_around(cx, l.range.start).start, l.number, l)).collect();
     labels.sort_by_key(|(program, number, label)| (*program, *number, label.range.start));
     let same = |pair: &&[(u32, u32, &Label)]| matches!(pair, [a, b] if (a.0, a.1) == (b.0, b.1));
     let count = labels.windows(2).filter(same).count();
@@ -57,7 +57,7 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
         labels.windows(2).filter(same).min_by_key(|pair| pair.last().map(|(_, _, label)| label.range.start));
     let Some([(_, _, first), (_, _, second)]) = first else { return };
     // Another rule reports a number that a jump leads to.
-    if !cx.survey.jumps.iter().any(|j| j.target == Some(second.number)) {
+    if !cx.file_index.jumps.iter().any(|j| j.target == Some(second.number)) {
         let again = labels.windows(2).filter(same).filter_map(|pair| pair.last()).map(|(_, _, label)| *label);
         report.add(finding(first, second, count).fix_if(without_numbers(cx, again)));
     }
@@ -80,10 +80,10 @@ const MOST_NUMBERS: usize = 10_000;
 
 /// Removes the repeated numbers: only if every jump is known, and none leads to one of them.
 fn without_numbers<'l>(cx: &FileCx<'_>, again: impl Iterator<Item = &'l Label>) -> Option<Fix> {
-    let targets: Option<BTreeSet<u32>> = cx.survey.jumps.iter().map(|jump| jump.target).collect();
+    let targets: Option<BTreeSet<u32>> = cx.file_index.jumps.iter().map(|jump| jump.target).collect();
     let targets = targets?;
     // Returns and calls from other programs are not known.
-    if !cx.survey.calls.is_empty() || cx.survey.ends.iter().any(|end| end.ends == Ends::Subprogram) {
+    if !cx.file_index.calls.is_empty() || cx.file_index.ends.iter().any(|end| end.ends == Ends::Subprogram) {
         return None;
     }
     let again = again.filter(|label| !targets.contains(&label.number)).take(MOST_NUMBERS);

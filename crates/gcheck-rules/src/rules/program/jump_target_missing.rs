@@ -49,11 +49,11 @@ declare_rule! {
 }
 
 fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
-    if cx.survey.jumps.is_empty() {
+    if cx.file_index.jumps.is_empty() {
         return;
     }
     let index = label_index(cx);
-    for jump in &cx.survey.jumps {
+    for jump in &cx.file_index.jumps {
         let Some(target) = jump.target else { continue };
         let word = target_word(cx, jump.code, WordKind::Label, cx.slice(jump.range.clone()));
         let is_elsewhere = word.is_some_and(|(_, word)| word.elsewhere);

@@ -40,18 +40,18 @@ declare_rule! {
 }
 
 fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
-    if !cx.control().syntax().o_words || cx.survey.calls.is_empty() {
+    if !cx.control().syntax().o_words || cx.file_index.calls.is_empty() {
         return;
     }
     let subs: HashSet<&OLabel> =
-        cx.survey.o_words.iter().filter(|o| o.keyword == OKeyword::Sub).map(|o| &o.label).collect();
-    let programs: HashSet<u32> = cx.survey.programs.iter().filter_map(|p| p.number).collect();
+        cx.file_index.o_words.iter().filter(|o| o.keyword == OKeyword::Sub).map(|o| &o.label).collect();
+    let programs: HashSet<u32> = cx.file_index.programs.iter().filter_map(|p| p.number).collect();
     let mut told: HashSet<&OLabel> = HashSet::new();
-    let places = cx.places(cx.survey.calls.iter().filter_map(|call| match &call.target {
+    let places = cx.places(cx.file_index.calls.iter().filter_map(|call| match &call.target {
         CallKind::OWord(label) => Some((label, call.range.clone())),
         _ => None,
     }));
-    for call in &cx.survey.calls {
+    for call in &cx.file_index.calls {
         let CallKind::OWord(label) = &call.target else { continue };
         if told.contains(&label) {
             continue;

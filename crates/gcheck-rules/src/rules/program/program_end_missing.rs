@@ -55,16 +55,16 @@ declare_rule! {
 }
 
 fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
-    let survey = cx.survey;
-    let Some(last) = &survey.last_block else { return };
+    let file_index = cx.file_index;
+    let Some(last) = &file_index.last_block else { return };
     let syntax = cx.control().syntax();
-    if syntax.tape_marks_end && survey.tape_marks.len() >= 2 {
+    if syntax.tape_marks_end && file_index.tape_marks.len() >= 2 {
         return;
     }
     // A library of subroutines: what a caller runs ends with ENDSUB.
-    if syntax.o_words && survey.o_words.first().is_some_and(|o| o.keyword == OKeyword::Sub) {
+    if syntax.o_words && file_index.o_words.first().is_some_and(|o| o.keyword == OKeyword::Sub) {
         let is_behind = |range: &Range<u32>| range.start > last.start || range.contains(&last.start);
-        if survey.o_words.last().is_some_and(|o| o.keyword == OKeyword::EndSub && is_behind(&o.range)) {
+        if file_index.o_words.last().is_some_and(|o| o.keyword == OKeyword::EndSub && is_behind(&o.range)) {
             return;
         }
     }
@@ -74,14 +74,14 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
     let sections = if keeps_programs_by_number(cx) { sections.as_slice() } else { whole.as_slice() };
     for section in sections {
         // In text order, as the sections are.
-        let next = survey.ends.partition_point(|e| e.range.start < section.range.start);
-        let ends = survey.ends.get(next).is_some_and(|e| e.range.start < section.range.end);
+        let next = file_index.ends.partition_point(|e| e.range.start < section.range.start);
+        let ends = file_index.ends.get(next).is_some_and(|e| e.range.start < section.range.end);
         if ends || !has_code(cx, section) {
             continue;
         }
         let is_last = section.range.contains(&last.start);
         // A loop by GOTO has its end elsewhere or needs none.
-        let jumps_at_end = is_last && survey.jumps.iter().any(|j| last.contains(&j.range.start));
+        let jumps_at_end = is_last && file_index.jumps.iter().any(|j| last.contains(&j.range.start));
         if !jumps_at_end {
             let fix = if is_last { end(cx, last) } else { None };
             let found = finding(cx, section, is_last.then(|| last.clone())).fix_if(fix);

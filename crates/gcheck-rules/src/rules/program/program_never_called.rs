@@ -58,21 +58,21 @@ declare_rule! {
 }
 
 fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
-    let survey = cx.survey;
+    let file_index = cx.file_index;
     // Without any call the programs are only stored in one file.
-    if survey.calls.is_empty() || survey.has_mistakes {
+    if file_index.calls.is_empty() || file_index.has_mistakes {
         return;
     }
     let is_computed =
         |target: &CallKind| matches!(target, CallKind::Unknown | CallKind::OWord(OLabel::Computed));
-    if survey.calls.iter().any(|call| is_computed(&call.target)) {
+    if file_index.calls.iter().any(|call| is_computed(&call.target)) {
         return;
     }
     if keeps_programs_by_number(cx) {
         numbered(cx, report);
     }
     // The profile of a turning cycle is a subroutine.
-    let reads_profiles = survey.codes.iter().any(|(number, _)| {
+    let reads_profiles = file_index.codes.iter().any(|(number, _)| {
         let code = cx.control().code_at(cx.control().code_ix(*number));
         code.is_some_and(|code| {
             matches!(
@@ -87,8 +87,8 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
 }
 
 fn numbered(cx: &FileCx<'_>, report: &mut Report<'_>) {
-    let survey = cx.survey;
-    let called: BTreeSet<u32> = survey
+    let file_index = cx.file_index;
+    let called: BTreeSet<u32> = file_index
         .calls
         .iter()
         .filter_map(|call| match call.target {
@@ -99,7 +99,7 @@ fn numbered(cx: &FileCx<'_>, report: &mut Report<'_>) {
         .flat_map(|number| [number, number % 10_000])
         .collect();
     let ends_in = |range: &std::ops::Range<u32>, ends: Ends| {
-        survey.ends.iter().any(|end| end.ends == ends && range.contains(&end.range.start))
+        file_index.ends.iter().any(|end| end.ends == ends && range.contains(&end.range.start))
     };
     let sections = sections(cx);
     // Only calls of a main program in this file matter.
@@ -124,19 +124,19 @@ fn numbered(cx: &FileCx<'_>, report: &mut Report<'_>) {
 }
 
 fn o_words(cx: &FileCx<'_>, report: &mut Report<'_>) {
-    let survey = cx.survey;
+    let file_index = cx.file_index;
     let calls = |label: &OLabel| {
-        survey.calls.iter().any(|call| matches!(&call.target, CallKind::OWord(called) if called == label))
-            || matches!(label, OLabel::Number(n) if survey.calls.iter().any(|c| c.target == CallKind::Program(*n)))
+        file_index.calls.iter().any(|call| matches!(&call.target, CallKind::OWord(called) if called == label))
+            || matches!(label, OLabel::Number(n) if file_index.calls.iter().any(|c| c.target == CallKind::Program(*n)))
     };
-    let mut subs = survey.o_words.iter().filter(|o| o.keyword == OKeyword::Sub);
+    let mut subs = file_index.o_words.iter().filter(|o| o.keyword == OKeyword::Sub);
     // A library may have a main program for tests; one that calls its own subroutines is a program.
-    if !subs.any(|sub| calls(&sub.label)) || !survey.ends.iter().any(|end| end.ends == Ends::Program) {
+    if !subs.any(|sub| calls(&sub.label)) || !file_index.ends.iter().any(|end| end.ends == Ends::Program) {
         return;
     }
     // If a file is one subroutine, its own name calls it.
-    let own = survey.first_block.as_ref().map(|first| first.start);
-    for sub in survey
+    let own = file_index.first_block.as_ref().map(|first| first.start);
+    for sub in file_index
         .o_words
         .iter()
         .filter(|o| o.keyword == OKeyword::Sub && own.is_none_or(|own| o.range.start > own))

@@ -47,11 +47,11 @@ declare_rule! {
 }
 
 fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
-    if cx.survey.programs.len() < 2 || !keeps_programs_by_number(cx) {
+    if cx.file_index.programs.len() < 2 || !keeps_programs_by_number(cx) {
         return;
     }
     let mut programs: Vec<&ProgramNumber> =
-        cx.survey.programs.iter().filter(|p| p.number.is_some()).collect();
+        cx.file_index.programs.iter().filter(|p| p.number.is_some()).collect();
     programs.sort_by_key(|p| (p.number, p.range.start));
     for pair in programs.windows(2) {
         if let [first, second] = pair

@@ -45,12 +45,12 @@ declare_rule! {
 
 fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
     // Numbered subprograms may follow a main program without a number.
-    let numbered = cx.survey.programs.first().map_or(u32::MAX, |number| number.range.start);
+    let numbered = cx.file_index.programs.first().map_or(u32::MAX, |number| number.range.start);
     let ends = |end: &EndMark| end.ends == Ends::Program && end.range.end <= numbered;
-    let is_whole = cx.survey.tape_marks.len() == 2 && cx.survey.ends.iter().any(ends);
+    let is_whole = cx.file_index.tape_marks.len() == 2 && cx.file_index.ends.iter().any(ends);
     if is_whole
         && keeps_programs_by_number(cx)
-        && let Some(first) = &cx.survey.first_block
+        && let Some(first) = &cx.file_index.first_block
     {
         report.add(finding(first.clone()));
     }

@@ -50,7 +50,7 @@ declare_rule! {
 }
 
 fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
-    for mark in &cx.survey.tape_marks {
+    for mark in &cx.file_index.tape_marks {
         if !crate::facts::sections::is_tape_mark_line(cx, mark) {
             let at = cx.slice(mark.clone()).find('%').map_or(mark.start, |at| mark.start + at as u32);
             let before = cx.slice(mark.start..at);
@@ -58,7 +58,7 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
             report.add(inside(at..at + 1).fix(Fix::risky("remove the `%`", at - blanks as u32..at + 1, "")));
         }
     }
-    let Some(closing) = cx.survey.tape_marks.last() else { return };
+    let Some(closing) = cx.file_index.tape_marks.last() else { return };
     let code = cx
         .text
         .from(cx.region.end)

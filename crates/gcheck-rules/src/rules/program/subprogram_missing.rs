@@ -52,16 +52,16 @@ declare_rule! {
 }
 
 fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
-    if cx.survey.calls.is_empty() {
+    if cx.file_index.calls.is_empty() {
         return;
     }
-    let programs = Programs::new(cx.environment, cx.survey);
+    let programs = Programs::new(cx.environment, cx.file_index);
     let mut told: BTreeSet<u32> = BTreeSet::new();
-    let places = cx.places(cx.survey.calls.iter().filter_map(|call| match call.target {
+    let places = cx.places(cx.file_index.calls.iter().filter_map(|call| match call.target {
         CallKind::Program(number) => Some((number, call.range.clone())),
         _ => None,
     }));
-    for call in &cx.survey.calls {
+    for call in &cx.file_index.calls {
         let CallKind::Program(number) = call.target else { continue };
         if told.contains(&number) {
             continue;

@@ -41,7 +41,9 @@ declare_rule! {
 }
 
 fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
-    let ([mark], Some(first)) = (cx.survey.tape_marks.as_slice(), &cx.survey.first_block) else { return };
+    let ([mark], Some(first)) = (cx.file_index.tape_marks.as_slice(), &cx.file_index.first_block) else {
+        return;
+    };
     // Where tape marks are refused, a second one does not help.
     let are_read = !cx.control().syntax().tape_marks_refused;
     if are_read && crate::facts::sections::is_tape_mark_line(cx, mark) {

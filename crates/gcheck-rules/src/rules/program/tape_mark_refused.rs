@@ -39,7 +39,7 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
     if !cx.control().syntax().tape_marks_refused {
         return;
     }
-    for mark in &cx.survey.tape_marks {
+    for mark in &cx.file_index.tape_marks {
         let at = cx.slice(mark.clone()).find('%').map_or(mark.start, |at| mark.start + at as u32);
         report.add(finding(cx, at..at + 1));
     }

@@ -46,7 +46,7 @@ const HEAD_LINES: usize = 50;
 fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
     let control = cx.control();
     let chosen = |wanted: Effect| {
-        let mut codes = cx.survey.codes.iter();
+        let mut codes = cx.file_index.codes.iter();
         codes.find(|(number, _)| control.code(*number).is_some_and(|code| code.effect() == wanted))
     };
     // A program that uses both units does not contradict the comment.

@@ -40,7 +40,7 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
         return;
     }
     let Some(dialect) = cx.environment.unsupported.or(cx.text.evidence().unsupported) else { return };
-    let first = cx.survey.first_block.clone().unwrap_or_default();
+    let first = cx.file_index.first_block.clone().unwrap_or_default();
     report.add(
         Finding::new(&META, first, format!("the file is for {}, which gcheck does not read", dialect.name))
             .note(format!("it looks like {}  [{}]", dialect.reads, dialect.source))

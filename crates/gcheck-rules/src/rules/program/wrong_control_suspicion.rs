@@ -48,7 +48,7 @@ const LEAD: i32 = 8;
 
 fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
     // A guessed control is already the best guess.
-    if cx.environment.control_is_guessed || cx.survey.first_block.is_none() {
+    if cx.environment.control_is_guessed || cx.file_index.first_block.is_none() {
         return;
     }
     let scores = scores(cx.text.evidence());
@@ -68,14 +68,14 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
 
 /// Codes of the program that only the other control has.
 fn codes_of_the_other<'a>(cx: &FileCx<'a>, other: &Control) -> Vec<&'a (CodeNumber, Range<u32>)> {
-    let codes = cx.survey.codes.iter();
+    let codes = cx.file_index.codes.iter();
     codes
         .filter(|(number, _)| cx.control().code(*number).is_none() && other.code(*number).is_some())
         .collect()
 }
 
 fn finding(cx: &FileCx<'_>, best: &Score, other: &Control, unknown: &[&(CodeNumber, Range<u32>)]) -> Finding {
-    let first = cx.survey.first_block.clone().unwrap_or_default();
+    let first = cx.file_index.first_block.clone().unwrap_or_default();
     let name = other.name();
     let mut finding = Finding::new(
         &META,

@@ -70,10 +70,12 @@ impl PathRule for DrillTurnsBackwards {
         if cx.state().spindle() != Some(Spindle::CounterClockwise) || !drills(cx, travel) {
             return;
         }
-        let Some(changed) = cx.trace().set_by(Fact::Tool).filter(|at| self.told != Some(*at)) else { return };
+        let Some(changed) = cx.definitions().set_by(Fact::Tool).filter(|at| self.told != Some(*at)) else {
+            return;
+        };
         let Some(comment) = comment_of_tool(cx, changed).filter(is_drill) else { return };
         self.told = Some(changed);
-        let started = cx.trace().set_by(Fact::Spindle);
+        let started = cx.definitions().set_by(Fact::Spindle);
         let start =
             started.and_then(|at| cx.find_word(at, |word| turns_backwards(cx.model.effect(word.code))));
         let name = cx.name_of_effect(Effect::SpindleCounterClockwise).unwrap_or_default();

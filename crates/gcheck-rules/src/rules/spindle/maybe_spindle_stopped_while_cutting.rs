@@ -77,13 +77,13 @@ impl PathRule for MaybeSpindleStopped {
         let may_stand = state.spindle().is_none() && state.live_tool() == Truth::False;
         // The state after a program that gcheck does not have is unknown, and is not a path of this one.
         let is_told_of = !cx.is_after_unknown_program()
-            && (self.stopped_by.is_some() || !cx.trace().decisions().is_empty())
+            && (self.stopped_by.is_some() || !cx.definitions().decisions().is_empty())
             && Abstract::bounds(state.speed()).is_some()
             && cx.file_uses(starts_spindle);
         if !may_stand || !is_told_of || !is_cut(cx, event) || cx.is_called_only() {
             return;
         }
-        let switched_by = self.stopped_by.or_else(|| cx.trace().set_by(Fact::Spindle));
+        let switched_by = self.stopped_by.or_else(|| cx.definitions().set_by(Fact::Spindle));
         if self.told.contains(&switched_by) {
             return;
         }

@@ -72,7 +72,7 @@ impl PathRule for SpeedAboveLimitOfProgram {
         if !(limit.is_finite() && limit > 0.0 && speed > limit) || cx.is_called_only() {
             return;
         }
-        let set_by = cx.trace().set_by(Fact::Speed);
+        let set_by = cx.definitions().set_by(Fact::Speed);
         if set_by.is_none() || self.told == set_by {
             return;
         }

@@ -59,12 +59,12 @@ impl PathRule for SpeedMissing {
         {
             return;
         }
-        let started_by = cx.trace().set_by(Fact::Spindle);
-        let has_any = cx.survey.letters.contains(Letter::of('S'));
+        let started_by = cx.definitions().set_by(Fact::Spindle);
+        let has_any = cx.file_index.letters.contains(Letter::of('S'));
         if started_by.is_none() || self.told == started_by || !has_any && self.told.is_some() {
             return;
         }
-        let set_by = cx.trace().set_by(Fact::Speed);
+        let set_by = cx.definitions().set_by(Fact::Speed);
         // A laser is off at `S0`, and its blocks that move say so, long after it was started.
         let moves = |place: Place| cx.has_axis_among(place.block().letters);
         if set_by != started_by && set_by.and_then(|at| cx.place_of(at)).is_some_and(moves) {

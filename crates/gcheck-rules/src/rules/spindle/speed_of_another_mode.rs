@@ -92,8 +92,9 @@ impl PathRule for SpeedOfAnotherMode {
         else {
             return;
         };
-        let trace = cx.trace();
-        let (changed, speed) = (trace.set_by(Fact::Mode(Role::SpindleMode)), trace.set_by(Fact::Speed));
+        let definitions = cx.definitions();
+        let (changed, speed) =
+            (definitions.set_by(Fact::Mode(Role::SpindleMode)), definitions.set_by(Fact::Speed));
         if means == before || changed.is_none() || changed == self.told || speed != self.at {
             return;
         }

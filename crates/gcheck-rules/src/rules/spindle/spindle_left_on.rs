@@ -50,7 +50,9 @@ impl PathRule for SpindleLeftOn {
     fn ended(&mut self, cx: &PathCx<'_>, ending: Ending, report: &mut Report<'_>) {
         let turns = cx.state().spindle().is_some_and(|way| way != Spindle::Stopped);
         let by_mark = matches!(ending, Ending::Tape) && ends_at_tape_mark(cx, ending);
-        let Some(started) = cx.trace().set_by(Fact::Spindle).filter(|_| turns && by_mark) else { return };
+        let Some(started) = cx.definitions().set_by(Fact::Spindle).filter(|_| turns && by_mark) else {
+            return;
+        };
         if cx.is_called_only() {
             return;
         }

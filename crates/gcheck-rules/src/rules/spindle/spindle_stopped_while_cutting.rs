@@ -105,7 +105,7 @@ impl PathRule for SpindleStoppedWhileCutting {
             return;
         }
         let stands = cx.state().spindle() == Some(Spindle::Stopped);
-        let stopped_by = cx.trace().set_by(Fact::Spindle);
+        let stopped_by = cx.definitions().set_by(Fact::Spindle);
         if !stands || cx.has_effect(starts_spindle) || cx.is_called_only() || self.told.contains(&stopped_by)
         {
             return;
@@ -143,7 +143,7 @@ impl PathRule for SpindleStoppedWhileCutting {
         // A program that chose feed per turn needs the spindle for every move.
         let by_turns = cx.state().feed_mode(cx.model) == Some(FeedMode::PerRevolution);
         let needs_turns = by_turns
-            && cx.trace().set_by(Fact::Mode(Role::FeedMode)).is_some()
+            && cx.definitions().set_by(Fact::Mode(Role::FeedMode)).is_some()
             && goes_by_feed(event)
             && !cx.has_effect(|effect| matches!(effect, Effect::MachineCoordinates | Effect::Skip));
         // A strict control refuses the block, which is reported as a fault.
@@ -152,13 +152,13 @@ impl PathRule for SpindleStoppedWhileCutting {
         if !stands || is_refused || !needs_turns && !is_cut(cx, event) || cx.is_called_only() {
             return;
         }
-        let stopped_by = cx.trace().set_by(Fact::Spindle);
+        let stopped_by = cx.definitions().set_by(Fact::Spindle);
         let is_ever_started = cx.file_uses(starts_spindle);
         // Neither start nor speed anywhere: a spindle that is switched by hand, or no spindle: a laser, a knife, a pen. The
         // length of a tool is that of a mill; the strict controls are those of machines that people build themselves, with
         // a switch for the spindle.
         let has_length = !cx.model.semantics().strict && cx.file_uses(|effect| effect == Effect::LengthPlus);
-        if !is_ever_started && !needs_turns && cx.trace().set_by(Fact::Speed).is_none() && !has_length {
+        if !is_ever_started && !needs_turns && cx.definitions().set_by(Fact::Speed).is_none() && !has_length {
             return;
         }
         if self.told.contains(&stopped_by) || !is_ever_started && !self.told.is_empty() {
@@ -206,12 +206,12 @@ impl PathRule for SpindleStoppedWhileCutting {
             .at_most(Severity::Warning);
         // A speed, or the power of a laser, that nothing switches on is forgotten; a number for an M code of the shop is not.
         let is_for_code = |at| cx.find_word(at, |word| word.letter.ascii() == b'M').is_some();
-        let has_speed = cx.trace().set_by(Fact::Speed).is_some_and(|at| !is_for_code(at));
+        let has_speed = cx.definitions().set_by(Fact::Speed).is_some_and(|at| !is_for_code(at));
         let is_mill =
             is_ever_started || has_length || has_speed || cx.file_uses(|effect| effect == Effect::ToolChange);
         // Held at an angle, a tool may broach.
         // What starts the spindle may be in a program of another file.
-        let is_elsewhere = !is_ever_started && calls_other_files(cx.survey);
+        let is_elsewhere = !is_ever_started && calls_other_files(cx.file_index);
         if !is_mill && !needs_turns || self.is_oriented || is_elsewhere || cx.file_uses(probes) {
             finding = finding.at_most(Severity::Info);
         }
@@ -226,13 +226,13 @@ impl PathRule for SpindleStoppedWhileCutting {
             return;
         }
         // The cut of the block, as if it were corrected, comes after.
-        self.told.push(cx.trace().set_by(Fact::Spindle));
+        self.told.push(cx.definitions().set_by(Fact::Spindle));
         let finding = cx
             .finding(&META, cx.range(), "feed per turn while the spindle is stopped (`M5`)")
             .label("waits for the spindle, which does not turn")
             .note("this control refuses the block")
             .help("start the spindle with `S` and `M3` or `M4` before this block");
-        report.add(refused(cx, since(cx, finding, cx.trace().set_by(Fact::Spindle))));
+        report.add(refused(cx, since(cx, finding, cx.definitions().set_by(Fact::Spindle))));
     }
 }
 
@@ -275,7 +275,7 @@ fn feeds_bar(cx: &PathCx<'_>) -> bool {
 
 /// The control refuses the block: an error where the program itself stopped the spindle, on every path.
 fn refused(cx: &PathCx<'_>, finding: Finding) -> Finding {
-    let is_sure = cx.trace().set_by(Fact::Spindle).is_some() && cx.is_on_every_path();
+    let is_sure = cx.definitions().set_by(Fact::Spindle).is_some() && cx.is_on_every_path();
     finding.at_most(if is_sure { limit(cx.model.semantics().confidence) } else { Severity::Warning })
 }
 

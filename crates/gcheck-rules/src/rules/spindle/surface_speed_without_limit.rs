@@ -68,7 +68,7 @@ impl PathRule for SurfaceSpeedWithoutLimit {
     fn cut(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
         let state = cx.state();
         let Some(Effect::SurfaceSpeed) = state.effect(Role::SpindleMode, cx.model) else { return };
-        let set_by = cx.trace().set_by(Fact::Mode(Role::SpindleMode));
+        let set_by = cx.definitions().set_by(Fact::Mode(Role::SpindleMode));
         let limit = state.speed_limit();
         let is_lathe = cx.control().machine() == Machine::Lathe;
         // An unknown limit is a limit.

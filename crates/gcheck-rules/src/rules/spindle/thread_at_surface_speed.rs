@@ -67,7 +67,7 @@ impl PathRule for ThreadAtSurfaceSpeed {
         }
         let Some(Effect::SurfaceSpeed) = cx.state().effect(Role::SpindleMode, cx.model) else { return };
         let fact = Fact::Mode(Role::SpindleMode);
-        let set_by = cx.trace().set_by(fact);
+        let set_by = cx.definitions().set_by(fact);
         if set_by.is_none() || set_by == self.told {
             return;
         }

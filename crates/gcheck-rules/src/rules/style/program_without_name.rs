@@ -38,7 +38,7 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
     if !keeps_programs_by_number(cx) {
         return;
     }
-    for program in cx.survey.programs.iter().filter(|program| program.number.is_some()) {
+    for program in cx.file_index.programs.iter().filter(|program| program.number.is_some()) {
         let behind = cx.slice(program.range.end..cx.region.end);
         // In the block of the number, or alone on the next line.
         let mut lines = behind.lines().map(str::trim_start);

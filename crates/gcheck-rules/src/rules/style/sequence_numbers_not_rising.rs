@@ -38,10 +38,10 @@ declare_rule! {
 }
 
 fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
-    let programs = &cx.survey.programs;
+    let programs = &cx.file_index.programs;
     let program =
         |label: &Label| programs.partition_point(|program| program.range.start <= label.range.start);
-    let pairs = cx.survey.labels.windows(2).filter_map(|pair| match pair {
+    let pairs = cx.file_index.labels.windows(2).filter_map(|pair| match pair {
         [before, label] if program(before) == program(label) => Some((before, label)),
         _ => None,
     });

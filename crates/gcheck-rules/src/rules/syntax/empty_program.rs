@@ -35,7 +35,7 @@ declare_rule! {
 }
 
 fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
-    if cx.survey.first_block.is_none() && !cx.survey.has_mistakes {
+    if cx.file_index.first_block.is_none() && !cx.file_index.has_mistakes {
         report.add(finding(cx));
     }
 }

@@ -38,7 +38,7 @@ declare_rule! {
 }
 
 fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
-    let Some(block) = &cx.survey.lower_case else { return };
+    let Some(block) = &cx.file_index.lower_case else { return };
     if let Some(at) = first_letter(cx.slice(block.clone())) {
         let start = block.start + at as u32;
         report.add(finding(start..start + 1).fix_if(capitals(cx)));

@@ -134,7 +134,7 @@ mod tests {
                 2 | M2 tail
                   |    ^^^^ error[unexpected-text] text `tail` is not code
                 3 | CHANGE JAWS
-                  | ^^^^^^^^^^^ warning[unexpected-text] text `CHANGE JAWS` is not code
+                  | ^^^^^^^^^^^ info[unexpected-text] text `CHANGE JAWS` is not code
             "#]],
         );
         // A label, a subprogram or a condition may lead past an end.

@@ -88,12 +88,12 @@ impl PathRule for LengthCancelledBeforeCut {
         if !cx.origin().letters.contains(Letter::of('Z')) {
             return;
         }
-        let (fact, changed) = (Fact::Mode(Role::Length), cx.trace().set_by(Fact::Tool));
+        let (fact, changed) = (Fact::Mode(Role::Length), cx.definitions().set_by(Fact::Tool));
         let is_off = cx.state().effect(Role::Length, cx.model) == Some(Effect::LengthOff);
         if cx.model.semantics().tools.offset_in_t || !is_off || changed.is_none() || self.worked != changed {
             return;
         }
-        let (Event::Travel(travel), Some(cancelled)) = (event, cx.trace().set_by(fact)) else { return };
+        let (Event::Travel(travel), Some(cancelled)) = (event, cx.definitions().set_by(fact)) else { return };
         let goes_elsewhere = cx.has_effect(|effect| {
             matches!(
                 effect,
@@ -124,14 +124,15 @@ impl PathRule for LengthCancelledBeforeCut {
         if rules.offset_in_t {
             return;
         }
-        let (fact, changed) = (Fact::Mode(Role::Length), cx.trace().set_by(Fact::Tool));
+        let (fact, changed) = (Fact::Mode(Role::Length), cx.definitions().set_by(Fact::Tool));
         let Some(changed) = changed else { return };
         match cx.state().effect(Role::Length, cx.model) {
             Some(Effect::LengthPlus | Effect::LengthMinus) if is_cut(cx, event) => {
                 self.worked = Some(changed);
             }
             Some(Effect::LengthOff) if self.worked == Some(changed) && goes_into_the_part(event) => {
-                let Some(cancelled) = cx.trace().set_by(fact).filter(|at| self.told != Some(*at)) else {
+                let Some(cancelled) = cx.definitions().set_by(fact).filter(|at| self.told != Some(*at))
+                else {
                     return;
                 };
                 if !cx.origin().letters.contains(Letter::of('Z')) {

@@ -97,11 +97,12 @@ impl PathRule for LengthOffsetOfAnotherTool {
         let (Some(tool), Some(offset)) = (tool.and_then(whole), offset.and_then(whole)) else { return };
         let letter = if by_t { 'T' } else { 'H' };
         let of_list = &mut self.listed;
-        self.pairs.add(tool, offset, cx.trace().set_by(Fact::Tool), || {
+        self.pairs.add(tool, offset, cx.definitions().set_by(Fact::Tool), || {
             if tool != offset && listed(cx, offset).is_some() {
                 of_list.insert(offset);
             }
-            let (given, changed) = (cx.trace().set_by(Fact::Length), cx.trace().set_by(Fact::Tool));
+            let (given, changed) =
+                (cx.definitions().set_by(Fact::Length), cx.definitions().set_by(Fact::Tool));
             let given = given
                 .and_then(|at| Some((at, cx.find_word(at, |word| word.letter.ascii() == letter as u8)?)));
             let word = if by_t { String::new() } else { format!(" (`H{offset}`, `T{tool}`)") };

@@ -43,7 +43,7 @@ declare_rule! {
 
 fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
     let used = |effect: Effect| {
-        cx.survey.codes.iter().find(|(number, _)| {
+        cx.file_index.codes.iter().find(|(number, _)| {
             let code = cx.control().code_at(cx.control().code_ix(*number));
             code.is_some_and(|code| code.effect() == effect)
         })

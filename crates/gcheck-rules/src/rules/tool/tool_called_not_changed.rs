@@ -167,7 +167,8 @@ impl ToolCalledNotChanged {
 fn is_in_spindle(cx: &PathCx<'_>, tool: u32) -> bool {
     let in_spindle = Abstract::known(cx.state().tool());
     in_spindle == Some(f64::from(tool))
-        || in_spindle.is_none() && (cx.trace().set_by(Fact::Tool).is_some() || cx.is_after_unknown_program())
+        || in_spindle.is_none()
+            && (cx.definitions().set_by(Fact::Tool).is_some() || cx.is_after_unknown_program())
 }
 
 #[cfg(test)]

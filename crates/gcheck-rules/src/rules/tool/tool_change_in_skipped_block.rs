@@ -73,7 +73,7 @@ impl PathRule for ToolChangeInSkippedBlock {
     }
 
     fn concerns(&self, program: &Uses<'_>) -> bool {
-        program.survey.block_deletes != 0 && program.may(changes_tool)
+        program.file_index.block_deletes != 0 && program.may(changes_tool)
     }
 
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {

@@ -72,7 +72,7 @@ impl PathRule for ToolChangeWithoutT {
             return;
         }
         let last = self.last.replace(cx.origin().at);
-        let called = cx.trace().set_by(Fact::Selected);
+        let called = cx.definitions().set_by(Fact::Selected);
         if cx.origin().letters.contains(Letter::of('T'))
             || cx.is_called_only()
             || cx.is_after_unknown_program()

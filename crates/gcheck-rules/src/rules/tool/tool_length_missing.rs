@@ -105,7 +105,7 @@ impl ToolLengthMissing {
             judge_what_is_on(cx, at, code, report);
             return;
         }
-        if cx.trace().set_by(Fact::Tool) != Some(at) {
+        if cx.definitions().set_by(Fact::Tool) != Some(at) {
             return;
         }
         let compensates = |effect| {
@@ -149,7 +149,7 @@ impl ToolLengthMissing {
         if let Some(range) = cx.find_word(at, |word| cx.model.effect(word.code) == Effect::ToolChange) {
             finding = finding.also(range, "tool changed here");
         }
-        if code.is_some() && cx.trace().set_by(Fact::Mode(Role::Length)).is_some() {
+        if code.is_some() && cx.definitions().set_by(Fact::Mode(Role::Length)).is_some() {
             finding = cx.resting_on(finding, Fact::Mode(Role::Length), &format!("`{}`", cx.name_of(code)));
         }
         let finding = finding.help(format!("give the length with the first move along Z: `{on} H1 Z…`"));
@@ -170,10 +170,10 @@ impl ToolLengthMissing {
 
 /// Length compensation is on: with no length at all, or with the one that the tool before had.
 fn judge_what_is_on(cx: &PathCx<'_>, at: At, code: CodeIx, report: &mut Report<'_>) {
-    if cx.model.effect(code) != Effect::LengthPlus || cx.trace().set_by(Fact::Tool) != Some(at) {
+    if cx.model.effect(code) != Effect::LengthPlus || cx.definitions().set_by(Fact::Tool) != Some(at) {
         return;
     }
-    let Some(set) = cx.trace().set_by(Fact::Length) else { return };
+    let Some(set) = cx.definitions().set_by(Fact::Length) else { return };
     let name = cx.name_of(code);
     let is_h = |word: &gcheck_program::Word| word.letter == Letter::of('H');
     let given = cx.find_word(set, is_h);

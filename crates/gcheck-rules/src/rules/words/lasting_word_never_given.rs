@@ -46,18 +46,19 @@ declare_rule! {
 }
 
 fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
-    let survey = cx.survey;
-    if may_be_called(survey) || survey.has_mistakes {
+    let file_index = cx.file_index;
+    if may_be_called(file_index) || file_index.has_mistakes {
         return;
     }
-    let elsewhere = first_call_elsewhere(survey);
-    for missing in &survey.never_given {
+    let elsewhere = first_call_elsewhere(file_index);
+    for missing in &file_index.never_given {
         if let Some(code) = cx.control().code_at(missing.code)
             && is_first(cx, missing)
-            && !goes_by_way(survey, cx.control(), code, missing.letter)
+            && !goes_by_way(file_index, cx.control(), code, missing.letter)
             && elsewhere.is_none_or(|call| missing.range.start <= call)
         {
-            let same: Vec<_> = survey.never_given.iter().filter(|other| is_same(other, missing)).collect();
+            let same: Vec<_> =
+                file_index.never_given.iter().filter(|other| is_same(other, missing)).collect();
             let same: Vec<_> = same.into_iter().map(|other| other.range.clone()).collect();
             report.add(cx.if_run(finding(cx, missing, code), &same));
         }
@@ -66,7 +67,7 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
 
 /// Reported where it is first missing; later blocks miss the same word.
 fn is_first(cx: &FileCx<'_>, missing: &NeverGiven) -> bool {
-    cx.survey.never_given.iter().find(|other| is_same(other, missing)) == Some(missing)
+    cx.file_index.never_given.iter().find(|other| is_same(other, missing)) == Some(missing)
 }
 
 fn is_same(one: &NeverGiven, other: &NeverGiven) -> bool {

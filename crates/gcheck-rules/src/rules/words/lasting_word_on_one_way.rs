@@ -77,8 +77,8 @@ impl PathRule for LastingWordOnOneWay {
 
     fn concerns(&self, program: &Uses<'_>) -> bool {
         let control = program.environment.control();
-        let codes = program.survey.codes.iter().filter_map(|(number, _)| control.code(*number));
-        !program.survey.is_called_from_elsewhere()
+        let codes = program.file_index.codes.iter().filter_map(|(number, _)| control.code(*number));
+        !program.file_index.is_called_from_elsewhere()
             && codes.into_iter().any(|code| !relied_on(program.environment.control(), code).is_empty())
     }
 
@@ -109,8 +109,8 @@ impl PathRule for LastingWordOnOneWay {
             }
             for letter in relied_on.without(before).iter() {
                 let range = range.clone();
-                let is_named = cx.survey.never_given.iter().any(|missing| missing.letter == letter);
-                if !is_named || goes_by_way(cx.survey, cx.control(), code, letter) {
+                let is_named = cx.file_index.never_given.iter().any(|missing| missing.letter == letter);
+                if !is_named || goes_by_way(cx.file_index, cx.control(), code, letter) {
                     self.told.insert(letter);
                     tell(cx, code, letter, range, report);
                 }

@@ -57,14 +57,14 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
     }
     let in_steps = counts_steps(cx);
     let mut count = 0_usize;
-    for block in &cx.survey.unpointed {
+    for block in &cx.file_index.unpointed {
         cx.reread(block.clone(), |block| count += usize::from(!scaled(block, in_steps).is_empty()));
     }
     // Single blocks may be slips; a quarter of all blocks is not a slip.
-    let pointed = cx.survey.pointed;
+    let pointed = cx.file_index.pointed;
     let is_habit = count >= HABIT && count * 4 > pointed || count >= HABIT_OF_SHORT && count > pointed;
     let mut is_told = false;
-    for block in &cx.survey.unpointed {
+    for block in &cx.file_index.unpointed {
         cx.reread(block.clone(), |block| {
             let words = scaled(block, in_steps);
             if words.is_empty() {
@@ -122,7 +122,7 @@ fn is_scaled_argument(cx: &BlockCx<'_>, word: &Word, in_steps: bool) -> bool {
 /// Is the program one of least increments throughout: no number with a point, and some that make sense in no other way?
 fn counts_steps(cx: &FileCx<'_>) -> bool {
     // Most programs have points, and need not be read again.
-    if cx.survey.unpointed.len() <= cx.survey.pointed {
+    if cx.file_index.unpointed.len() <= cx.file_index.pointed {
         return false;
     }
     let (mut has_points, mut has_steps) = (false, false);

@@ -46,7 +46,7 @@ impl PathRule for NeededWordMissing {
             return;
         }
         let is_main = cx.state().frames().iter().all(|frame| frame.kind == FrameKind::Main);
-        if is_main && cx.survey.is_called_from_elsewhere() {
+        if is_main && cx.file_index.is_called_from_elsewhere() {
             return;
         }
         let codes = cx.codes();

@@ -38,7 +38,7 @@ const FEW: usize = 5;
 
 fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
     let Some(max) = cx.control().numbers().max_digits else { return };
-    let blocks = &cx.survey.long_numbers;
+    let blocks = &cx.file_index.long_numbers;
     let mut is_told = false;
     for block in blocks {
         cx.reread(block.clone(), |block| {

@@ -44,7 +44,7 @@ declare_rule! {
 
 fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
     let adds_codes = cx.control().code_list().builder_m_codes;
-    for (number, range) in &cx.survey.codes {
+    for (number, range) in &cx.file_index.codes {
         let is_undeclared = match cx.control().code(*number) {
             Some(code) => code.effect() == Effect::UserCommand && !code.is_user(),
             None => adds_codes,

@@ -50,10 +50,11 @@ struct WordPassedOver;
 impl PathRule for WordPassedOver {
     fn concerns(&self, program: &Uses<'_>) -> bool {
         let control = program.environment.control();
-        let survey = program.survey;
+        let file_index = program.file_index;
         // A macro that is called for every block accepts any word.
         let is_plain = |code: Option<Code<'_>>| code.is_some_and(|code| !code.is_user() && !takes_all(code));
-        !survey.has_computed_codes && survey.codes.iter().all(|(number, _)| is_plain(control.code(*number)))
+        !file_index.has_computed_codes
+            && file_index.codes.iter().all(|(number, _)| is_plain(control.code(*number)))
     }
 
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
@@ -99,10 +100,10 @@ fn is_idle(cx: &PathCx<'_>, letter: Letter) -> bool {
     let stays = |row: &LastingWords| {
         LetterSet::of(&row.letters).contains(letter) && row.from == LastingFrom::AnyBlock
     };
-    let mut codes = cx.survey.codes.iter().filter_map(|(number, _)| control.code(*number));
+    let mut codes = cx.file_index.codes.iter().filter_map(|(number, _)| control.code(*number));
     control.lasting().iter().any(stays)
         && control.letter(letter).is_some_and(|entry| entry.free && !entry.axis)
-        && cx.survey.calls.is_empty()
+        && cx.file_index.calls.is_empty()
         && !cx.is_malformed()
         && !codes.any(|code| code.reads().contains(letter) || code.entry().any_words)
 }
@@ -145,7 +146,7 @@ fn unread(cx: &PathCx<'_>) -> Option<LetterSet> {
         matches!(Role::of(code.effect()), Some(Role::Compensation | Role::Length))
             && !matches!(code.effect(), Effect::CompensationOff | Effect::LengthOff)
     };
-    let codes_of_file = cx.survey.codes.iter().filter_map(|(number, _)| control.code(*number));
+    let codes_of_file = cx.file_index.codes.iter().filter_map(|(number, _)| control.code(*number));
     for code in codes_of_file.filter(|code| !is_refused && lasting(code)) {
         read = read.or(code.reads());
     }

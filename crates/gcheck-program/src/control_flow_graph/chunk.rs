@@ -1,4 +1,4 @@
-//! What one chunk adds to the outline of its file.
+//! What one chunk adds to the flow graph of its file.
 //!
 //! Knows: what of a block matters to control flow. Must not know: other chunks, where in the file this one is, how pairs
 //! are made.
@@ -15,7 +15,7 @@ use crate::expression::ExprIx;
 use crate::lower::{Dialect, name_key};
 use crate::statement::{OKeyword, OLabel, Statement, StatementKind, Target};
 
-/// Something about a block that an outline collects.
+/// Something about a block that an flow graph collects.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) enum Item {
     /// A sequence number.
@@ -38,9 +38,9 @@ pub(super) enum Item {
     OWord { keyword: OKeyword, label: OLabel },
 }
 
-/// What one chunk adds to the outline of its file. Blocks are numbered from the chunk's first.
+/// What one chunk adds to the flow graph of its file. Blocks are numbered from the chunk's first.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct ChunkOutline {
+pub struct ChunkFlow {
     pub(super) blocks: u32,
     /// Block and sequence number, in text order: a list of their own, because a program may have one in every block.
     pub(super) labels: Vec<(u32, u32)>,
@@ -105,7 +105,7 @@ impl Sequence {
     }
 }
 
-impl ChunkOutline {
+impl ChunkFlow {
     /// Of a chunk's blocks; those that begin at `end` or after it, in bytes of the chunk, are left out.
     pub fn new(table: &BlockTable, end: u32, text: &str, dialect: &Dialect<'_>) -> Self {
         let inside = table.blocks.partition_point(|b| b.range.start < end);
@@ -153,7 +153,7 @@ fn mixed(bytes: &[u8]) -> u64 {
     hasher.finish()
 }
 
-/// Shows `take` everything about the first `inside` blocks that an outline collects, with the number of the block.
+/// Shows `take` everything about the first `inside` blocks that an flow graph collects, with the number of the block.
 pub(super) fn scan(
     table: &BlockTable,
     inside: usize,

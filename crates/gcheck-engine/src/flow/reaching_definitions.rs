@@ -121,7 +121,7 @@ impl Facts {
 
 /// The last setting of each fact, and the last decisions.
 #[derive(Debug, Clone)]
-pub struct Trace {
+pub struct ReachingDefinitions {
     set: [Option<At>; Fact::COUNT],
     decisions: Vec<Decision>,
     /// Facts set in this leg of the analysis.
@@ -130,7 +130,7 @@ pub struct Trace {
     asked: Rc<Cell<Facts>>,
 }
 
-impl Default for Trace {
+impl Default for ReachingDefinitions {
     fn default() -> Self {
         Self { set: [None; Fact::COUNT], decisions: Vec::new(), own: Cell::default(), asked: Rc::default() }
     }
@@ -139,7 +139,7 @@ impl Default for Trace {
 /// Decisions that are kept: the last ones say most.
 const MOST_DECISIONS: usize = 8;
 
-impl Trace {
+impl ReachingDefinitions {
     /// The block that set a fact last; `None` when it still is as at the start.
     pub fn set_by(&self, fact: Fact) -> Option<At> {
         self.ask(Facts::one(fact.index()));
@@ -167,7 +167,7 @@ impl Trace {
         (self.asked.get(), self.own.get())
     }
 
-    /// Facts that were set by other blocks than in the other trace.
+    /// Facts that were set by other blocks than in the other one.
     pub fn differing(&self, other: &Self) -> Facts {
         let pairs = self.set.iter().zip(&other.set).enumerate();
         let set = pairs.filter(|(_, (own, other))| own != other).map(|(index, _)| Facts::one(index));
@@ -175,7 +175,7 @@ impl Trace {
         set.chain(decisions).fold(Facts::default(), Facts::or)
     }
 
-    /// Takes these facts over from another trace.
+    /// Takes these facts over from another one.
     pub fn take(&mut self, facts: Facts, other: &Self) {
         for (index, (slot, with)) in self.set.iter_mut().zip(&other.set).enumerate() {
             if facts.intersects(Facts::one(index)) {
@@ -193,7 +193,7 @@ impl Trace {
         self.set.iter_mut().flatten().chain(decisions).all(change)
     }
 
-    /// The same trace, whose notes nobody else shares.
+    /// The same, whose notes nobody else shares.
     #[must_use]
     pub fn apart(&self) -> Self {
         Self { asked: Rc::default(), ..self.clone() }

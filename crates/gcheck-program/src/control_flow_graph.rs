@@ -20,8 +20,8 @@ use std::ops::Range;
 use crate::block::BlockTable;
 use crate::statement::OLabel;
 use block_set::BlockSet;
-pub use builder::OutlineBuilder;
-pub use chunk::{ChunkOutline, Skeleton};
+pub use builder::ControlFlowGraphBuilder;
+pub use chunk::{ChunkFlow, Skeleton};
 use link::known;
 use loops::Loops;
 pub use o_words::OWordLinks;
@@ -30,20 +30,20 @@ use o_words::OWords;
 /// The control flow of one file.
 ///
 /// ```
-/// use gcheck_program::{Dialect, Outline, lower};
+/// use gcheck_program::{Dialect, ControlFlowGraph, lower};
 ///
 /// let control = gcheck_controls::load("fanuc-mill").unwrap();
 /// let dialect = Dialect::new(&control);
 /// let text = "O1\nN10 G0 X0\nGOTO 10\nM30\nO2\nN10 M99\n";
-/// let mut builder = Outline::builder();
+/// let mut builder = ControlFlowGraph::builder();
 /// builder.add(&lower(text, &dialect), 0, text.len() as u32, text, &dialect);
-/// let outline = builder.finish();
-/// assert_eq!(outline.blocks(), 6);
-/// assert_eq!(outline.label(10, 2, true), Some(1));
-/// assert_eq!(outline.program(2).unwrap().blocks, 4..6);
+/// let flow graph = builder.finish();
+/// assert_eq!(flow graph.blocks(), 6);
+/// assert_eq!(flow graph.label(10, 2, true), Some(1));
+/// assert_eq!(flow graph.program(2).unwrap().blocks, 4..6);
 /// ```
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct Outline {
+pub struct ControlFlowGraph {
     blocks: u32,
     chunks: Vec<Chunk>,
     /// Number and block, sorted.
@@ -95,7 +95,7 @@ pub struct Program {
     pub blocks: Range<u32>,
 }
 
-impl Outline {
+impl ControlFlowGraph {
     /// How many blocks there are.
     pub fn blocks(&self) -> u32 {
         self.blocks

@@ -183,7 +183,7 @@ pub struct NeverGiven {
 
 /// Everything collected from the chunks of one file.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct Survey {
+pub struct FileIndex {
     /// Sequence numbers in text order.
     pub labels: Vec<Label>,
     /// Program numbers in text order.
@@ -232,7 +232,7 @@ pub struct Survey {
     pub blocks: usize,
     /// What `codes` and `assigned` hold, for the question "seen before?".
     seen: (HashSet<CodeNumber>, HashSet<u32>),
-    /// See [`Survey::is_called_from_elsewhere`].
+    /// See [`FileIndex::is_called_from_elsewhere`].
     is_called: Answer,
 }
 
@@ -246,7 +246,7 @@ impl PartialEq for Answer {
     }
 }
 
-impl Survey {
+impl FileIndex {
     /// The first program of the file returns (`M99`) before it ends the job, if it does: other programs call it, and give
     /// it its variables and modes.
     pub fn is_called_from_elsewhere(&self) -> bool {
@@ -336,10 +336,10 @@ impl Survey {
     /// What one chunk holds, in bytes of the chunk; blocks that begin at `end` or after it are left out. It is to be
     /// [joined](Self::join) to others, and knows of never given words only what the chunk itself tells.
     pub fn of_chunk(table: &BlockTable, end: u32, dialect: &Dialect<'_>) -> Self {
-        let mut survey = Self::default();
-        survey.add(table, 0, end, dialect);
-        survey.seen = Default::default();
-        survey
+        let mut file_index = Self::default();
+        file_index.add(table, 0, end, dialect);
+        file_index.seen = Default::default();
+        file_index
     }
 
     /// Adds the next chunk by what it holds; `base` is its offset in the file.
@@ -599,7 +599,7 @@ fn is_conditional(table: &BlockTable, ix: BlockIx, block: &Block) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::{Survey, TapeMarks, code_region};
+    use super::{FileIndex, TapeMarks, code_region};
     use crate::Dialect;
 
     fn region(text: &str) -> &str {
@@ -629,9 +629,9 @@ mod tests {
             let Ok(control) = gcheck_controls::load("haas-mill") else { panic!("a control of ours") };
             let dialect = Dialect::new(&control);
             let table = crate::lower(text, &dialect);
-            let mut survey = Survey::default();
-            survey.add(&table, 0, text.len() as u32, &dialect);
-            survey.is_called_from_elsewhere()
+            let mut file_index = FileIndex::default();
+            file_index.add(&table, 0, text.len() as u32, &dialect);
+            file_index.is_called_from_elsewhere()
         };
         assert!(is_called("O1\nG0 X1.\nM99\n"));
         assert!(!is_called("O1\nGOTO3\nN1 G0 X1.\nM99\nN3 M97 P1\nM30\n"));

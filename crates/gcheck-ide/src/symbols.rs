@@ -1,20 +1,20 @@
 //! What programs name: labels, programs, subroutines, branches, variables, parameters; and every place that names them.
 //!
-//! Knows: which place names which thing, and how far a thing reaches. Must not know: what is done with the places.
+//! Knows: which place names which symbol, and how far a symbol reaches. Must not know: what is done with the places.
 
 use std::ops::Range;
 
 use gcheck_controls::{CodeIx, Control, Effect, Variable, VariableKind, WordKind};
 use gcheck_db::{DocumentId, Snapshot};
-use gcheck_program::{Call, CallKind, Jump, OKeyword, OLabel, OWord, Survey, profile};
+use gcheck_program::{Call, CallKind, FileIndex, Jump, OKeyword, OLabel, OWord, profile};
 use gcheck_syntax::SyntaxKind;
 
-use crate::pieces::{Piece, pieces, pieces_of_line, touches};
+use crate::lexemes::{Lexeme, lexemes, lexemes_of_line, touches};
 use crate::{Place, Workspace, WorkspaceFile};
 
 /// Something that has a name.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) enum Thing {
+pub(crate) enum Symbol {
     /// `N100` of the program that these bytes hold.
     Label { number: u32, program: Range<u32> },
     /// `O1234`.
@@ -38,113 +38,116 @@ pub enum ReferenceKind {
     Read,
 }
 
-/// A place that names a thing.
+/// A place that names a symbol.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Naming {
-    pub(crate) thing: Thing,
+pub(crate) struct Occurrence {
+    pub(crate) symbol: Symbol,
     /// Bytes of the name itself: digits without address, the name without brackets.
     pub(crate) range: Range<u32>,
     pub(crate) kind: ReferenceKind,
 }
 
-/// The thing that is named at an offset.
-pub(crate) fn thing_at(snapshot: &Snapshot, offset: u32) -> Option<Naming> {
-    let survey = snapshot.survey();
+/// The symbol that is named at an offset.
+pub(crate) fn symbol_at(snapshot: &Snapshot, offset: u32) -> Option<Occurrence> {
+    let file_index = snapshot.file_index();
     let at = |range: &Range<u32>| touches(range, offset);
     let end = code_end(snapshot);
     if offset > end {
         return None;
     }
     let variable = || {
-        let line = pieces_of_line(snapshot, offset);
+        let line = lexemes_of_line(snapshot, offset);
         let scopes = Scopes::of(snapshot);
-        variables(snapshot, &line, &scopes).into_iter().find(|naming| {
+        variables(snapshot, &line, &scopes).into_iter().find(|occurrence| {
             // The sigil and the brackets belong to what people point at.
             let (before, behind) =
-                if matches!(naming.thing, Thing::Parameter { .. }) { (2, 1) } else { (1, 0) };
-            touches(&(naming.range.start.saturating_sub(before)..naming.range.end + behind), offset)
+                if matches!(occurrence.symbol, Symbol::Parameter { .. }) { (2, 1) } else { (1, 0) };
+            touches(&(occurrence.range.start.saturating_sub(before)..occurrence.range.end + behind), offset)
         })
     };
     // A variable is inside what else may be named: `GOTO #1`, `M98 P#2`.
-    if let Some(naming) = variable() {
-        return Some(naming);
+    if let Some(occurrence) = variable() {
+        return Some(occurrence);
     }
     let label = || {
-        let label = around(&survey.labels, |label| &label.range, offset)?;
+        let label = around(&file_index.labels, |label| &label.range, offset)?;
         naming_of_label(snapshot, label.number, &label.range, ReferenceKind::Write)
     };
     let program = || {
-        let program = around(&survey.programs, |program| &program.range, offset)?;
+        let program = around(&file_index.programs, |program| &program.range, offset)?;
         naming_of_program(snapshot, program.number?, &program.range, ReferenceKind::Write)
     };
-    let o_word = || o_word_naming(snapshot, survey.o_words.iter().find(|word| at(&word.range))?);
+    let o_word = || o_word_occurrence(snapshot, file_index.o_words.iter().find(|word| at(&word.range))?);
     let jump = || {
-        let mut jumps = survey.jumps.iter().filter(|jump| at(&jump.range));
-        jumps.find_map(|jump| jump_naming(snapshot, jump))
+        let mut jumps = file_index.jumps.iter().filter(|jump| at(&jump.range));
+        jumps.find_map(|jump| jump_occurrence(snapshot, jump))
     };
     let call = || {
-        let mut calls = survey.calls.iter().filter(|call| at(&call.range));
-        calls.find_map(|call| call_naming(snapshot, call))
+        let mut calls = file_index.calls.iter().filter(|call| at(&call.range));
+        calls.find_map(|call| call_occurrence(snapshot, call))
     };
     label().or_else(program).or_else(o_word).or_else(jump).or_else(call)
 }
 
-/// All places of a file that name a thing, in text order.
-pub(crate) fn namings_in(snapshot: &Snapshot, thing: &Thing) -> Vec<Naming> {
-    let survey = snapshot.survey();
-    let mut found: Vec<Naming> = match thing {
-        Thing::Label { number, program } => {
+/// All places of a file that name a symbol, in text order.
+pub(crate) fn occurrences_in(snapshot: &Snapshot, symbol: &Symbol) -> Vec<Occurrence> {
+    let file_index = snapshot.file_index();
+    let mut found: Vec<Occurrence> = match symbol {
+        Symbol::Label { number, program } => {
             let inside = |range: &Range<u32>| program.contains(&range.start);
-            let labels = survey.labels.iter().filter(|label| label.number == *number && inside(&label.range));
+            let labels =
+                file_index.labels.iter().filter(|label| label.number == *number && inside(&label.range));
             let labels = labels.filter_map(|label| {
                 naming_of_label(snapshot, label.number, &label.range, ReferenceKind::Write)
             });
             let jumps =
-                survey.jumps.iter().filter(|jump| jump.target == Some(*number) && inside(&jump.range));
-            labels.chain(jumps.filter_map(|jump| jump_naming(snapshot, jump))).collect()
+                file_index.jumps.iter().filter(|jump| jump.target == Some(*number) && inside(&jump.range));
+            labels.chain(jumps.filter_map(|jump| jump_occurrence(snapshot, jump))).collect()
         }
-        Thing::Program(number) => {
-            let heads = survey.programs.iter().filter(|program| program.number == Some(*number));
+        Symbol::Program(number) => {
+            let heads = file_index.programs.iter().filter(|program| program.number == Some(*number));
             let heads = heads.filter_map(|program| {
                 naming_of_program(snapshot, *number, &program.range, ReferenceKind::Write)
             });
-            heads.chain(survey.calls.iter().filter_map(|call| call_naming(snapshot, call))).collect()
+            heads.chain(file_index.calls.iter().filter_map(|call| call_occurrence(snapshot, call))).collect()
         }
-        Thing::Subroutine(_) | Thing::Branch { .. } => {
-            survey.o_words.iter().filter_map(|word| o_word_naming(snapshot, word)).collect()
+        Symbol::Subroutine(_) | Symbol::Branch { .. } => {
+            file_index.o_words.iter().filter_map(|word| o_word_occurrence(snapshot, word)).collect()
         }
-        Thing::Variable { .. } | Thing::Parameter { .. } => all_variables(snapshot),
+        Symbol::Variable { .. } | Symbol::Parameter { .. } => all_variables(snapshot),
     };
-    found.retain(|naming| naming.thing == *thing);
-    found.sort_by_key(|naming| naming.range.start);
+    found.retain(|occurrence| occurrence.symbol == *symbol);
+    found.sort_by_key(|occurrence| occurrence.range.start);
     found
 }
 
-/// All places that name a thing which is named in `document`, by file.
-pub(crate) fn namings(
+/// All places that name a symbol which is named in `document`, by file.
+pub(crate) fn occurrences(
     workspace: &Workspace,
     document: DocumentId,
-    thing: &Thing,
-) -> Vec<(DocumentId, Naming)> {
-    files_of(workspace, document, thing)
+    symbol: &Symbol,
+) -> Vec<(DocumentId, Occurrence)> {
+    files_of(workspace, document, symbol)
         .into_iter()
-        .flat_map(|file| namings_in(&file.snapshot, thing).into_iter().map(|naming| (file.id, naming)))
+        .flat_map(|file| {
+            occurrences_in(&file.snapshot, symbol).into_iter().map(|occurrence| (file.id, occurrence))
+        })
         .collect()
 }
 
-/// The files that may name a thing which is named in `document`.
+/// The files that may name a symbol which is named in `document`.
 pub(crate) fn files_of<'w>(
     workspace: &'w Workspace,
     document: DocumentId,
-    thing: &Thing,
+    symbol: &Symbol,
 ) -> Vec<&'w WorkspaceFile> {
-    match thing {
-        Thing::Label { .. }
-        | Thing::Branch { .. }
-        | Thing::Variable { part: Some(_), .. }
-        | Thing::Parameter { part: Some(_), .. } => workspace.file(document).into_iter().collect(),
-        Thing::Program(_) | Thing::Subroutine(_) => workspace.files.iter().collect(),
-        Thing::Variable { number, .. } => {
+    match symbol {
+        Symbol::Label { .. }
+        | Symbol::Branch { .. }
+        | Symbol::Variable { part: Some(_), .. }
+        | Symbol::Parameter { part: Some(_), .. } => workspace.file(document).into_iter().collect(),
+        Symbol::Program(_) | Symbol::Subroutine(_) => workspace.files.iter().collect(),
+        Symbol::Variable { number, .. } => {
             let kind = workspace.file(document).map(|file| kind_of(file.snapshot.control(), *number));
             match kind {
                 // What the control keeps over programs may be set by any of them.
@@ -152,7 +155,7 @@ pub(crate) fn files_of<'w>(
                 _ => joined_by_calls(workspace, document),
             }
         }
-        Thing::Parameter { .. } => joined_by_calls(workspace, document),
+        Symbol::Parameter { .. } => joined_by_calls(workspace, document),
     }
 }
 
@@ -172,9 +175,9 @@ pub(crate) fn kind_of(control: &Control, number: u32) -> VariableKind {
 pub(crate) fn joined_by_calls(workspace: &Workspace, document: DocumentId) -> Vec<&WorkspaceFile> {
     let mut edges: Vec<(DocumentId, DocumentId)> = Vec::new();
     for file in &workspace.files {
-        for call in &file.snapshot.survey().calls {
+        for call in &file.snapshot.file_index().calls {
             let target =
-                callee(&file.snapshot, call).and_then(|thing| definition_of(workspace, file.id, &thing));
+                callee(&file.snapshot, call).and_then(|symbol| definition_of(workspace, file.id, &symbol));
             if let Some(target) = target.filter(|target| target.file != file.id) {
                 edges.push((file.id, target.file));
             }
@@ -196,57 +199,57 @@ pub(crate) fn joined_by_calls(workspace: &Workspace, document: DocumentId) -> Ve
 }
 
 /// The program or subroutine that a call names.
-pub(crate) fn callee(snapshot: &Snapshot, call: &Call) -> Option<Thing> {
+pub(crate) fn callee(snapshot: &Snapshot, call: &Call) -> Option<Symbol> {
     match &call.target {
-        CallKind::Program(number) => Some(Thing::Program(unpacked(snapshot.control(), call.code, *number))),
+        CallKind::Program(number) => Some(Symbol::Program(unpacked(snapshot.control(), call.code, *number))),
         CallKind::OWord(OLabel::Computed) | CallKind::Unknown => None,
-        CallKind::OWord(label) => Some(Thing::Subroutine(label.clone())),
+        CallKind::OWord(label) => Some(Symbol::Subroutine(label.clone())),
     }
 }
 
 /// Where a program or subroutine is that is called in `from`: its name, or the start of the file that is named so.
-pub(crate) fn definition_of(workspace: &Workspace, from: DocumentId, thing: &Thing) -> Option<Place> {
+pub(crate) fn definition_of(workspace: &Workspace, from: DocumentId, symbol: &Symbol) -> Option<Place> {
     let own = workspace.files.iter().filter(|file| file.id == from);
     let others = || workspace.files.iter().filter(|file| file.id != from);
     let head =
-        |file: &WorkspaceFile| head_in(&file.snapshot, thing).map(|range| Place { file: file.id, range });
+        |file: &WorkspaceFile| head_in(&file.snapshot, symbol).map(|range| Place { file: file.id, range });
     if let Some(place) = own.clone().chain(others()).find_map(head) {
         return Some(place);
     }
-    let name = file_stem_of(thing)?;
-    let named = others().find(|file| stem_matches(&file.name, &name, thing))?;
+    let name = file_stem_of(symbol)?;
+    let named = others().find(|file| stem_matches(&file.name, &name, symbol))?;
     Some(Place { file: named.id, range: 0..0 })
 }
 
 /// The stem of the name of a file that holds a program or subroutine.
-fn file_stem_of(thing: &Thing) -> Option<String> {
-    match thing {
-        Thing::Program(number) | Thing::Subroutine(OLabel::Number(number)) => Some(number.to_string()),
-        Thing::Subroutine(OLabel::Name(name)) => Some(name.clone()),
+fn file_stem_of(symbol: &Symbol) -> Option<String> {
+    match symbol {
+        Symbol::Program(number) | Symbol::Subroutine(OLabel::Number(number)) => Some(number.to_string()),
+        Symbol::Subroutine(OLabel::Name(name)) => Some(name.clone()),
         _ => None,
     }
 }
 
 /// `O0123.nc`, `123.ngc`, `probe.ngc`.
-pub(crate) fn stem_matches(file: &str, name: &str, thing: &Thing) -> bool {
+pub(crate) fn stem_matches(file: &str, name: &str, symbol: &Symbol) -> bool {
     let stem = file.rsplit_once('.').map_or(file, |(stem, _)| stem);
-    if matches!(thing, Thing::Subroutine(OLabel::Name(_))) {
+    if matches!(symbol, Symbol::Subroutine(OLabel::Name(_))) {
         return stem.eq_ignore_ascii_case(name);
     }
     let digits = stem.strip_prefix(['O', 'o']).unwrap_or(stem).trim_start_matches('0');
     digits == name.trim_start_matches('0') && stem.ends_with(|c: char| c.is_ascii_digit())
 }
 
-fn head_in(snapshot: &Snapshot, thing: &Thing) -> Option<Range<u32>> {
-    let survey = snapshot.survey();
-    match thing {
-        Thing::Program(number) => {
-            let head = survey.programs.iter().find(|program| program.number == Some(*number))?;
+fn head_in(snapshot: &Snapshot, symbol: &Symbol) -> Option<Range<u32>> {
+    let file_index = snapshot.file_index();
+    match symbol {
+        Symbol::Program(number) => {
+            let head = file_index.programs.iter().find(|program| program.number == Some(*number))?;
             Some(head.range.clone())
         }
-        Thing::Subroutine(label) => {
+        Symbol::Subroutine(label) => {
             let is_sub = |word: &&OWord| word.keyword == OKeyword::Sub && word.label == *label;
-            let sub = survey.o_words.iter().find(is_sub)?;
+            let sub = file_index.o_words.iter().find(is_sub)?;
             Some(o_name_range(snapshot, sub).unwrap_or_else(|| sub.range.clone()))
         }
         _ => None,
@@ -255,7 +258,7 @@ fn head_in(snapshot: &Snapshot, thing: &Thing) -> Option<Range<u32>> {
 
 /// Bytes of the program around an offset: from its `O` number to the next. What is in front of the first belongs to it.
 pub(crate) fn program_around(snapshot: &Snapshot, offset: u32) -> Range<u32> {
-    let programs = &snapshot.survey().programs;
+    let programs = &snapshot.file_index().programs;
     let end = snapshot.len();
     let next = programs.partition_point(|program| program.range.start <= offset);
     let start = |ix: usize| programs.get(ix).map(|program| program.range.start);
@@ -268,10 +271,10 @@ pub(crate) fn program_around(snapshot: &Snapshot, offset: u32) -> Range<u32> {
 /// End of the part of the file that the control reads.
 pub(crate) fn code_end(snapshot: &Snapshot) -> u32 {
     // A closing mark ends the file as the control sees it; an opening one is followed by blocks.
-    let survey = snapshot.survey();
-    match survey.tape_marks.as_slice() {
+    let file_index = snapshot.file_index();
+    match file_index.tape_marks.as_slice() {
         [_, second, ..] => second.end,
-        [only] if survey.first_block.as_ref().is_some_and(|first| first.start < only.start) => only.end,
+        [only] if file_index.first_block.as_ref().is_some_and(|first| first.start < only.start) => only.end,
         _ => snapshot.len(),
     }
 }
@@ -289,7 +292,7 @@ pub(crate) struct Sub {
 /// The subroutines of a file in text order.
 pub(crate) fn subs(snapshot: &Snapshot) -> Vec<Sub> {
     let mut subs: Vec<Sub> = Vec::new();
-    for word in &snapshot.survey().o_words {
+    for word in &snapshot.file_index().o_words {
         match word.keyword {
             OKeyword::Sub => subs.push(Sub {
                 label: word.label.clone(),
@@ -336,9 +339,13 @@ fn naming_of_label(
     number: u32,
     word: &Range<u32>,
     kind: ReferenceKind,
-) -> Option<Naming> {
+) -> Option<Occurrence> {
     let program = program_around(snapshot, word.start);
-    Some(Naming { thing: Thing::Label { number, program }, range: digits(snapshot, word, number)?, kind })
+    Some(Occurrence {
+        symbol: Symbol::Label { number, program },
+        range: digits(snapshot, word, number)?,
+        kind,
+    })
 }
 
 fn naming_of_program(
@@ -346,13 +353,13 @@ fn naming_of_program(
     number: u32,
     word: &Range<u32>,
     kind: ReferenceKind,
-) -> Option<Naming> {
-    Some(Naming { thing: Thing::Program(number), range: digits(snapshot, word, number)?, kind })
+) -> Option<Occurrence> {
+    Some(Occurrence { symbol: Symbol::Program(number), range: digits(snapshot, word, number)?, kind })
 }
 
 /// The label of its own program that a jump names. What a return names is in the caller, unless the control says that it
 /// does not, or there is no such label but here.
-fn jump_naming(snapshot: &Snapshot, jump: &Jump) -> Option<Naming> {
+fn jump_occurrence(snapshot: &Snapshot, jump: &Jump) -> Option<Occurrence> {
     let number = jump.target?;
     if is_elsewhere(snapshot.control(), jump.code, WordKind::Label) && !is_in_main(snapshot, jump.range.start)
     {
@@ -363,10 +370,13 @@ fn jump_naming(snapshot: &Snapshot, jump: &Jump) -> Option<Naming> {
 
 /// Does the place belong to the first program of the file, or to one that nothing returns from?
 pub(crate) fn is_in_main(snapshot: &Snapshot, offset: u32) -> bool {
-    let survey = snapshot.survey();
+    let file_index = snapshot.file_index();
     program_around(snapshot, offset).start == 0
-        && survey.programs.first().is_none_or(|first| program_around(snapshot, first.range.start).start == 0)
-        && survey.ends.iter().any(|end| end.ends == gcheck_controls::Ends::Program)
+        && file_index
+            .programs
+            .first()
+            .is_none_or(|first| program_around(snapshot, first.range.start).start == 0)
+        && file_index.ends.iter().any(|end| end.ends == gcheck_controls::Ends::Program)
 }
 
 /// May the target of a word of this kind be in another program?
@@ -377,16 +387,16 @@ pub(crate) fn is_elsewhere(control: &Control, code: CodeIx, kind: WordKind) -> b
     })
 }
 
-fn call_naming(snapshot: &Snapshot, call: &Call) -> Option<Naming> {
-    let thing = callee(snapshot, call)?;
-    let Thing::Program(number) = &thing else { return None };
+fn call_occurrence(snapshot: &Snapshot, call: &Call) -> Option<Occurrence> {
+    let symbol = callee(snapshot, call)?;
+    let Symbol::Program(number) = &symbol else { return None };
     let CallKind::Program(written) = call.target else { return None };
     let mut range = digits(snapshot, &call.range, written)?;
     if written != *number {
         // Repeats are before the last four digits.
         range.start = range.end.checked_sub(4)?;
     }
-    Some(Naming { thing, range, kind: ReferenceKind::Read })
+    Some(Occurrence { symbol, range, kind: ReferenceKind::Read })
 }
 
 /// A program number without the repeats that a control packs in front of it.
@@ -396,7 +406,7 @@ pub(crate) fn unpacked(control: &Control, code: CodeIx, number: u32) -> u32 {
     if packs && number > 9_999 { number % 10_000 } else { number }
 }
 
-fn o_word_naming(snapshot: &Snapshot, word: &OWord) -> Option<Naming> {
+fn o_word_occurrence(snapshot: &Snapshot, word: &OWord) -> Option<Occurrence> {
     let range = o_name_range(snapshot, word)?;
     let is_of_sub =
         matches!(word.keyword, OKeyword::Sub | OKeyword::EndSub | OKeyword::Call | OKeyword::Return);
@@ -405,13 +415,13 @@ fn o_word_naming(snapshot: &Snapshot, word: &OWord) -> Option<Naming> {
         OKeyword::Sub | OKeyword::If | OKeyword::While | OKeyword::Do | OKeyword::Repeat
     );
     let kind = if opens { ReferenceKind::Write } else { ReferenceKind::Read };
-    let thing = if is_of_sub {
-        Thing::Subroutine(word.label.clone())
+    let symbol = if is_of_sub {
+        Symbol::Subroutine(word.label.clone())
     } else {
         let part = Scopes::of(snapshot).around(snapshot, word.range.start);
-        Thing::Branch { label: word.label.clone(), part }
+        Symbol::Branch { label: word.label.clone(), part }
     };
-    Some(Naming { thing, range, kind })
+    Some(Occurrence { symbol, range, kind })
 }
 
 /// Bytes of an O-word's label without `O` and brackets; `None` for a computed one.
@@ -439,45 +449,48 @@ fn digits(snapshot: &Snapshot, within: &Range<u32>, number: u32) -> Option<Range
 }
 
 /// All places of a file that name a variable or parameter, in text order.
-pub(crate) fn all_variables(snapshot: &Snapshot) -> Vec<Naming> {
+pub(crate) fn all_variables(snapshot: &Snapshot) -> Vec<Occurrence> {
     let scopes = Scopes::of(snapshot);
     let end = code_end(snapshot);
     let with_variables = snapshot.chunks().filter(|chunk| chunk.base < end && chunk.text.contains('#'));
-    let mut all: Vec<Naming> = with_variables
-        .flat_map(|chunk| variables(snapshot, &pieces(snapshot, chunk.text, chunk.base), &scopes))
+    let mut all: Vec<Occurrence> = with_variables
+        .flat_map(|chunk| variables(snapshot, &lexemes(snapshot, chunk.text, chunk.base), &scopes))
         .collect();
-    all.retain(|naming| naming.range.start < end);
+    all.retain(|occurrence| occurrence.range.start < end);
     all
 }
 
 /// Variables and parameters among tokens.
-fn variables(snapshot: &Snapshot, pieces: &[Piece], scopes: &Scopes) -> Vec<Naming> {
+fn variables(snapshot: &Snapshot, lexemes: &[Lexeme], scopes: &Scopes) -> Vec<Occurrence> {
     let control = snapshot.control();
-    let solid: Vec<&Piece> =
-        pieces.iter().filter(|piece| piece.kind == SyntaxKind::NEWLINE || !piece.kind.is_trivia()).collect();
+    let solid: Vec<&Lexeme> = lexemes
+        .iter()
+        .filter(|lexeme| lexeme.kind == SyntaxKind::NEWLINE || !lexeme.kind.is_trivia())
+        .collect();
     let mut found = Vec::new();
-    for (index, piece) in solid.iter().enumerate() {
-        let kind_of = |index: Option<usize>| index.and_then(|index| solid.get(index)).map(|piece| piece.kind);
+    for (index, lexeme) in solid.iter().enumerate() {
+        let kind_of =
+            |index: Option<usize>| index.and_then(|index| solid.get(index)).map(|lexeme| lexeme.kind);
         let is_written = kind_of(Some(index + 1)) == Some(SyntaxKind::EQUALS)
             && kind_of(index.checked_sub(1)) != Some(SyntaxKind::HASH);
         let kind = if is_written { ReferenceKind::Write } else { ReferenceKind::Read };
-        let text = snapshot.slice(piece.range.clone());
-        match piece.kind {
+        let text = snapshot.slice(lexeme.range.clone());
+        match lexeme.kind {
             SyntaxKind::VARIABLE => {
                 let digits = text.trim_start_matches('#').trim_end_matches('.');
                 let Ok(number) = digits.parse() else { continue };
-                let start = piece.range.start + 1;
+                let start = lexeme.range.start + 1;
                 let part = (self::kind_of(control, number) == VariableKind::Local)
                     .then(|| scopes.around(snapshot, start));
-                let thing = Thing::Variable { number, part };
-                found.push(Naming { thing, range: start..start + digits.len() as u32, kind });
+                let symbol = Symbol::Variable { number, part };
+                found.push(Occurrence { symbol, range: start..start + digits.len() as u32, kind });
             }
             SyntaxKind::NAMED_VARIABLE if profile(control).named_parameters => {
                 let (Some(open), Some(close)) = (text.find('<'), text.rfind('>')) else { continue };
-                let range = piece.range.start + open as u32 + 1..piece.range.start + close as u32;
+                let range = lexeme.range.start + open as u32 + 1..lexeme.range.start + close as u32;
                 let name = parameter_key(text.get(open + 1..close).unwrap_or_default());
                 let part = (!name.starts_with('_')).then(|| scopes.around(snapshot, range.start));
-                found.push(Naming { thing: Thing::Parameter { name, part }, range, kind });
+                found.push(Occurrence { symbol: Symbol::Parameter { name, part }, range, kind });
             }
             _ => {}
         }
@@ -489,8 +502,8 @@ fn variables(snapshot: &Snapshot, pieces: &[Piece], scopes: &Scopes) -> Vec<Nami
 pub(crate) fn parameter_names(snapshot: &Snapshot) -> Vec<String> {
     let mut names: Vec<String> = all_variables(snapshot)
         .into_iter()
-        .filter_map(|naming| match naming.thing {
-            Thing::Parameter { name, .. } => Some(name),
+        .filter_map(|occurrence| match occurrence.symbol {
+            Symbol::Parameter { name, .. } => Some(name),
             _ => None,
         })
         .collect();
@@ -508,13 +521,13 @@ pub(crate) fn parameter_key(name: &str) -> String {
 pub(crate) fn has_indirect_variables(snapshot: &Snapshot) -> bool {
     let with_variables = snapshot.chunks().filter(|chunk| chunk.text.contains('#'));
     with_variables
-        .flat_map(|chunk| pieces(snapshot, chunk.text, chunk.base))
-        .any(|piece| piece.kind == SyntaxKind::HASH)
+        .flat_map(|chunk| lexemes(snapshot, chunk.text, chunk.base))
+        .any(|lexeme| lexeme.kind == SyntaxKind::HASH)
 }
 
 /// The first place of a file where a call or jump of the given kind is computed.
-pub(crate) fn computed_call(survey: &Survey) -> Option<&Call> {
-    survey
+pub(crate) fn computed_call(file_index: &FileIndex) -> Option<&Call> {
+    file_index
         .calls
         .iter()
         .find(|call| matches!(call.target, CallKind::Unknown | CallKind::OWord(OLabel::Computed)))

@@ -1,25 +1,25 @@
-//! Collecting an outline.
+//! Collecting an flow graph.
 //!
 //! Knows: block tables in order, and what of a block matters to control flow. Must not know: how pairs are made.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use super::chunk::{ChunkOutline, Item, scan};
+use super::chunk::{ChunkFlow, Item, scan};
 use super::link::NONE;
 use super::loops::LoopBuilder;
 use super::o_words::OWordBuilder;
-use super::{Chunk, Outline, Part};
+use super::{Chunk, ControlFlowGraph, Part};
 use crate::block::BlockTable;
 use crate::lower::Dialect;
 
 /// A call names a program by its number, or by the last digits of a number whose first digits count repeats.
 const PROGRAM_DIGITS: u32 = 10_000;
 
-/// An [`Outline`] in the making: chunks are added in text order.
+/// An [`ControlFlowGraph`] in the making: chunks are added in text order.
 #[derive(Debug, Clone)]
-pub struct OutlineBuilder {
-    outline: Outline,
+pub struct ControlFlowGraphBuilder {
+    graph: ControlFlowGraph,
     loops: LoopBuilder,
     o_words: OWordBuilder,
     /// The program in front of the first program number has an end of its own.
@@ -39,11 +39,11 @@ pub struct OutlineBuilder {
     alarms: Option<Vec<Range<u32>>>,
 }
 
-impl Default for OutlineBuilder {
+impl Default for ControlFlowGraphBuilder {
     fn default() -> Self {
         let part = Part { start: 0, head: NONE, number: NONE };
         Self {
-            outline: Outline { parts: vec![part], ..Outline::default() },
+            graph: ControlFlowGraph { parts: vec![part], ..ControlFlowGraph::default() },
             loops: LoopBuilder::default(),
             o_words: OWordBuilder::default(),
             has_end: false,
@@ -58,14 +58,14 @@ impl Default for OutlineBuilder {
     }
 }
 
-impl Outline {
-    /// Collects the outline of a file chunk by chunk.
-    pub fn builder() -> OutlineBuilder {
-        OutlineBuilder::default()
+impl ControlFlowGraph {
+    /// Collects the flow graph of a file chunk by chunk.
+    pub fn builder() -> ControlFlowGraphBuilder {
+        ControlFlowGraphBuilder::default()
     }
 }
 
-impl OutlineBuilder {
+impl ControlFlowGraphBuilder {
     /// Adds the next chunk. `text` is the chunk's, `base` its offset in the file, `region_end` the end of the part of the file
     /// that the control reads; blocks that begin after it are left out.
     pub fn add(&mut self, table: &BlockTable, base: u32, region_end: u32, text: &str, dialect: &Dialect<'_>) {
@@ -79,7 +79,7 @@ impl OutlineBuilder {
     }
 
     /// Adds the next chunk by what it adds; `base` is its offset in the file.
-    pub fn add_part(&mut self, part: &ChunkOutline, base: u32) {
+    pub fn add_part(&mut self, part: &ChunkFlow, base: u32) {
         let first = self.begin_chunk(base, part.blocks);
         let mut labels = part.labels.iter().peekable();
         for (block, item) in &part.items {
@@ -94,61 +94,61 @@ impl OutlineBuilder {
     }
 
     fn begin_chunk(&mut self, base: u32, blocks: u32) -> u32 {
-        let first = self.outline.blocks;
-        self.outline.chunks.push(Chunk { first, base });
-        self.outline.blocks = first.saturating_add(blocks);
+        let first = self.graph.blocks;
+        self.graph.chunks.push(Chunk { first, base });
+        self.graph.blocks = first.saturating_add(blocks);
         first
     }
 
     fn take(&mut self, number: u32, item: Item) {
         match item {
             Item::Label(label) => {
-                self.outline.labels.push((label, number));
-                self.outline.marks.push(number);
+                self.graph.labels.push((label, number));
+                self.graph.marks.push(number);
             }
             Item::Program(program) => self.begin_program(number, program),
             Item::Name(name) => {
                 self.begin_program(number, NONE);
                 let part = self.part();
-                self.outline.names.push((name, part));
+                self.graph.names.push((name, part));
             }
-            Item::Flow => self.outline.flow.push(number),
+            Item::Flow => self.graph.flow.push(number),
             // `/M30` and `IF … M30` may be passed by, but they show that the program is meant to end here.
-            Item::Ends => self.has_end |= self.outline.parts.len() == 1,
+            Item::Ends => self.has_end |= self.graph.parts.len() == 1,
             Item::Jump { target, returns } => self.jump(number, target, returns),
             Item::Call(Some(program)) => push_new(&mut self.calls, program),
             Item::Call(None) => self.has_computed_call = true,
             Item::Loop { begins, number: of } => {
-                self.outline.marks.push(number);
+                self.graph.marks.push(number);
                 self.loops.add(number, begins, of);
             }
             Item::OWord { keyword, label } => {
-                self.outline.marks.push(number);
+                self.graph.marks.push(number);
                 self.o_words.add(number, keyword, &label);
             }
         }
     }
 
     /// All chunks are added.
-    pub fn finish(mut self) -> Outline {
+    pub fn finish(mut self) -> ControlFlowGraph {
         self.end_program();
         self.note_entries();
-        let mut outline = self.outline;
-        outline.loops = self.loops.finish();
-        outline.o_words = self.o_words.finish();
-        outline.labels.sort_unstable();
-        outline.labels.shrink_to_fit();
-        outline.turns = turns(&outline, &self.sites);
-        let parts = outline.parts.iter().zip(0u32..);
-        outline.numbers = parts.filter(|(p, _)| p.number != NONE).map(|(p, ix)| (p.number, ix)).collect();
-        outline.numbers.sort_unstable();
-        outline.numbers.shrink_to_fit();
-        outline.names.sort_unstable();
-        outline.chunks.shrink_to_fit();
-        outline.parts.shrink_to_fit();
-        outline.flow.shrink();
-        outline.marks.shrink();
-        outline
+        let mut graph = self.graph;
+        graph.loops = self.loops.finish();
+        graph.o_words = self.o_words.finish();
+        graph.labels.sort_unstable();
+        graph.labels.shrink_to_fit();
+        graph.turns = turns(&graph, &self.sites);
+        let parts = graph.parts.iter().zip(0u32..);
+        graph.numbers = parts.filter(|(p, _)| p.number != NONE).map(|(p, ix)| (p.number, ix)).collect();
+        graph.numbers.sort_unstable();
+        graph.numbers.shrink_to_fit();
+        graph.names.sort_unstable();
+        graph.chunks.shrink_to_fit();
+        graph.parts.shrink_to_fit();
+        graph.flow.shrink();
+        graph.marks.shrink();
+        graph
     }
 
     /// Finds the labels that a jump may name and the heads that a call may name. Labels are in text order still.
@@ -157,7 +157,7 @@ impl OutlineBuilder {
             list.sort_unstable();
             list.dedup();
         }
-        let parts = &self.outline.parts;
+        let parts = &self.graph.parts;
         let is_called = |part: &Part| {
             let (number, packed) = (part.number, part.number % PROGRAM_DIGITS);
             self.has_computed_call
@@ -170,7 +170,7 @@ impl OutlineBuilder {
             heads.flat_map(|(_, p)| [p.start, p.head]).filter(|block| *block != NONE).collect();
         if self.has_computed_return || !self.jumps.is_empty() || !self.computed.is_empty() {
             let mut part = 0;
-            for (number, block) in &self.outline.labels {
+            for (number, block) in &self.graph.labels {
                 while parts.get(part + 1).is_some_and(|next| next.start <= *block) {
                     part += 1;
                 }
@@ -182,7 +182,7 @@ impl OutlineBuilder {
                 }
             }
         }
-        self.outline.entries.merge(entries);
+        self.graph.entries.merge(entries);
     }
 
     fn end_program(&mut self) {
@@ -191,23 +191,23 @@ impl OutlineBuilder {
     }
 
     fn part(&self) -> u32 {
-        self.outline.parts.len().saturating_sub(1) as u32
+        self.graph.parts.len().saturating_sub(1) as u32
     }
 
     fn begin_program(&mut self, head: u32, number: u32) {
-        self.outline.marks.push(head);
-        let is_second_head = self.outline.parts.last().is_some_and(|p| p.head == head);
+        self.graph.marks.push(head);
+        let is_second_head = self.graph.parts.last().is_some_and(|p| p.head == head);
         if is_second_head {
             return;
         }
-        match self.outline.parts.as_mut_slice() {
+        match self.graph.parts.as_mut_slice() {
             [first] if first.head == NONE && !self.has_end => {
                 first.head = head;
                 first.number = number;
             }
             _ => {
                 self.end_program();
-                self.outline.parts.push(Part { start: head, head, number });
+                self.graph.parts.push(Part { start: head, head, number });
             }
         }
     }
@@ -228,17 +228,17 @@ impl OutlineBuilder {
 
 /// Runs of blocks that the text may lead through more than once: from the first block that a jump back may lead to, to the
 /// last that may jump there.
-fn turns(outline: &Outline, sites: &BTreeMap<Option<u32>, u32>) -> Vec<(u32, u32)> {
+fn turns(graph: &ControlFlowGraph, sites: &BTreeMap<Option<u32>, u32>) -> Vec<(u32, u32)> {
     let mut turns: Vec<(u32, u32)> = Vec::new();
     for (target, site) in sites {
         let first = match target {
-            Some(number) => outline.labels(*number).next(),
-            None => outline.labels.iter().map(|(_, block)| *block).min(),
+            Some(number) => graph.labels(*number).next(),
+            None => graph.labels.iter().map(|(_, block)| *block).min(),
         };
         turns.extend(first.filter(|first| first <= site).map(|first| (first, *site)));
     }
-    turns.extend(outline.loops.turns());
-    turns.extend(outline.o_words.turns());
+    turns.extend(graph.loops.turns());
+    turns.extend(graph.o_words.turns());
     turns.sort_unstable();
     // Those that overlap are one.
     turns.dedup_by(|later, earlier| {

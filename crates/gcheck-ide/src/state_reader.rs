@@ -10,10 +10,10 @@ use gcheck_engine::{
 };
 use gcheck_geometry::Rpm;
 
-use crate::figures::{coordinate, decimals, plain, unit, value};
+use crate::number_text::{coordinate, decimals, plain, unit, value};
 
 /// Reads the states of one document.
-pub(crate) struct Reading<'a> {
+pub(crate) struct StateReader<'a> {
     pub(crate) snapshot: &'a Snapshot,
     pub(crate) model: &'a Model<'a>,
 }
@@ -31,7 +31,7 @@ pub(crate) struct Places {
     pub(crate) tip: Position,
 }
 
-impl<'a> Reading<'a> {
+impl<'a> StateReader<'a> {
     pub(crate) fn new(snapshot: &'a Snapshot, model: &'a Model<'a>) -> Self {
         Self { snapshot, model }
     }
@@ -197,7 +197,7 @@ impl<'a> Reading<'a> {
         }
         let control = self.model.control();
         let increments = &self.model.semantics().increments;
-        let used = self.snapshot.survey().letters;
+        let used = self.snapshot.file_index().letters;
         let is_used = |axis: &Axis| {
             let of_axis = |(letter, moved): (&String, &String)| {
                 *moved == axis.name().to_string()

@@ -1,4 +1,4 @@
-//! How a program falls into parts: programs, tool sections, operations, comments.
+//! How a program falls into sections: programs, tool sections, operations, comments.
 //!
 //! Knows: what begins and ends a part. Must not know: which feature shows it.
 
@@ -10,14 +10,14 @@ use gcheck_program::{
     Block, BlockFlags, BlockTable, Heading, Headings, ToolNames, Word, is_comment_alone, is_name, remark,
 };
 
-use crate::things::{code_end, program_around};
+use crate::symbols::{code_end, program_around};
 
 /// Operations of a file that are kept: a program with a comment at every line has none that matters.
 const MOST_OPERATIONS: usize = 5_000;
 
 /// What one tool does: from its change, with the comments above it, to the next.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct ToolPart {
+pub(crate) struct ToolSection {
     /// The tool; `None` when its number is computed or was never said.
     pub(crate) tool: Option<u32>,
     pub(crate) range: Range<u32>,
@@ -33,38 +33,38 @@ pub(crate) struct ToolPart {
 
 /// From a comment on a line of its own to the next one.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct OperationPart {
+pub(crate) struct OperationSection {
     pub(crate) name: String,
     pub(crate) range: Range<u32>,
     /// Bytes of the block with the comment.
     pub(crate) comment: Range<u32>,
 }
 
-/// The parts of a file.
+/// The sections of a file.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Parts {
-    pub(crate) tools: Vec<ToolPart>,
-    pub(crate) operations: Vec<OperationPart>,
+pub(crate) struct Sections {
+    pub(crate) tools: Vec<ToolSection>,
+    pub(crate) operations: Vec<OperationSection>,
     /// Comments on lines of their own, those that follow each other together.
     pub(crate) comments: Vec<Range<u32>>,
 }
 
-/// Finds the parts of a file.
-pub(crate) fn parts(snapshot: &Snapshot) -> Parts {
+/// Finds the sections of a file.
+pub(crate) fn sections(snapshot: &Snapshot) -> Sections {
     let end = code_end(snapshot);
     let mut names = ToolNames::new(snapshot.control());
-    let mut parts = find(snapshot, 0..snapshot.chunks().len(), end, Some(&mut names));
-    close(snapshot, &mut parts, end);
-    for part in &mut parts.tools {
+    let mut sections = find(snapshot, 0..snapshot.chunks().len(), end, Some(&mut names));
+    close(snapshot, &mut sections, end);
+    for part in &mut sections.tools {
         if let Some(name) = part.tool.and_then(|tool| names.get(tool)) {
             name.clone_into(&mut part.name);
         }
     }
-    parts
+    sections
 }
 
 /// The operations and tool sections that hold an offset. Of the file no more is read than the section goes.
-pub(crate) fn parts_around(snapshot: &Snapshot, offset: u32) -> Vec<Range<u32>> {
+pub(crate) fn sections_around(snapshot: &Snapshot, offset: u32) -> Vec<Range<u32>> {
     let end = code_end(snapshot);
     let Some(own) = snapshot.chunk_at(offset).map(|chunk| chunk.index) else { return Vec::new() };
     let changes = |chunk: usize| {
@@ -90,10 +90,10 @@ pub(crate) fn parts_around(snapshot: &Snapshot, offset: u32) -> Vec<Range<u32>> 
     while is_before(last + 1) && changes(last).all(|change| change <= offset) {
         last += 1;
     }
-    let mut parts = find(snapshot, first..last + 1, end, None);
-    close(snapshot, &mut parts, end);
-    let operations = parts.operations.into_iter().map(|part| part.range);
-    let tools = parts.tools.into_iter().map(|part| part.range);
+    let mut sections = find(snapshot, first..last + 1, end, None);
+    close(snapshot, &mut sections, end);
+    let operations = sections.operations.into_iter().map(|part| part.range);
+    let tools = sections.tools.into_iter().map(|part| part.range);
     operations.chain(tools).filter(|range| range.contains(&offset)).collect()
 }
 
@@ -107,13 +107,18 @@ fn may_go_on_above(snapshot: &Snapshot, chunk: usize) -> bool {
     first.is_some_and(|(_, block)| is_comment_alone(block) || block.letters.intersects(CHANGES))
 }
 
-/// Finds parts among some chunks; none but the last of its kind has its end yet.
-fn find(snapshot: &Snapshot, chunks: Range<usize>, end: u32, mut names: Option<&mut ToolNames<'_>>) -> Parts {
-    let mut finder = Finder { snapshot, called: None, comments: None, parts: Parts::default() };
+/// Finds sections among some chunks; none but the last of its kind has its end yet.
+fn find(
+    snapshot: &Snapshot,
+    chunks: Range<usize>,
+    end: u32,
+    mut names: Option<&mut ToolNames<'_>>,
+) -> Sections {
+    let mut finder = Finder { snapshot, called: None, comments: None, sections: Sections::default() };
     let chunks = chunks.filter_map(|chunk| snapshot.chunk(chunk)).take_while(|chunk| chunk.base < end);
     for chunk in chunks {
         if is_plain(snapshot, chunk.index) {
-            if !snapshot.outline().blocks_of(chunk.index).is_empty() {
+            if !snapshot.flow_graph().blocks_of(chunk.index).is_empty() {
                 finder.pass_over();
             }
             if has_words(snapshot, chunk.index)
@@ -134,9 +139,9 @@ fn find(snapshot: &Snapshot, chunks: Range<usize>, end: u32, mut names: Option<&
             finder.block(&table, block, chunk.base, chunk.text);
         }
     }
-    let Finder { comments, mut parts, .. } = finder;
-    parts.comments.extend(comments);
-    parts
+    let Finder { comments, mut sections, .. } = finder;
+    sections.comments.extend(comments);
+    sections
 }
 
 /// What the program calls its tools.
@@ -169,7 +174,7 @@ pub(crate) fn headings(snapshot: &Snapshot) -> Vec<Heading> {
     headings.into_found()
 }
 
-/// Has a chunk neither comments nor tools? Of a large file most have not, and need not be read for its parts.
+/// Has a chunk neither comments nor tools? Of a large file most have not, and need not be read for its sections.
 fn is_plain(snapshot: &Snapshot, chunk: usize) -> bool {
     snapshot.facts(chunk).is_some_and(|facts| !facts.flags().contains(BlockFlags::COMMENT))
         && !may_change_tool(snapshot, chunk)
@@ -180,36 +185,40 @@ fn may_change_tool(snapshot: &Snapshot, chunk: usize) -> bool {
     let Some(facts) = snapshot.facts(chunk) else { return true };
     let control = snapshot.control();
     let changes = |number| control.code(number).is_some_and(|code| code.effect() == Effect::ToolChange);
-    facts.survey().letters.contains(Letter::of('T'))
-        || facts.survey().codes.iter().any(|(number, _)| changes(*number))
+    facts.file_index().letters.contains(Letter::of('T'))
+        || facts.file_index().codes.iter().any(|(number, _)| changes(*number))
 }
 
 fn has_words(snapshot: &Snapshot, chunk: usize) -> bool {
-    snapshot.facts(chunk).is_none_or(|facts| !facts.survey().letters.is_empty())
+    snapshot.facts(chunk).is_none_or(|facts| !facts.file_index().letters.is_empty())
 }
 
 /// Parts end where the next one of their kind or of a larger kind begins.
-fn close(snapshot: &Snapshot, parts: &mut Parts, end: u32) {
-    let programs: Vec<u32> =
-        snapshot.survey().programs.iter().map(|program| line_start(snapshot, program.range.start)).collect();
+fn close(snapshot: &Snapshot, sections: &mut Sections, end: u32) {
+    let programs: Vec<u32> = snapshot
+        .file_index()
+        .programs
+        .iter()
+        .map(|program| line_start(snapshot, program.range.start))
+        .collect();
     let next_program =
         |from: u32| programs.get(programs.partition_point(|start| *start <= from)).copied().unwrap_or(end);
-    let starts: Vec<u32> = parts.tools.iter().map(|tool| tool.range.start).collect();
-    for (index, tool) in parts.tools.iter_mut().enumerate() {
+    let starts: Vec<u32> = sections.tools.iter().map(|tool| tool.range.start).collect();
+    for (index, tool) in sections.tools.iter_mut().enumerate() {
         let next = starts.get(index + 1).copied().unwrap_or(end);
         tool.range.end = next.min(next_program(tool.change.start)).max(tool.change.end);
     }
     // The comments above a change name the tool, not an operation of the one before.
     let tools: Vec<(u32, u32)> =
-        parts.tools.iter().map(|tool| (tool.range.start, tool.change.start)).collect();
-    parts.operations.retain(|operation| {
+        sections.tools.iter().map(|tool| (tool.range.start, tool.change.start)).collect();
+    sections.operations.retain(|operation| {
         let before = tools.partition_point(|(start, _)| *start <= operation.comment.start);
         let heading = before.checked_sub(1).and_then(|index| tools.get(index));
         heading.is_some_and(|(_, change)| operation.comment.start > *change)
     });
-    parts.operations.truncate(MOST_OPERATIONS);
-    let starts: Vec<u32> = parts.operations.iter().map(|operation| operation.comment.start).collect();
-    for (index, operation) in parts.operations.iter_mut().enumerate() {
+    sections.operations.truncate(MOST_OPERATIONS);
+    let starts: Vec<u32> = sections.operations.iter().map(|operation| operation.comment.start).collect();
+    for (index, operation) in sections.operations.iter_mut().enumerate() {
         let next = starts.get(index + 1).copied().unwrap_or(end);
         let tool = tools.get(tools.partition_point(|(start, _)| *start <= operation.comment.start));
         let tool = tool.map_or(end, |(start, _)| *start);
@@ -228,7 +237,7 @@ struct Finder<'s> {
     called: Option<(Option<u32>, Range<u32>)>,
     /// Comments on lines of their own right before the block under way.
     comments: Option<Range<u32>>,
-    parts: Parts,
+    sections: Sections,
 }
 
 /// Addresses that a tool change may have.
@@ -237,7 +246,7 @@ const CHANGES: LetterSet = LetterSet::of("TM");
 impl Finder<'_> {
     /// Blocks without comments come between.
     fn pass_over(&mut self) {
-        self.parts.comments.extend(self.comments.take());
+        self.sections.comments.extend(self.comments.take());
     }
 
     fn block(&mut self, table: &BlockTable, block: &Block, base: u32, text: &str) {
@@ -249,7 +258,7 @@ impl Finder<'_> {
                     self.comments = Some(range.clone());
                     let written = text.get(block.range.start as usize..block.range.end as usize);
                     if let Some(name) = written.and_then(remark).filter(|name| is_name(name)) {
-                        self.parts.operations.push(OperationPart {
+                        self.sections.operations.push(OperationSection {
                             name: name.to_owned(),
                             range: range.clone(),
                             comment: range,
@@ -259,9 +268,9 @@ impl Finder<'_> {
             }
             return;
         }
-        // An empty comment, or a mark of the tape, parts nothing.
+        // An empty comment, or a mark of the tape, begins nothing.
         let above = self.comments.take();
-        self.parts.comments.extend(above.clone());
+        self.sections.comments.extend(above.clone());
         if block.letters.intersects(CHANGES) {
             self.tool(table.words(block), &range, base, above);
         }
@@ -295,7 +304,7 @@ impl Finder<'_> {
             None => (None, range.clone(), false),
         };
         let start = above.map_or(range.start, |above| above.start);
-        self.parts.tools.push(ToolPart {
+        self.sections.tools.push(ToolSection {
             tool,
             range: start..range.end,
             change: range.clone(),

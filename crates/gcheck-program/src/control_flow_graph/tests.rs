@@ -1,6 +1,6 @@
-//! What the outline makes of programs: small ones as tables, large and broken ones by their laws.
+//! What the flow graph makes of programs: small ones as tables, large and broken ones by their laws.
 //!
-//! Knows: programs as text. Must not know: how the outline is stored.
+//! Knows: programs as text. Must not know: how the flow graph is stored.
 
 use std::fmt::Write as _;
 use std::ops::Range;
@@ -11,13 +11,13 @@ use gcheck_syntax::cut;
 use gcheck_testkit::inputs;
 use proptest::prelude::*;
 
-use super::{Outline, OutlineBuilder, Program};
+use super::{ControlFlowGraph, ControlFlowGraphBuilder, Program};
 use crate::{BlockTable, Dialect, OLabel, code_region, lower};
 
-/// A program in chunks of whole lines, with its outline.
+/// A program in chunks of whole lines, with its flow graph.
 struct World {
     text: String,
-    outline: Outline,
+    graph: ControlFlowGraph,
     bases: Vec<usize>,
     tables: Vec<BlockTable>,
 }
@@ -28,7 +28,7 @@ impl World {
         let control = gcheck_controls::load(control_name).unwrap();
         let dialect = Dialect::new(&control);
         let end = code_region(text).end as u32;
-        let mut builder = OutlineBuilder::default();
+        let mut builder = ControlFlowGraphBuilder::default();
         let mut tables = Vec::new();
         for range in cuts {
             let chunk = &text[range.clone()];
@@ -37,7 +37,7 @@ impl World {
             tables.push(table);
         }
         let bases = cuts.iter().map(|r| r.start).collect();
-        Self { text: text.to_owned(), outline: builder.finish(), bases, tables }
+        Self { text: text.to_owned(), graph: builder.finish(), bases, tables }
     }
 
     fn new(control_name: &str, text: &str) -> Self {
@@ -60,26 +60,26 @@ impl World {
     }
 
     fn block(&self, block: u32) -> &str {
-        let (chunk, ix) = self.outline.chunk_of(block).unwrap();
+        let (chunk, ix) = self.graph.chunk_of(block).unwrap();
         let (_, found) = self.tables[chunk].blocks().nth(ix as usize).unwrap();
         let base = self.bases[chunk];
         self.text[base + found.range.start as usize..base + found.range.end as usize].trim()
     }
 
-    /// Every block with what the outline says of it.
+    /// Every block with what the flow graph says of it.
     fn dump(&self) -> String {
-        let outline = &self.outline;
+        let graph = &self.graph;
         let mut out = String::new();
-        for block in 0..outline.blocks() {
+        for block in 0..graph.blocks() {
             let mut line = format!("{block:<2} {:22}", self.block(block));
             let mut say = |what: &str, other: Option<u32>| {
                 if let Some(other) = other {
                     let _ = write!(line, " {what} {other}");
                 }
             };
-            say("END", outline.end_of(block));
-            say("DO", outline.do_of(block));
-            if let Some(word) = outline.o_word(block) {
+            say("END", graph.end_of(block));
+            say("DO", graph.do_of(block));
+            if let Some(word) = graph.o_word(block) {
                 say("head", word.head);
                 say("next", word.next);
                 say("end", word.end);
@@ -88,12 +88,12 @@ impl World {
                 say("to", word.leads_to);
             }
             for (is, what) in [
-                (outline.may_be_target(block), "target"),
-                (outline.is_flow(block), "flow"),
-                (outline.unmatched_loops().contains(&block), "unmatched"),
-                (outline.unmatched_o_words().contains(&block), "unmatched"),
-                (outline.crossed_loops().contains(&block), "crosses"),
-                (outline.reused_o_labels().contains(&block), "reused"),
+                (graph.may_be_target(block), "target"),
+                (graph.is_flow(block), "flow"),
+                (graph.unmatched_loops().contains(&block), "unmatched"),
+                (graph.unmatched_o_words().contains(&block), "unmatched"),
+                (graph.crossed_loops().contains(&block), "crosses"),
+                (graph.reused_o_labels().contains(&block), "reused"),
             ] {
                 if is {
                     let _ = write!(line, " {what}");
@@ -129,17 +129,17 @@ fn blocks_are_numbered_through_the_file_and_end_with_the_tape() {
         "#]],
     );
     let world = World::in_lines("fanuc-mill", text, 2);
-    let places: Vec<_> = (0..7).map(|block| world.outline.chunk_of(block)).collect();
+    let places: Vec<_> = (0..7).map(|block| world.graph.chunk_of(block)).collect();
     assert_eq!(
         places,
         [Some((0, 0)), Some((0, 1)), Some((1, 0)), Some((2, 0)), Some((2, 1)), Some((3, 0)), None]
     );
     assert_eq!(
-        (0..5).map(|chunk| world.outline.blocks_of(chunk)).collect::<Vec<_>>(),
+        (0..5).map(|chunk| world.graph.blocks_of(chunk)).collect::<Vec<_>>(),
         [0..2, 2..3, 3..5, 5..6, 6..6]
     );
-    assert_eq!(world.outline.base_of(1), Some(5));
-    assert_eq!(world.outline.base_of(4), None);
+    assert_eq!(world.graph.base_of(1), Some(5));
+    assert_eq!(world.graph.base_of(4), None);
 }
 
 #[test]
@@ -147,7 +147,7 @@ fn a_byte_belongs_to_the_last_block_that_begins_before_it() {
     let text = "\n G0 X1.\n\nX2.\n\n\nX3.\n%\nbehind\n";
     for lines in 1..9 {
         let world = World::in_lines("haas-mill", text, lines);
-        let at = |byte: usize| world.outline.block_at_offset(byte as u32, |chunk| Some(&world.tables[chunk]));
+        let at = |byte: usize| world.graph.block_at_offset(byte as u32, |chunk| Some(&world.tables[chunk]));
         assert_eq!(at(0), None);
         assert_eq!(at(text.find("X1").unwrap()), Some(0));
         assert_eq!(at(text.find("X2").unwrap() - 1), Some(0));
@@ -161,42 +161,42 @@ fn a_byte_belongs_to_the_last_block_that_begins_before_it() {
 #[test]
 fn a_jump_finds_labels_of_its_own_program() {
     let text = "O1\nN10 X1.\nN20\nN10 X2.\nM30\nO2\nN10 X3.\nM99\n";
-    let outline = World::new("fanuc-mill", text).outline;
-    assert_eq!(outline.label(10, 2, true), Some(3), "the next one ahead");
-    assert_eq!(outline.label(10, 3, true), Some(3), "the block itself");
-    assert_eq!(outline.label(10, 4, true), Some(1), "none ahead: from the program's head");
-    assert_eq!(outline.label(10, 4, false), Some(1));
-    assert_eq!(outline.label(10, 7, true), Some(6), "the second program's own");
-    assert_eq!(outline.label(20, 7, true), None, "not the other program's");
-    assert_eq!(outline.label(10, 99, true), None);
-    assert_eq!(outline.labels(10).collect::<Vec<_>>(), [1, 3, 6]);
-    assert_eq!(outline.labels(11).count(), 0);
+    let graph = World::new("fanuc-mill", text).graph;
+    assert_eq!(graph.label(10, 2, true), Some(3), "the next one ahead");
+    assert_eq!(graph.label(10, 3, true), Some(3), "the block itself");
+    assert_eq!(graph.label(10, 4, true), Some(1), "none ahead: from the program's head");
+    assert_eq!(graph.label(10, 4, false), Some(1));
+    assert_eq!(graph.label(10, 7, true), Some(6), "the second program's own");
+    assert_eq!(graph.label(20, 7, true), None, "not the other program's");
+    assert_eq!(graph.label(10, 99, true), None);
+    assert_eq!(graph.labels(10).collect::<Vec<_>>(), [1, 3, 6]);
+    assert_eq!(graph.labels(11).count(), 0);
 }
 
 #[test]
 fn a_label_is_a_whole_number_at_the_head_of_a_block() {
-    let outline = World::new("haas-mill", "N1 G0\n/N2 X1.\nO7 N3\nG0 N4\nN5.5\nN-6\nN\nN7 N8 X1.\n").outline;
-    let found: Vec<_> = (1..9).map(|number| outline.labels(number).next()).collect();
+    let graph = World::new("haas-mill", "N1 G0\n/N2 X1.\nO7 N3\nG0 N4\nN5.5\nN-6\nN\nN7 N8 X1.\n").graph;
+    let found: Vec<_> = (1..9).map(|number| graph.labels(number).next()).collect();
     assert_eq!(found, [Some(0), Some(1), Some(2), None, None, None, Some(7), Some(7)]);
 }
 
 #[test]
 fn program_numbers_part_the_file() {
-    let outline = World::new("haas-mill", "%\n(posted)\nO1\nM98 P2\nM30\nN1 O2\nM99\n:3\nM99\n%\n").outline;
+    let graph = World::new("haas-mill", "%\n(posted)\nO1\nM98 P2\nM30\nN1 O2\nM99\n:3\nM99\n%\n").graph;
     assert_eq!(
-        numbers(outline.programs()),
+        numbers(graph.programs()),
         [(Some(1), Some(2), 0..5), (Some(2), Some(5), 5..7), (Some(3), Some(7), 7..10)]
     );
-    assert_eq!(outline.main(), 0..5);
-    assert_eq!(outline.program(3).map(|p| p.blocks), Some(7..10));
-    assert_eq!(outline.program(4), None);
-    assert_eq!(outline.part_of(6), 5..7);
-    assert_eq!(outline.part_of(10), 10..10);
+    assert_eq!(graph.main(), 0..5);
+    assert_eq!(graph.program(3).map(|p| p.blocks), Some(7..10));
+    assert_eq!(graph.program(4), None);
+    assert_eq!(graph.part_of(6), 5..7);
+    assert_eq!(graph.part_of(10), 10..10);
 }
 
 #[test]
 fn what_stands_before_the_first_number_is_a_program_when_it_ends() {
-    let main = |text| numbers(World::new("haas-mill", text).outline.programs());
+    let main = |text| numbers(World::new("haas-mill", text).graph.programs());
     assert_eq!(main("G0 X1.\nM30\nO2\nM99\n"), [(None, None, 0..2), (Some(2), Some(2), 2..4)]);
     assert_eq!(main("G21\nO2\nM30\n"), [(Some(2), Some(1), 0..3)]);
     assert_eq!(main("G0\n"), [(None, None, 0..1)]);
@@ -205,19 +205,19 @@ fn what_stands_before_the_first_number_is_a_program_when_it_ends() {
 
 #[test]
 fn the_first_of_two_programs_with_one_number_is_found() {
-    let outline = World::new("fanuc-mill", "O5\nM30\nO5\nM99\nO1.5\nM99\n").outline;
-    assert_eq!(outline.program(5).map(|p| p.blocks), Some(0..2));
-    assert_eq!(outline.programs().map(|p| p.number).collect::<Vec<_>>(), [Some(5), Some(5), None]);
+    let graph = World::new("fanuc-mill", "O5\nM30\nO5\nM99\nO1.5\nM99\n").graph;
+    assert_eq!(graph.program(5).map(|p| p.blocks), Some(0..2));
+    assert_eq!(graph.programs().map(|p| p.number).collect::<Vec<_>>(), [Some(5), Some(5), None]);
 }
 
 #[test]
 fn a_name_in_angle_brackets_begins_a_program_where_there_are_no_o_words() {
     let text = "O<MAIN>\nGOTO 1\nN1 M30\nO<SUB 1>\nN1 M99\n";
-    let outline = World::in_lines("fanuc-mill", text, 2).outline;
-    assert_eq!(outline.main(), 0..3);
-    assert_eq!(outline.program_named("sub1").map(|p| (p.head, p.blocks)), Some((Some(3), 3..5)));
-    assert_eq!(outline.program_named("other"), None);
-    assert_eq!(World::new("linuxcnc", text).outline.programs().len(), 1);
+    let graph = World::in_lines("fanuc-mill", text, 2).graph;
+    assert_eq!(graph.main(), 0..3);
+    assert_eq!(graph.program_named("sub1").map(|p| (p.head, p.blocks)), Some((Some(3), 3..5)));
+    assert_eq!(graph.program_named("other"), None);
+    assert_eq!(World::new("linuxcnc", text).graph.programs().len(), 1);
 }
 
 #[test]
@@ -303,10 +303,10 @@ fn branches_of_an_if_follow_each_other() {
             7  o1 endif               head 0 target flow
         "#]],
     );
-    let outline = World::new("linuxcnc", text).outline;
-    assert_eq!(outline.branches(0).collect::<Vec<_>>(), [2, 5, 6, 7]);
-    assert_eq!(outline.branches(5).collect::<Vec<_>>(), [6, 7]);
-    assert_eq!(outline.branches(1).count(), 0);
+    let graph = World::new("linuxcnc", text).graph;
+    assert_eq!(graph.branches(0).collect::<Vec<_>>(), [2, 5, 6, 7]);
+    assert_eq!(graph.branches(5).collect::<Vec<_>>(), [6, 7]);
+    assert_eq!(graph.branches(1).count(), 0);
 }
 
 #[test]
@@ -354,11 +354,11 @@ fn labels_of_o_words_belong_to_their_subroutine() {
             10 M2                     flow
         "#]],
     );
-    let outline = World::new("linuxcnc", text).outline;
-    assert_eq!(outline.sub(&OLabel::Name("sidecut".to_owned())), Some(0));
-    assert_eq!(outline.sub(&OLabel::Number(9)), None);
+    let graph = World::new("linuxcnc", text).graph;
+    assert_eq!(graph.sub(&OLabel::Name("sidecut".to_owned())), Some(0));
+    assert_eq!(graph.sub(&OLabel::Number(9)), None);
     assert_eq!(
-        (0..7).map(|b| outline.sub_around(b)).collect::<Vec<_>>(),
+        (0..7).map(|b| graph.sub_around(b)).collect::<Vec<_>>(),
         [Some(0), Some(0), Some(0), Some(0), Some(0), None, None]
     );
 }
@@ -449,8 +449,8 @@ fn another_program_has_labels_of_its_own() {
 fn runs_end_at_flow_and_at_labels_that_are_jumped_to() {
     let text = "O1\nN1 G1 X1.\nN2 X2.\nN3 X3.\nIF [#1 EQ 0] GOTO 2\nN5 X5.\nG65 P9010 A1.\nX7.\nG#1 X8.\n#3=1\nM30\nO2\nX12.\nM99\n";
     let world = World::new("fanuc-mill", text);
-    let runs: String = (0..world.outline.blocks())
-        .map(|b| format!("{b:<2} {:20} {:?}\n", world.block(b), world.outline.straight_from(b)))
+    let runs: String = (0..world.graph.blocks())
+        .map(|b| format!("{b:<2} {:20} {:?}\n", world.block(b), world.graph.straight_from(b)))
         .collect();
     expect![[r#"
         0  O1                   0..2
@@ -474,8 +474,8 @@ fn runs_end_at_flow_and_at_labels_that_are_jumped_to() {
 #[test]
 fn flow_is_what_may_decide_the_next_block() {
     let flow = |text: &str| {
-        let outline = World::new("fanuc-mill", text).outline;
-        (0..outline.blocks()).map(|block| outline.is_flow(block)).collect::<Vec<_>>()
+        let graph = World::new("fanuc-mill", text).graph;
+        (0..graph.blocks()).map(|block| graph.is_flow(block)).collect::<Vec<_>>()
     };
     assert_eq!(flow("G1 X1.\nX#1\n#1=2\nM0\nDPRNT[A]\nG4 P1\n"), [false; 6]);
     assert_eq!(flow("M98 P1\nG66 P1\n/M30\nM99\nM#1\nIF [#1 EQ 1] #2=3\n"), [true; 6]);
@@ -497,7 +497,7 @@ fn codes_that_the_user_makes_call_a_macro_are_flow() {
         let control = gcheck_controls::load("haas-mill").unwrap().with_user_codes(&[alias]);
         let dialect = Dialect::new(&control);
         let text = "G0 X1.\nM60\n";
-        let mut builder = Outline::builder();
+        let mut builder = ControlFlowGraph::builder();
         builder.add(&lower(text, &dialect), 0, text.len() as u32, text, &dialect);
         assert_eq!(builder.finish().is_flow(1), is_flow);
     }
@@ -506,8 +506,8 @@ fn codes_that_the_user_makes_call_a_macro_are_flow() {
 #[test]
 fn a_chunk_is_straight_without_flow_and_without_labels_in_use() {
     let straight = |control: &str, text: &str| {
-        let outline = World::in_lines(control, text, 2).outline;
-        (0..outline.chunks()).map(|chunk| outline.is_straight(chunk)).collect::<Vec<_>>()
+        let graph = World::in_lines(control, text, 2).graph;
+        (0..graph.chunks()).map(|chunk| graph.is_straight(chunk)).collect::<Vec<_>>()
     };
     let plain = "O1\nN1 X1.\nN2 X2.\nN3 X3.\nN4 X4.\nM30\n";
     assert_eq!(straight("fanuc-mill", plain), [true, true, false]);
@@ -527,9 +527,9 @@ fn a_chunk_is_straight_without_flow_and_without_labels_in_use() {
     assert_eq!(straight("haas-mill", local), [false, false]);
     let recursion = "O1\nX1.\nX2.\nM98 P1\n";
     assert_eq!(straight("fanuc-mill", recursion), [false, false]);
-    assert!(!World::new("haas-mill", "X1.\n").outline.is_straight(1));
+    assert!(!World::new("haas-mill", "X1.\n").graph.is_straight(1));
     assert!(
-        World::new("haas-mill", "\n\n").outline.is_straight(0),
+        World::new("haas-mill", "\n\n").graph.is_straight(0),
         "nothing happens in a chunk without blocks"
     );
 }
@@ -537,35 +537,35 @@ fn a_chunk_is_straight_without_flow_and_without_labels_in_use() {
 #[test]
 fn profile_cycles_use_the_labels_of_their_profile() {
     let text = "N1 X1.\nX2.\nN2 X3.\nX4.\nG70 P1 Q2\nM30\n";
-    let outline = World::in_lines("haas-lathe", text, 2).outline;
-    assert!(!outline.is_straight(0) && !outline.is_straight(1) && outline.is_flow(4));
+    let graph = World::in_lines("haas-lathe", text, 2).graph;
+    assert!(!graph.is_straight(0) && !graph.is_straight(1) && graph.is_flow(4));
 }
 
 #[test]
 fn a_jump_of_another_file_can_be_made_known() {
-    let mut outline = World::in_lines("fanuc-mill", "N1 X1.\nX2.\nN3 X3.\nX4.\n", 2).outline;
-    assert!(outline.is_straight(1));
-    outline.enter_at_label(3);
-    outline.enter_at_label(99);
-    assert!(outline.is_straight(0) && !outline.is_straight(1));
-    assert_eq!(outline.straight_from(0), 0..2);
+    let mut graph = World::in_lines("fanuc-mill", "N1 X1.\nX2.\nN3 X3.\nX4.\n", 2).graph;
+    assert!(graph.is_straight(1));
+    graph.enter_at_label(3);
+    graph.enter_at_label(99);
+    assert!(graph.is_straight(0) && !graph.is_straight(1));
+    assert_eq!(graph.straight_from(0), 0..2);
 }
 
 #[test]
 fn memory_without_labels_grows_with_chunks_only() {
     let text = inputs::surfacing(200_000);
-    let outline = World::new("haas-mill", &text).outline;
-    assert!(outline.blocks() > 199_000);
-    assert!(outline.heap_bytes() < 8 * outline.chunks() + 1_000, "{} bytes", outline.heap_bytes());
-    let straight = (0..outline.chunks()).filter(|c| outline.is_straight(*c)).count();
-    assert!(straight + 1 >= outline.chunks(), "all chunks but the last are straight: {straight}");
+    let graph = World::new("haas-mill", &text).graph;
+    assert!(graph.blocks() > 199_000);
+    assert!(graph.heap_bytes() < 8 * graph.chunks() + 1_000, "{} bytes", graph.heap_bytes());
+    let straight = (0..graph.chunks()).filter(|c| graph.is_straight(*c)).count();
+    assert!(straight + 1 >= graph.chunks(), "all chunks but the last are straight: {straight}");
 }
 
 #[test]
 fn a_label_takes_twelve_bytes_at_most() {
     let text: String = (0..200_000).map(|n| format!("N{} X{n}. Y1.\n", n % 99_999)).collect();
-    let outline = World::new("haas-mill", &format!("{text}GOTO #1\n")).outline;
-    assert!(outline.heap_bytes() <= 12 * 200_000, "{} bytes", outline.heap_bytes());
+    let graph = World::new("haas-mill", &format!("{text}GOTO #1\n")).graph;
+    assert!(graph.heap_bytes() <= 12 * 200_000, "{} bytes", graph.heap_bytes());
 }
 
 /// Statements by the hundred thousand: quadratic behaviour would take minutes.
@@ -590,16 +590,16 @@ fn many_statements_take_no_longer_each_than_few() {
         ("fanuc-mill", format!("{}\n", lines(&|_| "DO1 END1 ".to_owned()))),
     ];
     for (control, text) in programs {
-        let outline = World::new(control, &text).outline;
+        let graph = World::new(control, &text).graph;
         let mut found = 0;
-        for block in 0..outline.blocks() {
-            found += usize::from(outline.end_of(block).is_some());
-            found += usize::from(outline.do_of(block).is_some());
-            found += usize::from(outline.o_word(block).is_some_and(|w| w.end.is_some()));
-            found += usize::from(outline.label(block, block, true).is_some());
-            found += usize::from(outline.program(block).is_some());
-            found += outline.part_of(block).len().min(1) + outline.straight_from(block).len().min(1);
-            found += usize::from(outline.sub_around(block).is_some());
+        for block in 0..graph.blocks() {
+            found += usize::from(graph.end_of(block).is_some());
+            found += usize::from(graph.do_of(block).is_some());
+            found += usize::from(graph.o_word(block).is_some_and(|w| w.end.is_some()));
+            found += usize::from(graph.label(block, block, true).is_some());
+            found += usize::from(graph.program(block).is_some());
+            found += graph.part_of(block).len().min(1) + graph.straight_from(block).len().min(1);
+            found += usize::from(graph.sub_around(block).is_some());
         }
         assert!(found > 0);
     }
@@ -676,42 +676,42 @@ fn piece() -> impl Strategy<Value = &'static str> {
 }
 
 fn check_laws(world: &World) -> Result<(), TestCaseError> {
-    let outline = &world.outline;
-    let programs: Vec<_> = outline.programs().collect();
+    let graph = &world.graph;
+    let programs: Vec<_> = graph.programs().collect();
     let mut end = 0;
     for program in &programs {
         prop_assert_eq!(program.blocks.start, end);
         end = program.blocks.end;
     }
-    prop_assert_eq!(end, outline.blocks());
-    for block in 0..outline.blocks().saturating_add(2) {
-        let part = outline.part_of(block);
-        let (chunk, run) = (outline.chunk_of(block), outline.straight_from(block));
-        prop_assert_eq!(chunk.is_some(), block < outline.blocks());
-        prop_assert_eq!(part.contains(&block), block < outline.blocks());
+    prop_assert_eq!(end, graph.blocks());
+    for block in 0..graph.blocks().saturating_add(2) {
+        let part = graph.part_of(block);
+        let (chunk, run) = (graph.chunk_of(block), graph.straight_from(block));
+        prop_assert_eq!(chunk.is_some(), block < graph.blocks());
+        prop_assert_eq!(part.contains(&block), block < graph.blocks());
         prop_assert!(run.start == block && (run.end == block || run.end <= part.end));
-        prop_assert_eq!(run.is_empty(), outline.is_flow(block) || !part.contains(&block));
+        prop_assert_eq!(run.is_empty(), graph.is_flow(block) || !part.contains(&block));
         if let Some((chunk, ix)) = chunk {
-            let blocks = outline.blocks_of(chunk);
+            let blocks = graph.blocks_of(chunk);
             prop_assert_eq!(blocks.start + ix, block);
             prop_assert!(blocks.contains(&block));
-            prop_assert!(!outline.is_straight(chunk) || !outline.is_flow(block));
+            prop_assert!(!graph.is_straight(chunk) || !graph.is_flow(block));
         }
-        if let Some(end) = outline.end_of(block) {
+        if let Some(end) = graph.end_of(block) {
             prop_assert!(end > block && part.contains(&end));
-            prop_assert_eq!(outline.do_of(end), Some(block));
+            prop_assert_eq!(graph.do_of(end), Some(block));
         }
-        if let Some(found) = outline.label(10, block, true) {
-            prop_assert!(part.contains(&found) && outline.may_be_target(found));
+        if let Some(found) = graph.label(10, block, true) {
+            prop_assert!(part.contains(&found) && graph.may_be_target(found));
         }
-        if let Some(word) = outline.o_word(block) {
-            prop_assert!(outline.may_be_target(block) && outline.is_flow(block));
+        if let Some(word) = graph.o_word(block) {
+            prop_assert!(graph.may_be_target(block) && graph.is_flow(block));
             prop_assert!(word.head.is_none_or(|head| head < block && part.contains(&head)));
             prop_assert!(word.end.is_none_or(|end| end > block && part.contains(&end)));
             prop_assert!(word.next.is_none_or(|next| next > block && part.contains(&next)));
-            let of_head = word.head.and_then(|head| outline.o_word(head));
+            let of_head = word.head.and_then(|head| graph.o_word(head));
             prop_assert!(of_head.is_none_or(|head| head.end.is_none_or(|end| end >= block)));
-            let branches: Vec<_> = outline.branches(block).collect();
+            let branches: Vec<_> = graph.branches(block).collect();
             prop_assert!(branches.is_sorted());
         }
     }
@@ -732,9 +732,9 @@ proptest! {
             check_laws(&whole)?;
             let parted = World::in_lines(control, &text, lines);
             check_laws(&parted)?;
-            let mut outline = parted.outline;
-            outline.chunks.clone_from(&whole.outline.chunks);
-            prop_assert_eq!(&outline, &whole.outline, "{} on {:?}", control, text);
+            let mut graph = parted.graph;
+            graph.chunks.clone_from(&whole.graph.chunks);
+            prop_assert_eq!(&graph, &whole.graph, "{} on {:?}", control, text);
         }
     }
 

@@ -10,23 +10,23 @@ use gcheck_syntax::{Sink, SyntaxError, SyntaxKind, parse_into};
 
 /// A token.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Piece {
+pub(crate) struct Lexeme {
     pub(crate) kind: SyntaxKind,
     /// Bytes of the file.
     pub(crate) range: Range<u32>,
 }
 
 /// The tokens of whole lines that are at `base` in the file.
-pub(crate) fn pieces(snapshot: &Snapshot, lines: &str, base: u32) -> Vec<Piece> {
-    let mut sink = Pieces { base, list: Vec::with_capacity(lines.len() / 6) };
+pub(crate) fn lexemes(snapshot: &Snapshot, lines: &str, base: u32) -> Vec<Lexeme> {
+    let mut sink = LexemeSink { base, list: Vec::with_capacity(lines.len() / 6) };
     parse_into(lines, profile(snapshot.control()), &mut sink);
     sink.list
 }
 
 /// The tokens of the line around a byte.
-pub(crate) fn pieces_of_line(snapshot: &Snapshot, offset: u32) -> Vec<Piece> {
+pub(crate) fn lexemes_of_line(snapshot: &Snapshot, offset: u32) -> Vec<Lexeme> {
     let line = snapshot.line_range(snapshot.line_at(offset));
-    pieces(snapshot, &snapshot.slice(line.clone()), line.start)
+    lexemes(snapshot, &snapshot.slice(line.clone()), line.start)
 }
 
 /// Does the range contain the offset, its end included? A cursor after a word is still at the word.
@@ -34,12 +34,12 @@ pub(crate) fn touches(range: &Range<u32>, offset: u32) -> bool {
     range.start <= offset && offset <= range.end
 }
 
-struct Pieces {
+struct LexemeSink {
     base: u32,
-    list: Vec<Piece>,
+    list: Vec<Lexeme>,
 }
 
-impl Sink for Pieces {
+impl Sink for LexemeSink {
     type Checkpoint = ();
 
     fn start_node(&mut self, _: SyntaxKind) {}
@@ -51,7 +51,7 @@ impl Sink for Pieces {
     fn start_node_at(&mut self, (): (), _: SyntaxKind) {}
 
     fn token(&mut self, kind: SyntaxKind, range: Range<u32>) {
-        self.list.push(Piece { kind, range: range.start + self.base..range.end + self.base });
+        self.list.push(Lexeme { kind, range: range.start + self.base..range.end + self.base });
     }
 
     fn error(&mut self, _: SyntaxError) {}

@@ -1,0 +1,340 @@
+//! O-words: subroutines, branches and loops by label.
+//!
+//! Knows: where each keyword leads, and what a loop or a branch keeps meanwhile. Must not know: conditions' values (the domain
+//! decides), what a call does with its arguments.
+
+use std::ops::Range;
+
+use gcheck_program::{BlockTable, ExprIx, OKeyword, OLabel, OWordLinks, Place, StatementKind};
+
+use super::flow_control::Callee;
+use super::{Executor, Outcome, Step};
+use crate::assumption::Assumption;
+use crate::fault::Fault;
+use crate::lattice::{Flat, Perhaps};
+use crate::observer::Observer;
+use crate::origin::At;
+use crate::state::{FrameKind, State};
+use crate::value::{Domain, Truth};
+
+/// An O-word of the block under way.
+#[derive(Clone, Copy)]
+struct OWordBlock<'b> {
+    place: &'b Place,
+    table: &'b BlockTable,
+    at: At,
+    links: OWordLinks,
+    /// Its first expression: the condition, the count, the result.
+    first: Option<ExprIx>,
+}
+
+impl OWordBlock<'_> {
+    /// A block of the same file.
+    fn to(&self, block: u32) -> At {
+        At { file: self.at.file, block }
+    }
+}
+
+impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
+    /// Where an O-word leads.
+    pub(super) fn o_word(
+        &mut self,
+        place: &Place,
+        table: &BlockTable,
+        label: &OLabel,
+        keyword: OKeyword,
+        arguments: Range<u32>,
+        state: &mut State<D>,
+    ) -> Step<Outcome<D>> {
+        let at = self.origin.at;
+        let links = self.file(at.file).and_then(|file| file.loaded.flow_graph().o_word(at.block));
+        let Some(links) = links else { return Err(Fault::LoopMismatch) };
+        let first = StatementKind::arguments(&arguments).next();
+        let word = OWordBlock { place, table, at, links, first };
+        match keyword {
+            OKeyword::Sub => self.begin_subroutine(word, state),
+            OKeyword::EndSub | OKeyword::Return => self.return_from_subroutine(word, state),
+            OKeyword::Call => self.call_subroutine(word, label, &arguments, state),
+            OKeyword::If => self.branch(word, state),
+            // An ELSEIF or ELSE met by running into it ends the branch before.
+            OKeyword::ElseIf => match unwanted_branch(at, links.end, state)? {
+                Some(outcome) => Ok(outcome),
+                None => self.branch(word, state),
+            },
+            OKeyword::Else => {
+                if let Some(outcome) = unwanted_branch(at, links.end, state)? {
+                    return Ok(outcome);
+                }
+                want_branch(None, state);
+                Ok(Outcome::Next)
+            }
+            OKeyword::EndIf => {
+                if links.head.is_none() {
+                    return Err(Fault::LoopMismatch);
+                }
+                want_branch(None, state);
+                Ok(Outcome::Next)
+            }
+            OKeyword::While => self.begin_or_end_while(word, state),
+            OKeyword::EndWhile => {
+                links.head.map_or(Err(Fault::LoopMismatch), |head| Ok(Outcome::Jump(word.to(head))))
+            }
+            // The control looks for the end when it comes to it, or has to leave the loop.
+            OKeyword::Do => Ok(Outcome::Next),
+            OKeyword::Repeat => self.begin_repeat(word, state),
+            OKeyword::EndRepeat => end_repeat(word, state),
+            OKeyword::Break => match links.leads_to {
+                Some(end) => {
+                    if let Some(head) = links.head {
+                        drop_counter(word.to(head), state);
+                    }
+                    Ok(Outcome::Jump(word.to(end + 1)))
+                }
+                None => Err(Fault::LoopMismatch),
+            },
+            // The control looks for the end of the loop first, also where the head decides.
+            OKeyword::Continue if links.end.is_none() => Err(Fault::LoopMismatch),
+            OKeyword::Continue => links.leads_to.map_or(Err(Fault::LoopMismatch), |end| {
+                let block = match (links.head, end) {
+                    // A WHILE decides at its head.
+                    (Some(head), end) if end == head => head,
+                    (_, end) => end,
+                };
+                Ok(Outcome::Jump(word.to(block)))
+            }),
+        }
+    }
+
+    /// The body runs only when it is called.
+    fn begin_subroutine(&mut self, word: OWordBlock<'_>, state: &State<D>) -> Step<Outcome<D>> {
+        let at = word.at;
+        let Some(end) = word.links.end else { return Err(Fault::LoopMismatch) };
+        if state.calls.last().is_some_and(|f| f.entry == at && f.kind == FrameKind::OWord) {
+            return Ok(Outcome::Next);
+        }
+        if self.holds_subroutine(at, end) {
+            self.refuse(Fault::LoopMismatch)?;
+        }
+        Ok(Outcome::Jump(word.to(end + 1)))
+    }
+
+    fn return_from_subroutine(&mut self, word: OWordBlock<'_>, state: &mut State<D>) -> Step<Outcome<D>> {
+        let is_called = state.calls.last().is_some_and(|f| f.kind == FrameKind::OWord);
+        if !is_called {
+            return Err(Fault::StrayReturn);
+        }
+        let result = match word.first {
+            Some(expr) => Some(self.evaluate(word.place, word.table, word.table.expr(expr), state)?),
+            None => None,
+        };
+        self.leave(None, result, state)
+    }
+
+    fn call_subroutine(
+        &mut self,
+        word: OWordBlock<'_>,
+        label: &OLabel,
+        arguments: &Range<u32>,
+        state: &mut State<D>,
+    ) -> Step<Outcome<D>> {
+        let mut values = Vec::new();
+        for (number, expr) in StatementKind::arguments(arguments).enumerate() {
+            let value = self.evaluate(word.place, word.table, word.table.expr(expr), state)?;
+            values.push((number as u32 + 1, value));
+        }
+        if values.len() > self.model.semantics().locals[1] as usize {
+            return Err(Fault::Conflict);
+        }
+        let computed = match label {
+            // `O[#1] CALL`: the first expression is the label's.
+            OLabel::Computed => {
+                let number = (!values.is_empty()).then(|| values.remove(0).1);
+                let number = number.as_ref().and_then(D::known).ok_or(Fault::Undecidable)?;
+                for (slot, _) in &mut values {
+                    *slot -= 1;
+                }
+                #[expect(clippy::cast_sign_loss, reason = "negative numbers are no labels and become 0")]
+                Some(OLabel::Number(number.round() as u32))
+            }
+            _ => None,
+        };
+        let label = computed.as_ref().unwrap_or(label);
+        let Some(target) = self.program.find_subroutine(label, word.at.file) else {
+            self.assumptions.insert(Assumption::MissingSubroutine(match label {
+                OLabel::Name(name) => name.clone(),
+                OLabel::Number(number) => number.to_string(),
+                OLabel::Computed => String::new(),
+            }));
+            self.refuse_in(Fault::NoSuchProgram, state)?;
+            self.lose_everything(state)?;
+            return Ok(Outcome::Next);
+        };
+        self.enter(Callee::of_subroutine(target, values), state)
+    }
+
+    /// `IF`, or an `ELSEIF` that is wanted.
+    fn branch(&mut self, word: OWordBlock<'_>, state: &mut State<D>) -> Step<Outcome<D>> {
+        let Some(condition) = word.first else { return Err(Fault::Malformed) };
+        let truth = self.condition(word.place, word.table, condition, state)?;
+        let Some(next) = word.links.next.or(word.links.end).map(|next| word.to(next)) else {
+            want_branch(None, state);
+            return self.open_end(word.table, condition, truth, state);
+        };
+        match truth {
+            Truth::True => {
+                self.assume(word.table, condition, true, state);
+                want_branch(None, state);
+                Ok(Outcome::Next)
+            }
+            Truth::False => {
+                self.assume(word.table, condition, false, state);
+                want_branch(Some(next), state);
+                Ok(Outcome::Jump(next))
+            }
+            Truth::Unknown => {
+                let mut yes = state.clone();
+                self.assume(word.table, condition, true, &mut yes);
+                want_branch(None, &mut yes);
+                let mut no = state.clone();
+                self.assume(word.table, condition, false, &mut no);
+                want_branch(Some(next), &mut no);
+                Ok(Outcome::Fork(vec![(word.at.next(), yes), (next, no)]))
+            }
+        }
+    }
+
+    /// `WHILE` at the head of its loop, or at the end of `DO … WHILE`.
+    fn begin_or_end_while(&mut self, word: OWordBlock<'_>, state: &mut State<D>) -> Step<Outcome<D>> {
+        let Some(condition) = word.first else { return Err(Fault::Malformed) };
+        let truth = self.condition(word.place, word.table, condition, state)?;
+        let (holds, fails) = match (word.links.head, word.links.end) {
+            (Some(head), _) => (word.to(head + 1), word.at.next()),
+            (None, Some(end)) => (word.at.next(), word.to(end + 1)),
+            (None, None) => return self.open_end(word.table, condition, truth, state),
+        };
+        match truth {
+            Truth::True => {
+                self.assume(word.table, condition, true, state);
+                Ok(Outcome::Jump(holds))
+            }
+            Truth::False => {
+                self.assume(word.table, condition, false, state);
+                Ok(Outcome::Jump(fails))
+            }
+            Truth::Unknown => Ok(self.both_ways(word.table, condition, holds, fails, state)),
+        }
+    }
+
+    fn begin_repeat(&mut self, word: OWordBlock<'_>, state: &mut State<D>) -> Step<Outcome<D>> {
+        let Some(count) = word.first else { return Err(Fault::Malformed) };
+        let value = self.evaluate(word.place, word.table, word.table.expr(count), state)?;
+        // A half goes to the even neighbour (observed).
+        let turns = D::known(&value).map(|n| n.round_ties_even().max(0.0));
+        let Some(past) = word.links.end.map(|end| word.to(end + 1)) else {
+            return if turns == Some(0.0) { Err(Fault::LoopMismatch) } else { Ok(Outcome::Next) };
+        };
+        #[expect(clippy::cast_sign_loss, reason = "not negative")]
+        match turns {
+            Some(0.0) => Ok(Outcome::Jump(past)),
+            Some(turns) => {
+                set_counter(word.at, Flat::Known(turns.min(f64::from(u32::MAX)) as u32), state);
+                Ok(Outcome::Next)
+            }
+            None => {
+                let skipped = state.clone();
+                set_counter(word.at, Flat::Unknown, state);
+                Ok(Outcome::Fork(vec![(word.at.next(), state.clone()), (past, skipped)]))
+            }
+        }
+    }
+
+    /// A branch or a loop without its end in the text: the control looks for it only when it has to skip the blocks, and
+    /// refuses the program then. Where the condition is open the path that it refuses ends here.
+    fn open_end(
+        &mut self,
+        table: &BlockTable,
+        condition: ExprIx,
+        truth: Truth,
+        state: &mut State<D>,
+    ) -> Step<Outcome<D>> {
+        if truth == Truth::False {
+            return Err(Fault::LoopMismatch);
+        }
+        self.assume(table, condition, true, state);
+        Ok(Outcome::Next)
+    }
+
+    /// Is a subroutine defined inside the one that begins here?
+    fn holds_subroutine(&mut self, at: At, end: u32) -> bool {
+        if let Some(holds) = self.nested.get(&at) {
+            return *holds;
+        }
+        let is_sub = |graph: &gcheck_program::ControlFlowGraph, block: u32| {
+            graph.o_word(block).is_some_and(|links| links.keyword == OKeyword::Sub)
+        };
+        let file = self.file(at.file);
+        let holds = file.is_some_and(|file| {
+            let graph = file.loaded.flow_graph();
+            (at.block + 1..end).any(|block| is_sub(graph, block))
+        });
+        self.nested.insert(at, holds);
+        holds
+    }
+}
+
+/// The branch of an IF that was jumped to because the condition before it failed.
+fn want_branch<D: Domain>(branch: Option<At>, state: &mut State<D>) {
+    let branch = branch.map_or(Perhaps::No, Perhaps::Yes);
+    if state.calls.kept().is_some_and(|kept| kept.wanted_branch != branch)
+        && let Some(kept) = state.calls.kept_mut()
+    {
+        kept.wanted_branch = branch;
+    }
+}
+
+fn set_counter<D: Domain>(block: At, turns: Flat<u32>, state: &mut State<D>) {
+    if let Some(kept) = state.calls.kept_mut() {
+        kept.counters.set(block, turns);
+    }
+}
+
+fn drop_counter<D: Domain>(block: At, state: &mut State<D>) {
+    if let Some(kept) = state.calls.kept_mut() {
+        kept.counters.remove(block);
+    }
+}
+
+fn end_repeat<D: Domain>(word: OWordBlock<'_>, state: &mut State<D>) -> Step<Outcome<D>> {
+    let Some(head) = word.links.head.map(|head| word.to(head)) else { return Err(Fault::LoopMismatch) };
+    match state.calls.kept().and_then(|kept| kept.counters.get(head)) {
+        Some(Flat::Known(left)) if left > 1 => {
+            set_counter(head, Flat::Known(left - 1), state);
+            Ok(Outcome::Jump(head.next()))
+        }
+        Some(Flat::Known(_)) | None => {
+            drop_counter(head, state);
+            Ok(Outcome::Next)
+        }
+        Some(Flat::Unknown) => {
+            let mut done = state.clone();
+            drop_counter(head, &mut done);
+            Ok(Outcome::Fork(vec![(head.next(), state.clone()), (word.at.next(), done)]))
+        }
+    }
+}
+
+/// Where a branch leads that is not wanted: past its `IF`. `None` when it is wanted; both ways when nobody knows.
+fn unwanted_branch<D: Domain>(at: At, end: Option<u32>, state: &mut State<D>) -> Step<Option<Outcome<D>>> {
+    let wanted = state.calls.kept().map_or(Perhaps::No, |kept| kept.wanted_branch);
+    if wanted.yes() == Some(&at) {
+        return Ok(None);
+    }
+    let past = At { file: at.file, block: end.ok_or(Fault::LoopMismatch)? + 1 };
+    if !wanted.is_unknown() {
+        return Ok(Some(Outcome::Jump(past)));
+    }
+    let mut chosen = state.clone();
+    want_branch(Some(at), &mut chosen);
+    want_branch(None, state);
+    Ok(Some(Outcome::Fork(vec![(past, state.clone()), (at, chosen)])))
+}
