@@ -246,7 +246,7 @@ const PAGES: &[Page] = &[
                 "step in Y; strokes run along X | without I, length, above 0",
             ),
             ("`K` is the finishing pass, not below zero.", "`K` is not below"),
-            ("`P` names the program of the graph.", "A program `P` describes the graph"),
+            ("`P` names the program of the outline.", "A program `P` describes the outline"),
             ("`Q` is the depth of each pass, above zero.", "`I`, `J` and `Q` are above zero"),
             ("`R` is the rapid plane.", "rapid plane"),
             ("`S` may give the speed.", "spindle speed"),

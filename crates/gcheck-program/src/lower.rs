@@ -657,24 +657,10 @@ impl<'t, 'd> LowerSink<'t, 'd> {
         let range = open.start..self.end.max(open.start);
         let mut flags = self.block_flags;
         flags.set(BlockFlags::ERROR, errors);
-        flags.set(BlockFlags::REMARK, errors && self.reads_like_a_remark());
+        let own = self.table.errors.get(self.block_errors..).unwrap_or_default();
+        flags.set(BlockFlags::REMARK, reads_like_a_remark(self.text, own.iter().map(|(_, error)| error)));
         self.push_block(range, flags, words);
         debug_assert_eq!(ix.index() + 1, self.table.blocks.len(), "one block a BLOCK node");
-    }
-
-    /// Is text of the open block in a script that no code is in, or at least three words long?
-    fn reads_like_a_remark(&self) -> bool {
-        let errors = self.table.errors.get(self.block_errors..).unwrap_or_default();
-        let mut foreign_letters = 0;
-        for (_, error) in errors.iter().filter(|(_, error)| error.kind == SyntaxErrorKind::Unexpected) {
-            let text =
-                self.text.get(error.range.start as usize..error.range.end as usize).unwrap_or_default();
-            if text.split_ascii_whitespace().filter(|word| word.len() > 1).nth(2).is_some() {
-                return true;
-            }
-            foreign_letters += text.chars().filter(|c| !c.is_ascii() && c.is_alphabetic()).count();
-        }
-        foreign_letters > 2
     }
 
     fn push_block(&mut self, range: Range<u32>, mut flags: BlockFlags, words: Range<u32>) {
@@ -732,7 +718,29 @@ impl<'t, 'd> LowerSink<'t, 'd> {
                 self.table.errors.push((BlockIx(at as u32), error));
             }
         }
+        for ix in 0..self.table.blocks.len() as u32 {
+            if reads_like_a_remark(self.text, self.table.errors(BlockIx(ix)))
+                && let Some(block) = self.table.blocks.get_mut(ix as usize)
+            {
+                block.flags |= BlockFlags::REMARK;
+                self.table.flags |= BlockFlags::REMARK;
+            }
+        }
     }
+}
+
+/// Is text of a block in a script that no code is in, or at least three words long?
+fn reads_like_a_remark<'e>(text: &str, errors: impl Iterator<Item = &'e SyntaxError>) -> bool {
+    let mut foreign_letters = 0;
+    for error in errors.filter(|error| error.kind == SyntaxErrorKind::Unexpected) {
+        let text = text.get(error.range.start as usize..error.range.end as usize).unwrap_or_default();
+        let is_word = |word: &&str| word.len() > 1 && word.chars().all(char::is_alphabetic);
+        if text.split_ascii_whitespace().filter(is_word).nth(2).is_some() {
+            return true;
+        }
+        foreign_letters += text.chars().filter(|c| !c.is_ascii() && c.is_alphabetic()).count();
+    }
+    foreign_letters > 2
 }
 
 /// Signs of the serial line and of old file systems, which controls pass over: NUL, XON and XOFF, DEL, and the end mark of DOS in

@@ -132,7 +132,7 @@ pub(crate) struct ClientSettings {
     pub(crate) hints: InlayOptions,
     pub(crate) lenses: bool,
     /// Messages are written to the log.
-    pub(crate) definitions: bool,
+    pub(crate) trace: bool,
 }
 
 /// The settings in force where the user has set nothing.
@@ -177,8 +177,7 @@ impl ClientSettings {
             complaints.push(format!("the setting `gcheck.control` names `{name}`, which is not a control"));
             settings.control = None;
         }
-        settings.definitions =
-            value.pointer("/definitions/server").and_then(Value::as_str).is_some_and(|t| t != "off");
+        settings.trace = value.pointer("/trace/server").and_then(Value::as_str).is_some_and(|t| t != "off");
         settings.lenses = switch(value, "codeLens", "enable")
             .or(value.get("codeLens").and_then(Value::as_bool))
             .unwrap_or(true);

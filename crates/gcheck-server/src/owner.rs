@@ -144,7 +144,7 @@ impl Owner {
     }
 
     fn is_traced(&self) -> bool {
-        self.is_ready && self.client_settings.iter().any(|(_, settings)| settings.definitions)
+        self.is_ready && self.client_settings.iter().any(|(_, settings)| settings.trace)
     }
 
     /// Does work. A panic ends it and is reported; the data of the work may be broken and is made again.

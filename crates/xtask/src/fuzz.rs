@@ -25,7 +25,7 @@ const COVERAGE: [&str; 6] = [
     "-Cllvm-args=-sanitizer-coverage-level=4",
     "-Cllvm-args=-sanitizer-coverage-inline-8bit-counters",
     "-Cllvm-args=-sanitizer-coverage-pc-table",
-    "-Cllvm-args=-sanitizer-coverage-definitions-compares",
+    "-Cllvm-args=-sanitizer-coverage-trace-compares",
     "--cfg fuzzing",
 ];
 
