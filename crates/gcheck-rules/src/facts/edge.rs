@@ -11,6 +11,7 @@ use gcheck_geometry::Mm;
 use crate::PathCx;
 use crate::facts::offset_schemes::whole;
 use crate::facts::reach::feed;
+use crate::facts::tool_comment::comment_of_tool;
 
 /// The tool in the spindle, with how it cuts; `None` where it is not known, or nothing is configured of it.
 pub(crate) fn cutting<'c>(cx: &PathCx<'c>) -> Option<(u32, &'c Cutting)> {
@@ -58,6 +59,16 @@ pub(crate) fn diameter(cx: &PathCx<'_>) -> Option<(u32, Mm)> {
     let tool = Abstract::known(cx.state().tool()).and_then(whole)?;
     let diameter = cx.state().tables().tool(tool)?.size();
     (diameter.0 > 0.0).then_some((tool, diameter))
+}
+
+/// The tool in the spindle with its diameter, as the tables say or else its comment; what then is taken for granted.
+pub(crate) fn diameter_or_size(cx: &PathCx<'_>) -> Option<(u32, Mm, Option<String>)> {
+    if let Some((tool, diameter)) = diameter(cx) {
+        return Some((tool, diameter, None));
+    }
+    let tool = Abstract::known(cx.state().tool()).and_then(whole)?;
+    let size = comment_of_tool(cx, cx.definitions().set_by(Fact::Tool)?)?.size()?;
+    Some((tool, size, Some(format!("T{tool} is as wide as its comment says"))))
 }
 
 /// A small length in the units of the program.

@@ -72,6 +72,18 @@ pub(crate) fn driven(ways: Ways) -> impl Iterator<Item = (Axis, Way)> {
     Axis::ALL.into_iter().map(move |axis| (axis, ways.of(axis))).filter(|(_, way)| *way != Way::Still)
 }
 
+/// Does it move until something is touched, or until it is let go?
+pub(crate) fn probes(effect: Effect) -> bool {
+    matches!(
+        effect,
+        Effect::ProbeToward
+            | Effect::ProbeTowardOptional
+            | Effect::ProbeAway
+            | Effect::ProbeAwayOptional
+            | Effect::Skip
+    )
+}
+
 /// Is the move one that the probe ends?
 pub(crate) fn is_probing_move(event: &Event) -> bool {
     matches!(event, Event::Travel(travel) if matches!(travel.kind, TravelKind::Probe { .. }))

@@ -4,6 +4,7 @@
 //! rule, what kinds of tools there are.
 
 use gcheck_engine::{Abstract, At, Domain};
+use gcheck_geometry::Mm;
 use gcheck_program::BlockFlags;
 
 use crate::PathCx;
@@ -18,12 +19,28 @@ pub(crate) struct ToolComment {
     pub(crate) at: At,
     /// Its words, in capitals.
     pub(crate) words: Vec<String>,
+    text: String,
 }
 
 impl ToolComment {
     /// Is one of these words in it?
     pub(crate) fn has(&self, names: &[&str]) -> bool {
         self.words.iter().any(|word| names.contains(&word.as_str()))
+    }
+
+    /// The one size that it gives, as `10 MM`, `1/4 IN` or `DRILL 3/4`: of a drill or an end mill its diameter. `None` where it
+    /// gives none or several.
+    pub(crate) fn size(&self) -> Option<Mm> {
+        let tokens: Vec<&str> = self
+            .text
+            .split(|c: char| c.is_whitespace() || matches!(c, ',' | ':' | ';' | '|' | '='))
+            .collect();
+        let tokens: Vec<&str> = tokens.into_iter().filter(|token| !token.is_empty()).collect();
+        let mut sizes = tokens.iter().enumerate().filter_map(|(at, token)| {
+            let whole = at.checked_sub(1).and_then(|before| tokens.get(before)?.parse::<u32>().ok());
+            size(token, tokens.get(at + 1).copied().unwrap_or_default(), whole.unwrap_or(0))
+        });
+        sizes.next().filter(|_| sizes.next().is_none())
     }
 }
 
@@ -38,7 +55,30 @@ pub(crate) fn comment_of_tool(cx: &PathCx<'_>, changed: At) -> Option<ToolCommen
     let near = near.find_map(|at| Some((at, comments_in(cx, at)?)));
     let (at, text) = near.or_else(|| in_list(cx))?;
     let words = text.split(|c: char| !c.is_ascii_alphanumeric()).filter(|word| !word.is_empty());
-    Some(ToolComment { at, words: words.map(str::to_ascii_uppercase).collect() })
+    let words = words.map(str::to_ascii_uppercase).collect();
+    Some(ToolComment { at, words, text })
+}
+
+/// `10MM`, `10` before `MM`, `.25"`, `1/4` before anything: a number with its unit, or a fraction, which is one of an inch. A whole
+/// number before a fraction counts with it.
+fn size(token: &str, next: &str, whole: u32) -> Option<Mm> {
+    let digits = token.find(|c: char| !matches!(c, '0'..='9' | '.' | '/')).unwrap_or(token.len());
+    let (number, suffix) = token.split_at_checked(digits)?;
+    let unit = if suffix.is_empty() { next } else { suffix };
+    let unit = unit.trim_end_matches('.').to_ascii_uppercase();
+    let (value, is_fraction) = match number.split_once('/') {
+        Some((above, below)) => {
+            (f64::from(whole) + above.parse::<f64>().ok()? / below.parse::<f64>().ok()?, true)
+        }
+        None => (number.parse().ok()?, false),
+    };
+    let in_mm = match unit.as_str() {
+        "MM" if !is_fraction => 1.0,
+        "IN" | "INCH" | "\"" => 25.4,
+        _ if is_fraction && suffix.is_empty() => 25.4,
+        _ => return None,
+    };
+    Some(Mm(value * in_mm)).filter(|size| size.0 > 0.0 && size.0.is_finite())
 }
 
 /// The comments of a block of the main file.
@@ -109,7 +149,9 @@ pub(crate) fn entries(text: &str) -> impl Iterator<Item = (u32, &str)> {
 
 #[cfg(test)]
 mod tests {
-    use super::{entries, only_comments};
+    use gcheck_engine::At;
+
+    use super::{ToolComment, entries, only_comments};
 
     #[test]
     fn comments_without_the_code_beside_them() {
@@ -121,6 +163,25 @@ mod tests {
             ("X1.", ""),
         ] {
             assert_eq!(only_comments(block), comments, "{block}");
+        }
+    }
+
+    #[test]
+    fn a_comment_gives_one_size() {
+        let size = |text: &str| {
+            let comment =
+                ToolComment { at: At { file: 0, block: 0 }, words: Vec::new(), text: text.to_owned() };
+            comment.size().map(|size| (size.0 * 1000.0).round() / 1000.0)
+        };
+        for text in ["10 MM DRILL", "DRILL 10MM", "END MILL D: 10.0 mm."] {
+            assert_eq!(size(text), Some(10.0), "{text}");
+        }
+        for text in ["1/4 IN END MILL", "DRILL 1/4", ".25\" DRILL", "0.25 INCH"] {
+            assert_eq!(size(text), Some(6.35), "{text}");
+        }
+        assert_eq!(size("1 1/2 IN FACE MILL"), Some(38.1));
+        for text in ["1/4-20 TAP", "DRILL 10 MM, 60 MM LONG", "M6 DRILL", "#7 DRILL", "DRILL 1/0", "", "T5"] {
+            assert_eq!(size(text), None, "{text}");
         }
     }
 

@@ -173,6 +173,12 @@ impl Turned {
         self.cuts.push(Cut { ends: [from, to], bytes: cx.range(), side, tool: self.tool });
     }
 
+    /// The radius to which the part was faced down to its centre, and where that face is: below it the part is solid, as far
+    /// as no hole was made.
+    fn face(&self) -> Option<&Cut> {
+        self.cuts.iter().rev().find(|cut| cut.is_face_to_centre())
+    }
+
     /// On which side is a cut along Z, as far as it shows before the tool leaves it?
     fn side(&self, cx: &PathCx<'_>, from: Spot, to: Spot, is_expanded: bool) -> Side {
         let radius = from[0].min(to[0]);
@@ -198,7 +204,9 @@ impl Turned {
         let step = approach.filter(|[_, to]| (to - from[0]).abs() < SLACK).map(|[before, to]| before - to);
         let comes_in = step.is_some_and(|step| step > SLACK && step < STEP);
         let is_straight = (from[0] - to[0]).abs() < SLACK;
-        if comes_in && is_straight && !words.may_bore() && !self.has_hole(to[1]) {
+        // A part that was faced to its centre has no bore.
+        let is_outer = comes_in || self.face().is_some();
+        if is_outer && is_straight && !words.may_bore() && !self.has_hole(to[1]) {
             Side::Outside
         } else {
             Side::Unknown
@@ -276,14 +284,35 @@ impl Turned {
         })
     }
 
+    /// The face that a straight way goes through into solid material.
+    pub(crate) fn face_crossed(&self, from: Spot, to: Spot) -> Option<&Cut> {
+        let [[_, z0], [r1, z1]] = [from, to];
+        let face = self.face()?;
+        let [radius, level] = [face.ends[0][0].max(face.ends[1][0]), face.ends[0][1]];
+        let is_into = z0 > level - SLACK && z1 < level - UNDER && r1 < radius - UNDER && r1 > -SLACK;
+        // Other faces open nothing below this one.
+        let is_open = self.cuts.iter().any(|cut| !cut.is_face_to_centre() && cut.opens(to));
+        (is_into && !is_open && !self.has_hole(z1)).then_some(face)
+    }
+
+    /// The outside that a slanting way out of the part may meet: axes that leave together need not arrive together.
+    pub(crate) fn outside_beside(&self, from: Spot, to: Spot) -> Option<&Cut> {
+        let [[r0, z0], [r1, z1]] = [from, to];
+        if z0 > -UNDER || z1 < SLACK || r1 > r0 - SLACK {
+            return None;
+        }
+        let is_met = |cut: &&Cut| {
+            let radius = cut.ends[0][0].max(cut.ends[1][0]);
+            let deepest = cut.ends[0][1].min(cut.ends[1][1]);
+            let is_on_the_way = deepest < -UNDER && cut.ends[0][1].max(cut.ends[1][1]) > z0 + UNDER;
+            cut.side == Side::Outside && is_on_the_way && r0 > radius - SLACK && r1 < radius - UNDER
+        };
+        self.cuts.iter().rev().find(is_met).filter(|_| !self.is_cut_to([r1, z0]))
+    }
+
     /// Was the part cut as near to the centre as this place, and as deep, from outside?
-    fn is_cut_to(&self, [radius, z]: Spot) -> bool {
-        self.cuts.iter().any(|cut| {
-            let least = cut.ends[0][0].min(cut.ends[1][0]);
-            let is_hole = cut.side == Side::Inside || cut.is_centre();
-            let depth = cut.ends[0][1].min(cut.ends[1][1]);
-            !is_hole && least <= radius + SLACK && depth <= z + WIDTH
-        })
+    fn is_cut_to(&self, spot: Spot) -> bool {
+        self.cuts.iter().any(|cut| cut.opens(spot))
     }
 
     /// How deep the tools before this one have gone along the centre; zero without any.
@@ -294,10 +323,24 @@ impl Turned {
 }
 
 impl Cut {
+    /// Does it come as near to the centre as this place, and as deep, from outside?
+    fn opens(&self, [radius, z]: Spot) -> bool {
+        let least = self.ends[0][0].min(self.ends[1][0]);
+        let is_hole = self.side == Side::Inside || self.is_centre();
+        let depth = self.ends[0][1].min(self.ends[1][1]);
+        !is_hole && least <= radius + SLACK && depth <= z + WIDTH
+    }
+
     /// Along the centre: a hole.
     fn is_centre(&self) -> bool {
         let [[r0, _], [r1, _]] = self.ends;
         r0.abs() < SLACK && r1.abs() < SLACK && is_deep(self.ends[0], self.ends[1])
+    }
+
+    /// Along X, from outside to the centre.
+    fn is_face_to_centre(&self) -> bool {
+        let [from, to] = self.ends;
+        is_level(from, to) && to[0] < SLACK && from[0] > UNDER
     }
 
     /// Along Z, not at the centre.

@@ -49,6 +49,7 @@ pub(crate) mod cycles {
     pub(crate) mod allowance_into_contour;
     pub(crate) mod back_bore_r_above_z;
     pub(crate) mod bore_without_shift;
+    pub(crate) mod cycle_begins_below_r;
     pub(crate) mod cycle_dwell_missing;
     pub(crate) mod cycle_ended_in_subprogram;
     pub(crate) mod cycle_in_another_plane;
@@ -140,6 +141,7 @@ pub(crate) mod machine {
     pub(crate) mod feed_not_reached;
     pub(crate) mod feed_too_large_for_tool;
     pub(crate) mod five_axis_length_on_another_machine;
+    pub(crate) mod helix_steeper_than_tool;
     pub(crate) mod move_outside_travel;
     pub(crate) mod pocket_arc_below_tool;
     pub(crate) mod pocket_step_above_tool;
@@ -497,6 +499,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &cycles::allowance_into_contour::RULE,
     &cycles::back_bore_r_above_z::RULE,
     &cycles::bore_without_shift::RULE,
+    &cycles::cycle_begins_below_r::RULE,
     &cycles::cycle_dwell_missing::RULE,
     &cycles::cycle_ended_in_subprogram::RULE,
     &cycles::cycle_in_another_plane::RULE,
@@ -579,6 +582,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &machine::feed_not_reached::RULE,
     &machine::feed_too_large_for_tool::RULE,
     &machine::five_axis_length_on_another_machine::RULE,
+    &machine::helix_steeper_than_tool::RULE,
     &machine::move_outside_travel::RULE,
     &machine::pocket_arc_below_tool::RULE,
     &machine::pocket_step_above_tool::RULE,

@@ -56,23 +56,25 @@ fn a_jump_to_nowhere_hides_none_of_four_other_mistakes() {
         "fanuc-mill",
         &with_mistakes(""),
         &expect![[r#"
-        11 warning arc-end-off-circle
-        12 error expression-without-value
-        13 error feed-zero
-        14 warning lasting-word-never-given
-    "#]],
+            11 warning arc-end-off-circle
+            12 error expression-without-value
+            13 error feed-zero
+            14 warning cycle-begins-below-r
+            14 warning lasting-word-never-given
+        "#]],
     );
     check(
         "fanuc-mill",
         &with_mistakes("GOTO 999\n"),
         &expect![[r#"
-        10 info checked-past-alarm
-        10 error jump-target-missing
-        12 warning arc-end-off-circle
-        13 error expression-without-value
-        14 error feed-zero
-        15 warning lasting-word-never-given
-    "#]],
+            10 info checked-past-alarm
+            10 error jump-target-missing
+            12 warning arc-end-off-circle
+            13 error expression-without-value
+            14 error feed-zero
+            15 warning cycle-begins-below-r
+            15 warning lasting-word-never-given
+        "#]],
     );
     check(
         "haas-mill",
@@ -89,25 +91,27 @@ fn a_jump_to_nowhere_hides_none_of_four_other_mistakes() {
         "fanuc-mill",
         &with_mistakes("#1=1\nWHILE [#1 LT 3] DO1\n"),
         &expect![[r#"
-        11 info checked-past-alarm
-        11 error loop-end-missing
-        13 warning arc-end-off-circle
-        14 error expression-without-value
-        15 error feed-zero
-        16 warning lasting-word-never-given
-    "#]],
+            11 info checked-past-alarm
+            11 error loop-end-missing
+            13 warning arc-end-off-circle
+            14 error expression-without-value
+            15 error feed-zero
+            16 warning cycle-begins-below-r
+            16 warning lasting-word-never-given
+        "#]],
     );
     check(
         "fanuc-mill",
         &with_mistakes("IF [#500 EQ 1] GOTO 999\n"),
         &expect![[r#"
-        10 info checked-past-alarm
-        10 error jump-target-missing
-        12 warning arc-end-off-circle
-        13 error expression-without-value
-        14 error feed-zero
-        15 warning lasting-word-never-given
-    "#]],
+            10 info checked-past-alarm
+            10 error jump-target-missing
+            12 warning arc-end-off-circle
+            13 error expression-without-value
+            14 error feed-zero
+            15 warning cycle-begins-below-r
+            15 warning lasting-word-never-given
+        "#]],
     );
 }
 

@@ -1,5 +1,6 @@
 //! A feed for each turn that no milling cutter of this diameter bears.
 
+use gcheck_controls::Effect;
 use gcheck_engine::{At, Event, Fact, TravelKind};
 use gcheck_geometry::Mm;
 
@@ -11,11 +12,13 @@ use crate::{PathCx, PathRule, Report, Run, Watch};
 use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// A milling cutter goes sideways by more than 13 % of its diameter at each turn of the spindle.
+    /// A milling cutter goes sideways by more than 13 % of its diameter at each turn of the spindle, or a drill goes down by more
+    /// than 8 %.
     ///
     /// ## Why it matters
-    /// End mills of two to four teeth bear 1 to 5 % of their diameter for each turn. At more than twice of that they break. A
-    /// zero is missing in the speed, or one too many is in the feed. Tools are known from the tool table or `[tools]`; a tool
+    /// End mills of two to four teeth bear 1 to 5 % of their diameter for each turn, drills 1 to 4 %. At twice of that they break. A
+    /// zero is missing in the speed, or one too many is in the feed. Tools are known from the tool table or `[tools]`, drills from their
+    /// comments too; a tool
     /// whose comment calls it a high-feed cutter is not judged.
     ///
     /// ## Reported
@@ -25,6 +28,14 @@ declare_rule! {
     /// T1 M6
     /// G0 X0. Y0. Z-5. S3500 M3
     /// G1 X80. F6000.
+    /// M30
+    /// ```
+    /// ```nc,reported,generic-mill
+    /// G21 G17 G90 G94 G54
+    /// T1 M6
+    /// G0 X0. Y0. Z5. S900 M3
+    /// G98 G81 Z-25. R3. F1200.
+    /// G80
     /// M30
     /// ```
     /// ## Not reported
@@ -46,6 +57,8 @@ declare_rule! {
 
 /// Of the diameter, for each turn: twice of what soft wood allows two teeth.
 const MOST: f64 = 0.13;
+/// The same of a drill: twice of what carbide allows.
+const MOST_OF_DRILL: f64 = 0.08;
 /// Smaller tools are for other materials, or for nothing that this holds for: millimetres.
 const SMALLEST: f64 = 3.0;
 
@@ -63,15 +76,21 @@ impl PathRule for FeedTooLargeForTool {
     }
 
     fn cut(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
-        if !cx.is_mill() || !goes_sideways(event) || cx.is_called_only() || cx.has_effect(is_cycle) {
+        let drills = drills(cx, event);
+        if !cx.is_mill()
+            || cx.is_called_only()
+            || !drills && (!goes_sideways(event) || cx.has_effect(is_cycle))
+        {
             return;
         }
-        let (Some((tool, Mm(diameter))), Some((per_turn, turns))) =
-            (edge::diameter(cx), edge::feed_per_turn(cx))
+        // The comment of a mill may give its shank or its insert as well.
+        let size = edge::diameter_or_size(cx).filter(|(.., taken)| drills || taken.is_none());
+        let (Some((tool, Mm(diameter), taken)), Some((per_turn, turns))) = (size, edge::feed_per_turn(cx))
         else {
             return;
         };
-        if diameter < SMALLEST || per_turn <= diameter * MOST {
+        let most = if drills { MOST_OF_DRILL } else { MOST };
+        if diameter < SMALLEST || per_turn <= diameter * most {
             return;
         }
         let set_by = edge::feed_or_speed_set_by(cx);
@@ -89,14 +108,35 @@ impl PathRule for FeedTooLargeForTool {
             .finding(
                 &META,
                 cx.range(),
-                format!("the cutter is fed {} for each turn (T{tool})", edge::fine(cx, per_turn)),
+                format!(
+                    "the {} is fed {} for each turn (T{tool})",
+                    if drills { "drill" } else { "cutter" },
+                    edge::fine(cx, per_turn)
+                ),
             )
             .label(format!("{:.0} % of its diameter, at {turns:.0} rpm", per_turn / diameter * 100.0))
             .note(format!("the diameter of T{tool} is {}", cx.shown(Mm(diameter))))
             .help("check `F` and `S` for a zero too many or too few");
+        let finding = match taken {
+            Some(taken) => finding.assuming(taken),
+            None => finding,
+        };
         let finding = cx.resting_on(finding, Fact::Feed, "the feed");
         report.add(cx.resting_on(finding, Fact::Speed, "the speed"));
     }
+}
+
+/// Is it a stroke of a cycle that drills into the full?
+fn drills(cx: &PathCx<'_>, event: &Event) -> bool {
+    let cycle = cx.state().active_cycle(cx.model).filter(|code| code.is_some());
+    let is_drilling = |effect| {
+        matches!(
+            effect,
+            Effect::CycleDrill | Effect::CycleDrillDwell | Effect::CyclePeck | Effect::CycleChipBreak
+        )
+    };
+    matches!(event, Event::Travel(travel) if travel.expanded)
+        && cycle.is_some_and(|code| is_drilling(cx.model.effect(code)))
 }
 
 /// Does the tool move at least as far across as along itself?

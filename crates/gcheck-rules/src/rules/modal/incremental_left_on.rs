@@ -8,14 +8,16 @@ use gcheck_program::BlockFlags;
 
 use crate::declare::declare_rule;
 use crate::facts::boundary::{Boundary, boundary, boundary_range, ends_at_tape_mark};
+use crate::facts::cutting::starts_spindle;
 use crate::facts::modes::{ActiveMode, ignores_distance_mode, left_on};
+use crate::facts::probing::probes;
 use crate::{Finding, Fix, PathCx, PathRule, Report, Run, Severity, Uses, Watch};
 use crate::{Remembers, remembers};
 
 declare_rule! {
     /// Increments (`G91`) were left on: the first move of the next tool, after a subprogram, after a pocket whose outline
-    /// switched them on, or after a reference return whose block did, is in increments although the work before it was in
-    /// positions; or the program ends in increments and begins without stating positions.
+    /// switched them on, after a reference return whose block did, or of a spindle that starts after a probing move whose block
+    /// did, is in increments although the work before it was in positions; or the program ends in increments and begins without stating positions.
     ///
     /// `G91` is also reported where a tool begins: in the block of its first rapid move in X and Y, if that block also
     /// chooses a work offset or has only zeros, or if another tool of the program begins in positions. Increments from
@@ -45,6 +47,15 @@ declare_rule! {
     /// G91 G28 Z0.
     /// G0 X5. Y5.
     /// G90
+    /// M30
+    /// ```
+    /// ```nc,reported,grbl
+    /// G21 G90 G94
+    /// G91 G38.2 Z-40 F120
+    /// G10 L20 P1 Z15.2
+    /// G0 Z30
+    /// S10000 M3
+    /// G0 X-5 Y-5
     /// M30
     /// ```
     /// ```nc,reported,haas-mill
@@ -86,6 +97,10 @@ struct IncrementalLeftOn {
     change: Option<(Range<u32>, Option<At>)>,
     /// A reference return that switched from positions to increments, with no move since.
     at_return: Option<At>,
+    /// A probing move that switched from positions to increments.
+    at_probe: Option<At>,
+    /// The same, and the spindle started since, with no move after it.
+    at_probe_before_start: Option<At>,
     /// A block of a subprogram that switched from positions to increments, and its call depth.
     in_subprogram: Option<(At, usize)>,
     /// A block in positions that runs another program, and its call depth. In that program or a deeper one, no move and no
@@ -98,7 +113,7 @@ struct IncrementalLeftOn {
     begins_in_positions: bool,
 }
 
-remembers!(IncrementalLeftOn: change, at_return, in_subprogram, at_other_program);
+remembers!(IncrementalLeftOn: change, at_return, at_probe, at_probe_before_start, in_subprogram, at_other_program);
 
 impl PathRule for IncrementalLeftOn {
     fn memory(&mut self) -> Remembers<'_> {
@@ -116,6 +131,12 @@ impl PathRule for IncrementalLeftOn {
         if switches_on && was_absolute && cx.has_effect(|effect| matches!(effect, Effect::ReturnReference(_)))
         {
             self.at_return = Some(cx.origin().at);
+        }
+        if switches_on && was_absolute && cx.has_effect(probes) {
+            self.at_probe = Some(cx.origin().at);
+        }
+        if cx.has_effect(starts_spindle) {
+            self.at_probe_before_start = self.at_probe.take();
         }
         if switches_on && cx.depth() > 1 && cx.state().is_incremental(cx.model) == Some(false) {
             self.in_subprogram = Some((cx.origin().at, cx.depth()));
@@ -194,6 +215,7 @@ impl IncrementalLeftOn {
         let is_incremental = cx.state().is_incremental(cx.model) == Some(true);
         let (change, was_absolute) = (self.change.take(), self.was_absolute);
         let at_return = self.at_return.take();
+        let at_probe = self.at_probe_before_start.take();
         self.was_absolute = cx.state().is_incremental(cx.model) == Some(false);
         // The pocket itself moves, too.
         let is_after = |(at, depth): &mut (At, usize)| *at != cx.origin().at && cx.depth() <= *depth;
@@ -218,6 +240,11 @@ impl IncrementalLeftOn {
         } else if at_return == set_by && !cx.origin().flags.contains(BlockFlags::EXPRESSION) {
             // A distance that is computed from the present position is a deliberate increment.
             let finding = tell(cx, cx.range(), "the first move after the reference return is in increments");
+            let finding = finding.label("by this much, not to this point");
+            report.add(cx.resting_on(finding, Fact::Mode(Role::Distance), "increments"));
+        } else if at_probe == set_by {
+            let finding =
+                tell(cx, cx.range(), "the first move of the spindle after probing is in increments");
             let finding = finding.label("by this much, not to this point");
             report.add(cx.resting_on(finding, Fact::Mode(Role::Distance), "increments"));
         } else if let Some((at, depth)) = self.in_subprogram
@@ -295,6 +322,22 @@ mod tests {
 
     use super::RULE;
     use crate::testing::{World, check_rule, findings, only, words};
+
+    #[test]
+    fn increments_of_a_probing_move() {
+        let program =
+            |back: &str| format!("G21 G90 G94\nG91 G38.2 Z-40 F120\nG0 Z5\n{back}S900 M3\nG0 X5 Y5\nM2\n");
+        check_rule(
+            &RULE,
+            "grbl",
+            &program(""),
+            &expect![[r#"
+            5 | G0 X5 Y5
+              | ^^^^^^^^ warning[incremental-left-on] the first move of the spindle after probing is in increments (`G91`)
+        "#]],
+        );
+        check_rule(&RULE, "grbl", &program("G90\n"), &expect![[""]]);
+    }
 
     #[test]
     fn the_first_move_of_the_next_tool_is_marked() {

@@ -10,7 +10,7 @@ use crate::{PathCx, PathRule, Report, Run, Watch};
 use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// A cut at more than 10 mm (0.4 inch) per turn of the spindle, on a lathe at more than 3 mm (0.12 inch), or at less than
+    /// A cut at more than 10 mm (0.4 inch) per turn of the spindle, on a lathe at more than 1.4 mm (0.055 inch), or at less than
     /// 1 mm (0.04 inch) per minute.
     ///
     /// ## Why it matters
@@ -64,7 +64,9 @@ declare_rule! {
 /// Millimetres per turn: more than any milling cutter allows.
 const MOST_A_TURN: f64 = 10.0;
 /// Millimetres per turn: more than any turning tool allows.
-const MOST_A_TURN_OF_THE_PART: f64 = 3.0;
+const MOST_A_TURN_OF_THE_PART: f64 = 1.4;
+/// Millimetres per turn: above this the number is meant for the other mode, below it a point or a zero is wrong.
+const OTHER_MODE: f64 = 3.0;
 /// Millimetres per minute: less than any useful feed.
 const LEAST_A_MINUTE: f64 = 1.0;
 
@@ -109,10 +111,15 @@ impl PathRule for FeedImplausible {
             return;
         }
         let range = cx.find_word(given, word).unwrap_or_else(|| cx.range());
+        let (label, help) = if is_fast && feed <= OTHER_MODE {
+            ("more than an insert takes".to_owned(), "check the decimal point and the zeros of the number")
+        } else {
+            (format!("looks meant for {other}"), "check the feed mode and the number")
+        };
         let finding = cx
             .finding(&META, range, format!("feed of {} {reads} (`F`)", cx.shown(Mm(feed))))
-            .label(format!("looks meant for {other}"))
-            .help("check the feed mode and the number");
+            .label(label)
+            .help(help);
         let name = cx.code_name(Role::FeedMode).unwrap_or_default();
         let finding = cx.resting_on(finding, Fact::Mode(Role::FeedMode), &format!("`{name}`"));
         report.add(if is_stated {
@@ -178,6 +185,15 @@ mod tests {
         "#]],
         );
         check_rule(&RULE, "fanuc-lathe", &program("", "1.2"), &expect![[""]]);
+        check_rule(
+            &RULE,
+            "fanuc-lathe",
+            &program("", "2."),
+            &expect![[r#"
+            4 | G1 Z-30. F2.
+              |          ^^^ warning[feed-implausible] feed of 2 mm per turn of the spindle (`F`)
+        "#]],
+        );
         check_rule(&RULE, "fanuc-lathe", &program("G98 ", "200."), &expect![[""]]);
     }
 

@@ -6,9 +6,9 @@ use gcheck_geometry::Mm;
 
 use crate::declare::declare_rule;
 use crate::facts::tool_words::ToolWords;
-use crate::facts::turned::{SLACK, Spot, Turned, end, is_level, is_other_part};
+use crate::facts::turned::{Cut, SLACK, Spot, Turned, end, is_level, is_other_part};
 use crate::facts::turning::is_turned;
-use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
+use crate::{Finding, PathCx, PathRule, Report, Run, Uses, Watch};
 use crate::{Remembers, remembers};
 
 declare_rule! {
@@ -18,6 +18,10 @@ declare_rule! {
     /// A cut counts as the outside of the part if a roughing cycle or a turning pass begins farther from the centre, or
     /// if the tool comes to it inwards, in a move in X beside the part. Where there is a hole, nothing is taken for the
     /// outside by its approach alone.
+    ///
+    /// A part that was faced to its centre is solid, as far as no hole was made. A retract that goes out of the part and inwards at
+    /// once is reported too where it ends under an outside surface that it passes: axes that leave together need not arrive
+    /// together.
     ///
     /// ## Why it matters
     /// The tool is driven into the part at rapid. Mostly the sign of a retract (`U`) is wrong, or `G0` was written instead
@@ -44,6 +48,17 @@ declare_rule! {
     /// G0 Z2.
     /// G0 X20. Z-10.
     /// G1 Z-15.
+    /// M30
+    /// ```
+    /// After facing, the sign of Z is wrong.
+    /// ```nc,reported,haas-lathe
+    /// G20 G99 T101
+    /// G97 S1800 M3
+    /// G0 X0.85 Z0.
+    /// G1 X-0.06 F0.005
+    /// G0 X0.5 Z-0.1
+    /// G1 Z-1.25
+    /// G0 X4.
     /// M30
     /// ```
     /// ## Not reported
@@ -112,34 +127,63 @@ impl PathRule for RapidIntoTurnedPart {
 
 impl RapidIntoTurnedPart {
     fn judge(&mut self, cx: &PathCx<'_>, from: Spot, to: Spot, report: &mut Report<'_>) {
-        let Some(cut) = self.turned.outside_crossed(from, to) else { return };
         if ToolWords::of(cx).bores() {
             return;
         }
-        self.told = Some(cx.origin().at);
-        let is_diameter = cx.state().is_diameter(cx.model) == Some(true);
-        let shown = |radius: f64| cx.shown(Mm(if is_diameter { radius * 2.0 } else { radius }));
-        let radius = cut.ends[0][0].max(cut.ends[1][0]);
-        let is_retract = is_level(from, to) && (from[0] - radius).abs() < SLACK;
-        let (message, help) = if is_retract {
-            (
-                "rapid retract into the part after an outside cut",
-                "retract outwards: check the sign of `U`, or the number of `X`",
-            )
-        } else {
-            (
-                "rapid move into the part, through a surface that was turned",
-                "check X and Z of the move, or make it at feed (`G1`)",
-            )
-        };
-        report.add(
-            cx.finding(&META, cx.range(), message)
-                .label(format!("to X {} at Z {}, where nothing was cut", shown(to[0]), cx.shown(Mm(to[1]))))
-                .also(cut.bytes.clone(), format!("the outside is turned to X {} here", shown(radius)))
-                .assuming("the part is not hollow there before the program starts")
-                .help(help),
-        );
+        if let Some(cut) = self.turned.outside_crossed(from, to) {
+            self.told = Some(cx.origin().at);
+            report.add(through_outside(cx, cut, from, to));
+        } else if let Some(face) = self.turned.face_crossed(from, to) {
+            self.told = Some(cx.origin().at);
+            report.add(
+                cx.finding(&META, cx.range(), "rapid move into the part, through its face")
+                    .label(format!(
+                        "{} below the face, where nothing was cut",
+                        cx.shown(Mm(face.ends[0][1] - to[1]))
+                    ))
+                    .also(face.bytes.clone(), "the part is faced to its centre here")
+                    .assuming("the part is not hollow there before the program starts")
+                    .help("check the sign of Z, or make the move at feed (`G1`)"),
+            );
+        } else if let Some(cut) = self.turned.outside_beside(from, to) {
+            self.told = Some(cx.origin().at);
+            let radius = cut.ends[0][0].max(cut.ends[1][0]);
+            report.add(
+                cx.finding(&META, cx.range(), "rapid retract that goes inwards past a turned surface")
+                    .label(format!("ends at X {}, nearer to the centre", shown(cx, to[0])))
+                    .also(cut.bytes.clone(), format!("the outside is turned to X {} here", shown(cx, radius)))
+                    .note("axes that leave together need not arrive together: X may be there while the tool is still in the part")
+                    .help("check X, or retract Z first"),
+            );
+        }
     }
+}
+
+/// A radius as programs write it.
+fn shown(cx: &PathCx<'_>, radius: f64) -> String {
+    let is_diameter = cx.state().is_diameter(cx.model) == Some(true);
+    cx.shown(Mm(if is_diameter { radius * 2.0 } else { radius }))
+}
+
+fn through_outside(cx: &PathCx<'_>, cut: &Cut, from: Spot, to: Spot) -> Finding {
+    let radius = cut.ends[0][0].max(cut.ends[1][0]);
+    let is_retract = is_level(from, to) && (from[0] - radius).abs() < SLACK;
+    let (message, help) = if is_retract {
+        (
+            "rapid retract into the part after an outside cut",
+            "retract outwards: check the sign of `U`, or the number of `X`",
+        )
+    } else {
+        (
+            "rapid move into the part, through a surface that was turned",
+            "check X and Z of the move, or make it at feed (`G1`)",
+        )
+    };
+    cx.finding(&META, cx.range(), message)
+        .label(format!("to X {} at Z {}, where nothing was cut", shown(cx, to[0]), cx.shown(Mm(to[1]))))
+        .also(cut.bytes.clone(), format!("the outside is turned to X {} here", shown(cx, radius)))
+        .assuming("the part is not hollow there before the program starts")
+        .help(help)
 }
 
 #[cfg(test)]
@@ -237,6 +281,46 @@ mod tests {
         check_rule(&RULE, "fanuc-lathe", &program("", &format!("{TURNED}{groove}")), &expect![[""]]);
         let step = "G0 X30.\nG1 Z-20.\nX52.\nG0 Z-10.\nX32.";
         check_rule(&RULE, "fanuc-lathe", &program("", &format!("{TURNED}{step}")), &expect![[""]]);
+    }
+
+    #[test]
+    fn a_faced_part_is_solid() {
+        let faced = "G0 X52. Z0.\nG1 X-1. F.2\nG0 Z2.\n";
+        check_rule(
+            &RULE,
+            "fanuc-lathe",
+            &program("", &format!("{faced}X30. Z-3.")),
+            &expect![[r#"
+            7 | X30. Z-3.
+              | ^^^^^^^^^ warning[rapid-into-turned-part] rapid move into the part, through its face
+        "#]],
+        );
+        let drilled = format!("{faced}X0.\nG1 Z-40. F.1\nG0 Z2.\n");
+        check_rule(&RULE, "fanuc-lathe", &program("", &format!("{drilled}X8. Z-3.")), &expect![[""]]);
+        // Beside the part.
+        check_rule(&RULE, "fanuc-lathe", &program("", &format!("{faced}X54.\nZ-3.")), &expect![[""]]);
+        let turned = format!("{faced}X40.\nG1 Z-30. F.2\nX54.\nG0 Z2.\n");
+        check_rule(&RULE, "fanuc-lathe", &program("", &format!("{turned}X42.\nZ-20.")), &expect![[""]]);
+    }
+
+    #[test]
+    fn out_of_the_part_and_inwards_at_once() {
+        let turned = "G0 X52. Z0.\nG1 X-1. F.2\nG0 X30. Z2.\nG1 Z-30. F.1\nX52.\n";
+        check_rule(
+            &RULE,
+            "fanuc-lathe",
+            &program("", &format!("{turned}G0 X20. Z100.")),
+            &expect![[r#"
+            9 | G0 X20. Z100.
+              | ^^^^^^^^^^^^^ warning[rapid-into-turned-part] rapid retract that goes inwards past a turned surface
+        "#]],
+        );
+        check_rule(
+            &RULE,
+            "fanuc-lathe",
+            &program("", &format!("{turned}G0 X52. Z100.\nX20.")),
+            &expect![[""]],
+        );
     }
 
     #[test]
