@@ -36,6 +36,11 @@ pub(crate) fn is_cut(cx: &PathCx<'_>, event: &Event) -> bool {
     }
 }
 
+/// Does the code turn the spindle counter-clockwise?
+pub(crate) fn turns_backwards(effect: Effect) -> bool {
+    matches!(effect, Effect::SpindleCounterClockwise | Effect::SpindleCounterClockwiseWithCoolant)
+}
+
 /// Does the code start something that cuts?
 pub(crate) fn starts_spindle(effect: Effect) -> bool {
     matches!(

@@ -28,6 +28,11 @@ impl ToolComment {
         self.words.iter().any(|word| names.contains(&word.as_str()))
     }
 
+    /// Does it name a tool that cuts counter-clockwise?
+    pub(crate) fn is_left_hand(&self) -> bool {
+        self.has(&["LH", "L", "LEFT", "LEFTHAND", "REVERSE", "CCW", "M4", "M04"])
+    }
+
     /// The one size that it gives, as `10 MM`, `1/4 IN` or `DRILL 3/4`: of a drill or an end mill its diameter. `None` where it
     /// gives none or several.
     pub(crate) fn size(&self) -> Option<Mm> {

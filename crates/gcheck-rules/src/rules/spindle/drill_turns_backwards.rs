@@ -4,6 +4,7 @@ use gcheck_controls::Effect;
 use gcheck_engine::{At, Axis, Event, Fact, Spindle, Travel, TravelKind};
 
 use crate::declare::declare_rule;
+use crate::facts::cutting::turns_backwards;
 use crate::facts::tool_comment::{ToolComment, comment_of_tool};
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 use crate::{Remembers, remembers};
@@ -98,10 +99,6 @@ impl PathRule for DrillTurnsBackwards {
     }
 }
 
-fn turns_backwards(effect: Effect) -> bool {
-    matches!(effect, Effect::SpindleCounterClockwise | Effect::SpindleCounterClockwiseWithCoolant)
-}
-
 /// Is it a stroke of a drilling cycle, or a feed move straight down?
 fn drills(cx: &PathCx<'_>, travel: &Travel) -> bool {
     if travel.expanded {
@@ -118,8 +115,7 @@ fn drills(cx: &PathCx<'_>, travel: &Travel) -> bool {
 }
 
 fn is_drill(comment: &ToolComment) -> bool {
-    let is_left = comment.has(&["LH", "L", "LEFT", "LEFTHAND", "REVERSE", "CCW", "M4", "M04", "MILL"]);
-    comment.has(&["DRILL", "DRILLS", "DRILLING"]) && !is_left
+    comment.has(&["DRILL", "DRILLS", "DRILLING"]) && !comment.has(&["MILL"]) && !comment.is_left_hand()
 }
 
 #[cfg(test)]
