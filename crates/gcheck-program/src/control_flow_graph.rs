@@ -30,17 +30,17 @@ use o_words::OWords;
 /// The control flow of one file.
 ///
 /// ```
-/// use gcheck_program::{Dialect, ControlFlowGraph, lower};
+/// use gcheck_program::{ControlFlowGraph, Dialect, lower};
 ///
 /// let control = gcheck_controls::load("fanuc-mill").unwrap();
 /// let dialect = Dialect::new(&control);
 /// let text = "O1\nN10 G0 X0\nGOTO 10\nM30\nO2\nN10 M99\n";
 /// let mut builder = ControlFlowGraph::builder();
 /// builder.add(&lower(text, &dialect), 0, text.len() as u32, text, &dialect);
-/// let flow graph = builder.finish();
-/// assert_eq!(flow graph.blocks(), 6);
-/// assert_eq!(flow graph.label(10, 2, true), Some(1));
-/// assert_eq!(flow graph.program(2).unwrap().blocks, 4..6);
+/// let graph = builder.finish();
+/// assert_eq!(graph.blocks(), 6);
+/// assert_eq!(graph.label(10, 2, true), Some(1));
+/// assert_eq!(graph.program(2).unwrap().blocks, 4..6);
 /// ```
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct ControlFlowGraph {

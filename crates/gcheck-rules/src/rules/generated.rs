@@ -330,6 +330,7 @@ pub(crate) mod spindle {
     pub(crate) mod c_axis_not_engaged;
     pub(crate) mod drill_turns_backwards;
     pub(crate) mod maybe_spindle_stopped_while_cutting;
+    pub(crate) mod mill_turns_backwards;
     pub(crate) mod speed_above_limit_of_program;
     pub(crate) mod speed_missing;
     pub(crate) mod speed_of_another_mode;
@@ -747,6 +748,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &spindle::c_axis_not_engaged::RULE,
     &spindle::drill_turns_backwards::RULE,
     &spindle::maybe_spindle_stopped_while_cutting::RULE,
+    &spindle::mill_turns_backwards::RULE,
     &spindle::speed_above_limit_of_program::RULE,
     &spindle::speed_missing::RULE,
     &spindle::speed_of_another_mode::RULE,

@@ -125,7 +125,15 @@ mod tests {
                 "T4 M6 ({comment})\nG21 G90 G54 G0 X0. Y0.\nS900 M4\nG43 H4 Z5.\nG1 Z-1. F90.\nX9.\nY9.\nG0 Z5.\nM30\n"
             )
         };
-        check_rule(&RULE, "fanuc-mill", &program("10 END MILL"), &expect![[""]]);
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            &program("10 END MILL"),
+            &expect![[r#"
+            3 | S900 M4
+              |      ^^ warning[mill-turns-backwards] the milling cutter turns backwards (`M4`)
+        "#]],
+        );
         for comment in ["THREAD MILL", "END MILL LEFT HAND", "TAP", ""] {
             check_rule(&RULE, "fanuc-mill", &program(comment), &expect![[""]]);
         }
