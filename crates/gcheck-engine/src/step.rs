@@ -335,7 +335,7 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
             refused = Some(fault);
         }
         if let Some(fault) = refused {
-            // There is no telling what a remark without its parentheses means to do.
+            // Nobody knows what a remark without its parentheses is to do.
             if !self.lenient || block.flags.contains(BlockFlags::REMARK) {
                 return Outcome::Fault(fault);
             }

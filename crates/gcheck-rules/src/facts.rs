@@ -42,6 +42,7 @@ pub(crate) mod threads;
 pub(crate) mod tool_comment;
 pub(crate) mod tool_words;
 pub(crate) mod turned;
+pub(crate) mod turned_backwards;
 pub(crate) mod turning;
 pub(crate) mod usage;
 pub(crate) mod word_sets;

@@ -13,32 +13,48 @@ use gcheck_program::BlockFlags;
 use crate::lexemes::touches;
 
 /// Blocks of one series.
-const MOST_BLOCKS: usize = 200;
+const MOST_BLOCKS: u32 = 200;
 /// Blocks after the series that are looked at for the motion that goes on.
 const LOOK_AHEAD: u32 = 20;
 
-/// The blocks of the cycle that begins at a place, when plain moves can take their place.
+/// The blocks of the cycle that begins at a place, with those that go on with it, when plain moves can take their place: it is
+/// certain where it ends and what goes on then.
 pub(super) fn cycle_at(snapshot: &Snapshot, offset: u32) -> Option<Range<u32>> {
     let first = snapshot.block_at(offset).filter(|place| touches(&place.range(), offset))?;
-    let series = series(snapshot, &first)?;
-    let last = series.last()?;
-    Some(first.range().start..last.range().end)
-}
-
-/// The block that begins a cycle and those that go on with it, when it is certain where it ends and what goes on then.
-fn series(snapshot: &Snapshot, first: &BlockPlace) -> Option<Vec<BlockPlace>> {
     let control = snapshot.control();
-    let role = |code: CodeIx| control.code_at(code).and_then(|code| Role::of(code.effect()));
-    let is_cycle = |place: &BlockPlace| {
-        place
-            .table
-            .words(place.block())
-            .iter()
-            .any(|word| control.code_at(word.code).is_some_and(|code| is_moves_and_dwells(code.effect())))
-    };
-    if !is_cycle(first) {
+    let begins_cycle = first
+        .table
+        .words(first.block())
+        .iter()
+        .any(|word| control.code_at(word.code).is_some_and(|code| is_moves_and_dwells(code.effect())));
+    if !begins_cycle || !fits(snapshot, &first, true) {
         return None;
     }
+    let graph = snapshot.flow_graph();
+    let mut end = first.range().end;
+    let mut next = first.number + 1;
+    loop {
+        let place = snapshot.place(next)?;
+        if !fits(snapshot, &place, false) {
+            break;
+        }
+        let is_target = graph.may_be_target(next);
+        if is_target && !place.block().letters.intersects(LetterSet::of("XYZ")) {
+            break;
+        }
+        // A jump into the series would find other moves there.
+        if is_target || next - first.number >= MOST_BLOCKS {
+            return None;
+        }
+        end = place.range().end;
+        next += 1;
+    }
+    goes_on_plainly(snapshot, next).then(|| first.range().start..end)
+}
+
+/// Has a block the cycle's own words alone beside its code, the level that it returns to and a sequence number?
+fn fits(snapshot: &Snapshot, place: &BlockPlace, is_first: bool) -> bool {
+    let role = |code: CodeIx| snapshot.control().code_at(code).and_then(|code| Role::of(code.effect()));
     let unfit = BlockFlags::ERROR
         | BlockFlags::STATEMENT
         | BlockFlags::EXPRESSION
@@ -46,40 +62,13 @@ fn series(snapshot: &Snapshot, first: &BlockPlace) -> Option<Vec<BlockPlace>> {
         | BlockFlags::COMMENT
         | BlockFlags::PROGRAM_NUMBER
         | BlockFlags::TAPE_MARK;
-    // Beside the cycle only its own words, the level it returns to and a sequence number may be.
-    let fits = |place: &BlockPlace, is_first: bool| {
-        let words = place.table.words(place.block());
-        let own = LetterSet::of("XYZRQPFLKIJN");
-        !place.block().flags.intersects(unfit)
-            && words.iter().all(|word| match role(word.code) {
-                Some(Role::Cycle | Role::ReturnLevel) => is_first,
-                Some(_) => false,
-                None => word.code == CodeIx::NONE && own.contains(word.letter),
-            })
-    };
-    if !fits(first, true) {
-        return None;
-    }
-    let mut series = vec![first.clone()];
-    let graph = snapshot.flow_graph();
-    let mut next = first.number + 1;
-    let end = loop {
-        let place = snapshot.place(next)?;
-        let is_only_words = fits(&place, false);
-        if !is_only_words
-            || graph.may_be_target(next) && !place.block().letters.intersects(LetterSet::of("XYZ"))
-        {
-            break next;
-        }
-        if series.len() >= MOST_BLOCKS {
-            return None;
-        }
-        series.push(place);
-        next += 1;
-    };
-    // Jumps into the series would find other moves there.
-    let is_jumped_to = series.iter().skip(1).any(|place| graph.may_be_target(place.number));
-    (!is_jumped_to && goes_on_plainly(snapshot, end)).then_some(series)
+    let own = LetterSet::of("XYZRQPFLKIJN");
+    !place.block().flags.intersects(unfit)
+        && place.table.words(place.block()).iter().all(|word| match role(word.code) {
+            Some(Role::Cycle | Role::ReturnLevel) => is_first,
+            Some(_) => false,
+            None => word.code == CodeIx::NONE && own.contains(word.letter),
+        })
 }
 
 /// Is the cycle ended after its series, and does the next move say how it moves?

@@ -26,6 +26,20 @@ pub(crate) fn is_cycle(effect: Effect) -> bool {
     Role::of(effect) == Some(Role::Cycle) && effect != Effect::CycleCancel
 }
 
+/// Does the cycle drill into the full?
+pub(crate) fn is_drilling(effect: Effect) -> bool {
+    matches!(
+        effect,
+        Effect::CycleDrill | Effect::CycleDrillDwell | Effect::CyclePeck | Effect::CycleChipBreak
+    )
+}
+
+/// Is such a cycle in effect?
+pub(crate) fn drills_by_cycle(cx: &PathCx<'_>) -> bool {
+    let cycle = cx.state().active_cycle(cx.model).filter(|code| code.is_some());
+    cycle.is_some_and(|code| is_drilling(cx.model.effect(code)))
+}
+
 /// The operation of several moves that the block makes: one of its own, or the canned cycle in effect.
 pub(crate) fn cycle_code<'a>(cx: &PathCx<'a>) -> Option<Code<'a>> {
     let control = cx.control();

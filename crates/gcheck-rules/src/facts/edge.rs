@@ -4,14 +4,15 @@
 
 use gcheck_controls::Effect;
 use gcheck_engine::{
-    Abstract, At, Axis, Cutting, Domain, Fact, FeedMode, Position, Role, Spindle, Truth, Units,
+    Abstract, At, Axis, Cutting, Domain, Event, Fact, FeedMode, Position, Role, Spindle, TravelKind, Truth,
+    Units,
 };
 use gcheck_geometry::Mm;
 
 use crate::PathCx;
 use crate::facts::offset_schemes::whole;
 use crate::facts::reach::feed;
-use crate::facts::tool_comment::comment_of_tool;
+use crate::facts::tool_comment::comment_at_work;
 
 /// The tool in the spindle, with how it cuts; `None` where it is not known, or nothing is configured of it.
 pub(crate) fn cutting<'c>(cx: &PathCx<'c>) -> Option<(u32, &'c Cutting)> {
@@ -61,14 +62,25 @@ pub(crate) fn diameter(cx: &PathCx<'_>) -> Option<(u32, Mm)> {
     (diameter.0 > 0.0).then_some((tool, diameter))
 }
 
-/// The tool in the spindle with its diameter, as the tables say or else its comment; what then is taken for granted.
+/// The tool in the spindle with its diameter, as the tables say or else its comment, and what then is taken for granted.
 pub(crate) fn diameter_or_size(cx: &PathCx<'_>) -> Option<(u32, Mm, Option<String>)> {
     if let Some((tool, diameter)) = diameter(cx) {
         return Some((tool, diameter, None));
     }
     let tool = Abstract::known(cx.state().tool()).and_then(whole)?;
-    let size = comment_of_tool(cx, cx.definitions().set_by(Fact::Tool)?)?.size()?;
+    let size = comment_at_work(cx)?.size()?;
     Some((tool, size, Some(format!("T{tool} is as wide as its comment says"))))
+}
+
+/// Is it a cut that a block makes by itself, at least as far across the tool as along it?
+pub(crate) fn cuts_across(event: &Event) -> bool {
+    match event {
+        Event::Travel(travel) => {
+            travel.kind == TravelKind::Feed && !travel.expanded && goes_across(&travel.from, &travel.to)
+        }
+        Event::Arc(arc) => !arc.expanded,
+        _ => false,
+    }
 }
 
 /// A small length in the units of the program.

@@ -3,7 +3,7 @@
 //! Knows: which comments belong to a tool, and how lists of tools at the head of a program are written. Must not know: any
 //! rule, what kinds of tools there are.
 
-use gcheck_engine::{Abstract, At, Domain};
+use gcheck_engine::{Abstract, At, Domain, Fact};
 use gcheck_geometry::Mm;
 use gcheck_program::BlockFlags;
 
@@ -36,17 +36,19 @@ impl ToolComment {
     /// The one size that it gives, as `10 MM`, `1/4 IN` or `DRILL 3/4`: of a drill or an end mill its diameter. `None` where it
     /// gives none or several.
     pub(crate) fn size(&self) -> Option<Mm> {
-        let tokens: Vec<&str> = self
-            .text
-            .split(|c: char| c.is_whitespace() || matches!(c, ',' | ':' | ';' | '|' | '='))
-            .collect();
-        let tokens: Vec<&str> = tokens.into_iter().filter(|token| !token.is_empty()).collect();
+        let ends = |c: char| c.is_whitespace() || matches!(c, ',' | ':' | ';' | '|' | '=');
+        let tokens: Vec<&str> = self.text.split(ends).filter(|token| !token.is_empty()).collect();
         let mut sizes = tokens.iter().enumerate().filter_map(|(at, token)| {
             let whole = at.checked_sub(1).and_then(|before| tokens.get(before)?.parse::<u32>().ok());
             size(token, tokens.get(at + 1).copied().unwrap_or_default(), whole.unwrap_or(0))
         });
         sizes.next().filter(|_| sizes.next().is_none())
     }
+}
+
+/// What the comment of the tool in the spindle says.
+pub(crate) fn comment_at_work(cx: &PathCx<'_>) -> Option<ToolComment> {
+    comment_of_tool(cx, cx.definitions().set_by(Fact::Tool)?)
 }
 
 /// What the comment of the tool says that a block put in: the one of its block, one alone in the block before or after, or

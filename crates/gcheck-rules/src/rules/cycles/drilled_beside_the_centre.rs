@@ -5,7 +5,7 @@ use gcheck_engine::{Axis, Event, Spindle, TravelKind, Truth};
 use gcheck_geometry::Mm;
 
 use crate::declare::declare_rule;
-use crate::facts::cycles::cycle_name;
+use crate::facts::cycles::{cycle_name, is_drilling};
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 
 declare_rule! {
@@ -82,15 +82,7 @@ impl PathRule for DrilledBesideTheCentre {
 }
 
 fn drills(effect: Effect) -> bool {
-    matches!(
-        effect,
-        Effect::CycleDrill
-            | Effect::CycleDrillDwell
-            | Effect::CyclePeck
-            | Effect::CycleChipBreak
-            | Effect::CycleTap
-            | Effect::CycleLeftTap
-    )
+    is_drilling(effect) || matches!(effect, Effect::CycleTap | Effect::CycleLeftTap)
 }
 
 #[cfg(test)]

@@ -4,6 +4,7 @@ use gcheck_controls::Effect;
 use gcheck_engine::At;
 
 use crate::declare::declare_rule;
+use crate::facts::probing::probes;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
 declare_rule! {
@@ -88,20 +89,16 @@ fn waits_for_somebody(cx: &PathCx<'_>, head: At, turn: At) -> bool {
         place.table.words(place.block()).iter().any(|word| is(cx.model.effect(word.code)))
     };
     let waits = |effect: Effect| {
-        matches!(
-            effect,
-            Effect::Stop
-                | Effect::OptionalStop
-                | Effect::PalletStop
-                | Effect::BarFeed
-                | Effect::WaitForInput
-                | Effect::AskOperator
-                | Effect::ProbeToward
-                | Effect::ProbeTowardOptional
-                | Effect::ProbeAway
-                | Effect::ProbeAwayOptional
-                | Effect::Skip
-        )
+        probes(effect)
+            || matches!(
+                effect,
+                Effect::Stop
+                    | Effect::OptionalStop
+                    | Effect::PalletStop
+                    | Effect::BarFeed
+                    | Effect::WaitForInput
+                    | Effect::AskOperator
+            )
     };
     let calls = |effect: Effect| {
         matches!(effect, Effect::CallLocal | Effect::CallProgram | Effect::MacroCall | Effect::MacroModal)

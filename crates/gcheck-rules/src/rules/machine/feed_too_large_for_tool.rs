@@ -1,13 +1,12 @@
 //! A feed for each turn that no milling cutter of this diameter bears.
 
-use gcheck_controls::Effect;
-use gcheck_engine::{At, Event, Fact, TravelKind};
+use gcheck_engine::{At, Event, Fact};
 use gcheck_geometry::Mm;
 
 use crate::declare::declare_rule;
-use crate::facts::cycles::is_cycle;
+use crate::facts::cycles::{drills_by_cycle, is_cycle};
 use crate::facts::edge;
-use crate::facts::tool_comment::comment_of_tool;
+use crate::facts::tool_comment::comment_at_work;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 use crate::{Remembers, remembers};
 
@@ -76,19 +75,21 @@ impl PathRule for FeedTooLargeForTool {
     }
 
     fn cut(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
-        let drills = drills(cx, event);
+        let drills = matches!(event, Event::Travel(travel) if travel.expanded) && drills_by_cycle(cx);
         if !cx.is_mill()
             || cx.is_called_only()
-            || !drills && (!goes_sideways(event) || cx.has_effect(is_cycle))
+            || !drills && (!edge::cuts_across(event) || cx.has_effect(is_cycle))
         {
             return;
         }
+        let Some((per_turn, turns)) = edge::feed_per_turn(cx) else { return };
         // The comment of a mill may give its shank or its insert as well.
-        let size = edge::diameter_or_size(cx).filter(|(.., taken)| drills || taken.is_none());
-        let (Some((tool, Mm(diameter), taken)), Some((per_turn, turns))) = (size, edge::feed_per_turn(cx))
-        else {
-            return;
+        let size = if drills {
+            edge::diameter_or_size(cx)
+        } else {
+            edge::diameter(cx).map(|(tool, diameter)| (tool, diameter, None))
         };
+        let Some((tool, Mm(diameter), taken)) = size else { return };
         let most = if drills { MOST_OF_DRILL } else { MOST };
         if diameter < SMALLEST || per_turn <= diameter * most {
             return;
@@ -97,8 +98,7 @@ impl PathRule for FeedTooLargeForTool {
         if set_by.is_none() || self.told == set_by {
             return;
         }
-        let comment = cx.definitions().set_by(Fact::Tool).and_then(|at| comment_of_tool(cx, at));
-        if comment
+        if comment_at_work(cx)
             .is_some_and(|comment| comment.has(&["HIGH", "HIGHFEED", "HFM", "HPC", "HSM", "TAP", "PROBE"]))
         {
             return;
@@ -123,29 +123,5 @@ impl PathRule for FeedTooLargeForTool {
         };
         let finding = cx.resting_on(finding, Fact::Feed, "the feed");
         report.add(cx.resting_on(finding, Fact::Speed, "the speed"));
-    }
-}
-
-/// Is it a stroke of a cycle that drills into the full?
-fn drills(cx: &PathCx<'_>, event: &Event) -> bool {
-    let cycle = cx.state().active_cycle(cx.model).filter(|code| code.is_some());
-    let is_drilling = |effect| {
-        matches!(
-            effect,
-            Effect::CycleDrill | Effect::CycleDrillDwell | Effect::CyclePeck | Effect::CycleChipBreak
-        )
-    };
-    matches!(event, Event::Travel(travel) if travel.expanded)
-        && cycle.is_some_and(|code| is_drilling(cx.model.effect(code)))
-}
-
-/// Does the tool move at least as far across as along itself?
-fn goes_sideways(event: &Event) -> bool {
-    match event {
-        Event::Travel(travel) => {
-            travel.kind == TravelKind::Feed && !travel.expanded && edge::goes_across(&travel.from, &travel.to)
-        }
-        Event::Arc(arc) => !arc.expanded,
-        _ => false,
     }
 }

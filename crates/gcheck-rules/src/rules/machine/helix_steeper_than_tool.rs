@@ -5,7 +5,7 @@ use gcheck_geometry::{Mm, Plane};
 
 use crate::declare::declare_rule;
 use crate::facts::edge;
-use crate::facts::tool_comment::comment_of_tool;
+use crate::facts::tool_comment::comment_at_work;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 use crate::{Remembers, remembers};
 
@@ -67,14 +67,17 @@ impl PathRule for HelixSteeperThanTool {
         }
         let turns = arc.sweep.abs() / std::f64::consts::TAU;
         let (Some(from), Some(to)) = (arc.from.get(Axis::Z), arc.to.get(Axis::Z)) else { return };
-        let Some((tool, Mm(diameter), taken)) = edge::diameter_or_size(cx) else { return };
         let pitch = (from - to) / turns;
-        // False for a number that is not known.
-        if !(turns >= LEAST_TURNS && pitch > diameter) {
+        // False for a number that is not known. Most arcs are level, and ask for no tool.
+        if !(turns >= LEAST_TURNS && pitch > 0.0) {
             return;
         }
-        let comment = cx.definitions().set_by(Fact::Tool).and_then(|at| comment_of_tool(cx, at));
-        if comment.is_some_and(|comment| comment.has(&["THREAD", "THREADMILL", "PROBE", "TAP"])) {
+        let Some((tool, Mm(diameter), taken)) =
+            edge::diameter_or_size(cx).filter(|(_, diameter, _)| pitch > diameter.0)
+        else {
+            return;
+        };
+        if comment_at_work(cx).is_some_and(|comment| comment.has(&["THREAD", "THREADMILL", "PROBE", "TAP"])) {
             return;
         }
         self.told = Some(cx.origin().at);

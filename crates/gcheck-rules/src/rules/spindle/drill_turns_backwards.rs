@@ -1,11 +1,11 @@
 //! A drill that turns counter-clockwise.
 
-use gcheck_controls::Effect;
-use gcheck_engine::{At, Axis, Event, Fact, Spindle, Travel, TravelKind};
+use gcheck_engine::{Axis, Event, Travel, TravelKind};
 
 use crate::declare::declare_rule;
-use crate::facts::cutting::turns_backwards;
-use crate::facts::tool_comment::{ToolComment, comment_of_tool};
+use crate::facts::cycles::drills_by_cycle;
+use crate::facts::tool_comment::ToolComment;
+use crate::facts::turned_backwards::{Called, TurnedBackwards, may_turn_backwards};
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 use crate::{Remembers, remembers};
 
@@ -41,17 +41,19 @@ declare_rule! {
         severity: Warning,
         tier: Path,
         since: "0.1.0",
-        run: Run::Path { watch: Watch::CUTS, make: || Box::new(DrillTurnsBackwards { told: None }) },
+        run: Run::Path { watch: Watch::CUTS, make: || Box::new(DrillTurnsBackwards::default()) },
     }
 }
 
-#[derive(Clone, PartialEq)]
+#[derive(Default, Clone, PartialEq)]
 struct DrillTurnsBackwards {
-    /// The tool change whose tool was reported.
-    told: Option<At>,
+    turned: TurnedBackwards,
 }
 
-remembers!(DrillTurnsBackwards: told);
+remembers!(DrillTurnsBackwards: turned);
+
+/// How its tool is called.
+const CALLED: Called = Called { tool: "drill", in_short: "drill", cuts: "drills", named: "a drill" };
 
 /// Millimetres: less is not a move.
 const WAY: f64 = 0.01;
@@ -62,53 +64,23 @@ impl PathRule for DrillTurnsBackwards {
     }
 
     fn concerns(&self, program: &Uses<'_>) -> bool {
-        program.may(turns_backwards)
-            && program.environment.control().machine() == gcheck_controls::Machine::Mill
+        may_turn_backwards(program)
     }
 
     fn cut(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
         let Event::Travel(travel) = event else { return };
-        if cx.state().spindle() != Some(Spindle::CounterClockwise) || !drills(cx, travel) {
-            return;
+        if drills(cx, travel)
+            && let Some(finding) = self.turned.judge(cx, &META, &CALLED, is_drill)
+        {
+            report.add(finding);
         }
-        let Some(changed) = cx.definitions().set_by(Fact::Tool).filter(|at| self.told != Some(*at)) else {
-            return;
-        };
-        let Some(comment) = comment_of_tool(cx, changed).filter(is_drill) else { return };
-        self.told = Some(changed);
-        let started = cx.definitions().set_by(Fact::Spindle);
-        let start =
-            started.and_then(|at| cx.find_word(at, |word| turns_backwards(cx.model.effect(word.code))));
-        let name = cx.name_of_effect(Effect::SpindleCounterClockwise).unwrap_or_default();
-        let right = cx.name_of_effect(Effect::SpindleClockwise).unwrap_or_default();
-        let mut finding = match start {
-            Some(range) => cx
-                .finding(&META, range, format!("the drill turns backwards (`{name}`)"))
-                .label("counter-clockwise")
-                .also(cx.range(), "drills here"),
-            None => cx
-                .finding(&META, cx.range(), format!("the drill turns backwards (`{name}`)"))
-                .label("drills here"),
-        };
-        if let Some(range) = cx.range_of(comment.at) {
-            finding = finding.also(range, "names a drill");
-        }
-        report.add(
-            finding.help(format!("start the spindle with `{right}`, or name the drill left-hand (`LH`)")),
-        );
     }
 }
 
 /// Is it a stroke of a drilling cycle, or a feed move straight down?
 fn drills(cx: &PathCx<'_>, travel: &Travel) -> bool {
     if travel.expanded {
-        let cycle = cx.state().active_cycle(cx.model).filter(|code| code.is_some());
-        return cycle.is_some_and(|code| {
-            matches!(
-                cx.model.effect(code),
-                Effect::CycleDrill | Effect::CycleDrillDwell | Effect::CyclePeck | Effect::CycleChipBreak
-            )
-        });
+        return drills_by_cycle(cx);
     }
     let way = |axis: Axis| travel.to.raw(axis) - travel.from.raw(axis);
     travel.kind == TravelKind::Feed && way(Axis::X).hypot(way(Axis::Y)) < WAY && way(Axis::Z) < -WAY

@@ -1,12 +1,11 @@
 //! A milling cutter that turns counter-clockwise.
 
-use gcheck_controls::Effect;
-use gcheck_engine::{At, Event, Fact, Spindle, TravelKind};
+use gcheck_engine::Event;
 
 use crate::declare::declare_rule;
-use crate::facts::cutting::turns_backwards;
 use crate::facts::edge;
-use crate::facts::tool_comment::{ToolComment, comment_of_tool};
+use crate::facts::tool_comment::ToolComment;
+use crate::facts::turned_backwards::{Called, TurnedBackwards, may_turn_backwards};
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 use crate::{Remembers, remembers};
 
@@ -42,17 +41,19 @@ declare_rule! {
         severity: Warning,
         tier: Path,
         since: "0.1.0",
-        run: Run::Path { watch: Watch::MOVES, make: || Box::new(MillTurnsBackwards { told: None }) },
+        run: Run::Path { watch: Watch::MOVES, make: || Box::new(MillTurnsBackwards::default()) },
     }
 }
 
-#[derive(Clone, PartialEq)]
+#[derive(Default, Clone, PartialEq)]
 struct MillTurnsBackwards {
-    /// The tool change whose tool was reported.
-    told: Option<At>,
+    turned: TurnedBackwards,
 }
 
-remembers!(MillTurnsBackwards: told);
+remembers!(MillTurnsBackwards: turned);
+
+/// How its tool is called.
+const CALLED: Called = Called { tool: "milling cutter", in_short: "tool", cuts: "cuts", named: "a mill" };
 
 impl PathRule for MillTurnsBackwards {
     fn memory(&mut self) -> Remembers<'_> {
@@ -60,48 +61,15 @@ impl PathRule for MillTurnsBackwards {
     }
 
     fn concerns(&self, program: &Uses<'_>) -> bool {
-        program.may(turns_backwards)
-            && program.environment.control().machine() == gcheck_controls::Machine::Mill
+        may_turn_backwards(program)
     }
 
     fn moved(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
-        if cx.state().spindle() != Some(Spindle::CounterClockwise) || !mills(event) {
-            return;
+        if edge::cuts_across(event)
+            && let Some(finding) = self.turned.judge(cx, &META, &CALLED, is_mill)
+        {
+            report.add(finding);
         }
-        let Some(changed) = cx.definitions().set_by(Fact::Tool).filter(|at| self.told != Some(*at)) else {
-            return;
-        };
-        let Some(comment) = comment_of_tool(cx, changed).filter(is_mill) else { return };
-        self.told = Some(changed);
-        let started = cx.definitions().set_by(Fact::Spindle);
-        let start =
-            started.and_then(|at| cx.find_word(at, |word| turns_backwards(cx.model.effect(word.code))));
-        let name = cx.name_of_effect(Effect::SpindleCounterClockwise).unwrap_or_default();
-        let right = cx.name_of_effect(Effect::SpindleClockwise).unwrap_or_default();
-        let message = format!("the milling cutter turns backwards (`{name}`)");
-        let mut finding = match start {
-            Some(range) => {
-                cx.finding(&META, range, message).label("counter-clockwise").also(cx.range(), "cuts here")
-            }
-            None => cx.finding(&META, cx.range(), message).label("cuts here"),
-        };
-        if let Some(range) = cx.range_of(comment.at) {
-            finding = finding.also(range, "names a mill");
-        }
-        report.add(
-            finding.help(format!("start the spindle with `{right}`, or name the tool left-hand (`LH`)")),
-        );
-    }
-}
-
-/// Does the tool cut sideways?
-fn mills(event: &Event) -> bool {
-    match event {
-        Event::Travel(travel) => {
-            travel.kind == TravelKind::Feed && !travel.expanded && edge::goes_across(&travel.from, &travel.to)
-        }
-        Event::Arc(arc) => !arc.expanded,
-        _ => false,
     }
 }
 

@@ -8,7 +8,7 @@ use crate::facts::cutting::{is_cut, starts_spindle};
 use crate::facts::cycles::cycle_code;
 use crate::facts::feed::goes_by_feed;
 use crate::facts::live_tool::{LiveTool, live_tool};
-use crate::facts::probing::is_near;
+use crate::facts::probing::{is_near, touches_work};
 use crate::facts::program_calls::calls_other_files;
 use crate::facts::tool_words::ToolWords;
 use crate::{Finding, PathCx, PathRule, Report, Run, Severity, Watch, limit};
@@ -164,7 +164,7 @@ impl PathRule for SpindleStoppedWhileCutting {
         if self.told.contains(&stopped_by) || !is_ever_started && !self.told.is_empty() {
             return;
         }
-        if is_near(cx, probes) || feeds_bar(cx) || ToolWords::of(cx).needs_no_spindle() {
+        if is_near(cx, touches_work) || feeds_bar(cx) || ToolWords::of(cx).needs_no_spindle() {
             return;
         }
         let live = live_tool(cx);
@@ -212,7 +212,7 @@ impl PathRule for SpindleStoppedWhileCutting {
         // Held at an angle, a tool may broach.
         // What starts the spindle may be in a program of another file.
         let is_elsewhere = !is_ever_started && calls_other_files(cx.file_index);
-        if !is_mill && !needs_turns || self.is_oriented || is_elsewhere || cx.file_uses(probes) {
+        if !is_mill && !needs_turns || self.is_oriented || is_elsewhere || cx.file_uses(touches_work) {
             finding = finding.at_most(Severity::Info);
         }
         if needs_turns && let Some(name) = cx.code_name(Role::FeedMode) {
@@ -335,22 +335,6 @@ fn needs_turning_spindle(effect: Effect) -> bool {
             | Effect::CycleBackBore
             | Effect::CycleBoreManual
             | Effect::CycleBoreDwellManual
-    )
-}
-
-/// Does the code touch the work with a probe?
-pub(super) fn probes(effect: Effect) -> bool {
-    matches!(
-        effect,
-        Effect::ProbeToward
-            | Effect::ProbeTowardOptional
-            | Effect::ProbeAway
-            | Effect::ProbeAwayOptional
-            | Effect::Skip
-            | Effect::ProbeDiameter
-            | Effect::ProbeLength
-            | Effect::ProbeOffset
-            | Effect::ProbeCentre
     )
 }
 
