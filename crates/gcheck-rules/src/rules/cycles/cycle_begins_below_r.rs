@@ -14,8 +14,8 @@ declare_rule! {
     /// up before it drills.
     ///
     /// ## Why it matters
-    /// The R plane is where the tool is clear of the part. A tool that is below it has come there at rapid: mostly the sign of
-    /// the approach is wrong, and the tool has hit the part.
+    /// The R plane is where the tool is clear of the part. A tool that is below it is in the part, and may go to the hole at rapid at
+    /// that depth. Mostly the sign of the approach is wrong.
     ///
     /// ## Reported
     /// ```nc,reported,haas-lathe
@@ -95,7 +95,7 @@ impl PathRule for CycleBeginsBelowR {
                     format!("the tool is below the R plane of the cycle (`{name}`)"),
                 )
                 .label(format!("it is at Z {}, and R is {} higher", cx.shown(Mm(z)), cx.shown(Mm(r - z))))
-                .note("the move before it went below the zero of the part")
+                .note("an earlier move took the tool below the zero of the part")
                 .help("check the sign of Z in the approach"),
             );
         }

@@ -16,8 +16,9 @@ use crate::{Remembers, remembers};
 
 declare_rule! {
     /// Increments (`G91`) were left on: the first move of the next tool, after a subprogram, after a pocket whose outline
-    /// switched them on, after a reference return whose block did, or of a spindle that starts after a probing move whose block
-    /// did, is in increments although the work before it was in positions; or the program ends in increments and begins without stating positions.
+    /// switched them on, after a reference return whose block did, or after a probing move whose block did and the start of the
+    /// spindle, is in increments although the work before it was in positions; or the program ends in increments and begins
+    /// without stating positions.
     ///
     /// `G91` is also reported where a tool begins: in the block of its first rapid move in X and Y, if that block also
     /// chooses a work offset or has only zeros, or if another tool of the program begins in positions. Increments from
@@ -243,8 +244,11 @@ impl IncrementalLeftOn {
             let finding = finding.label("by this much, not to this point");
             report.add(cx.resting_on(finding, Fact::Mode(Role::Distance), "increments"));
         } else if at_probe == set_by {
-            let finding =
-                tell(cx, cx.range(), "the first move of the spindle after probing is in increments");
+            let finding = tell(
+                cx,
+                cx.range(),
+                "the first move after probing and the start of the spindle is in increments",
+            );
             let finding = finding.label("by this much, not to this point");
             report.add(cx.resting_on(finding, Fact::Mode(Role::Distance), "increments"));
         } else if let Some((at, depth)) = self.in_subprogram
@@ -332,9 +336,9 @@ mod tests {
             "grbl",
             &program(""),
             &expect![[r#"
-            5 | G0 X5 Y5
-              | ^^^^^^^^ warning[incremental-left-on] the first move of the spindle after probing is in increments (`G91`)
-        "#]],
+                5 | G0 X5 Y5
+                  | ^^^^^^^^ warning[incremental-left-on] the first move after probing and the start of the spindle is in increments (`G91`)
+            "#]],
         );
         check_rule(&RULE, "grbl", &program("G90\n"), &expect![[""]]);
     }
