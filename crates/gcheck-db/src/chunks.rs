@@ -1,5 +1,9 @@
 //! What is known of each chunk, as salsa keeps it.
 //!
+//! Of a chunk that an edit made the lossless tree is kept, the blocks are made of the tree, and facts and findings of the blocks.
+//! Chunks of a text that was just opened go from tokens to blocks: a tree for each of them would cost more than all of their
+//! findings. Both ways give the same blocks (law 2).
+//!
 //! Knows: which facts depend on a chunk alone, and on which settings. Must not know: where in a file a chunk is, what is
 //! made of the facts of all chunks.
 
@@ -7,7 +11,8 @@ use std::fmt;
 use std::sync::Arc;
 
 use gcheck_lint::{ChunkFacts, ChunkFindings, ChunkSource, Environment, Omitted};
-use gcheck_program::Dialect;
+use gcheck_program::{BlockTable, Dialect, lower_tree};
+use gcheck_syntax::{Parse, parse};
 use rustc_hash::FxHashMap;
 use salsa::Setter;
 
@@ -59,14 +64,47 @@ pub(crate) struct Chunk {
     #[returns(ref)]
     pub(crate) text: Arc<str>,
     #[returns(copy)]
+    pub(crate) origin: Origin,
+    #[returns(copy)]
     pub(crate) in_force: InForce,
+}
+
+/// Where the text of a chunk comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(crate) enum Origin {
+    /// The whole text was given, or so much of it that it is as good as another one.
+    Opened,
+    /// Somebody works here: more questions about the chunk will come.
+    Edited,
+}
+
+/// An edit that makes more chunks than this is as good as another text.
+const MOST_EDITED: usize = 16;
+
+/// The lossless tree.
+#[salsa::tracked(returns(clone), no_eq, lru = 16)]
+fn tree(db: &dyn salsa::Database, chunk: Chunk) -> Arc<Parse> {
+    let settings = chunk.in_force(db).settings(db);
+    Arc::new(parse(chunk.text(db), Dialect::new(&settings.control).profile()))
+}
+
+/// The blocks that the tree holds.
+#[salsa::tracked(returns(clone), no_eq, lru = 16)]
+fn blocks(db: &dyn salsa::Database, chunk: Chunk) -> Arc<BlockTable> {
+    let settings = chunk.in_force(db).settings(db);
+    Arc::new(lower_tree(&tree(db, chunk), &Dialect::new(&settings.control)))
 }
 
 /// What the chunk gives to the file as a whole.
 #[salsa::tracked(returns(clone), no_eq)]
 fn facts(db: &dyn salsa::Database, chunk: Chunk) -> Arc<ChunkFacts> {
     let settings = chunk.in_force(db).settings(db);
-    Arc::new(ChunkFacts::new(chunk.text(db), u32::MAX, &Dialect::new(&settings.control)))
+    let dialect = Dialect::new(&settings.control);
+    let text = chunk.text(db);
+    Arc::new(match chunk.origin(db) {
+        Origin::Opened => ChunkFacts::new(text, u32::MAX, &dialect),
+        Origin::Edited => ChunkFacts::of_blocks(&blocks(db, chunk), text, u32::MAX, &dialect),
+    })
 }
 
 /// Findings of the token and block tiers. They are kept for so many chunks; those of others are made again when they are
@@ -75,12 +113,17 @@ fn facts(db: &dyn salsa::Database, chunk: Chunk) -> Arc<ChunkFacts> {
 fn findings(db: &dyn salsa::Database, chunk: Chunk) -> Arc<ChunkFindings> {
     let settings = chunk.in_force(db).settings(db);
     let dialect = Dialect::new(&settings.control);
-    Arc::new(ChunkFindings::new(
-        chunk.text(db),
-        u32::MAX,
-        environment(settings, &dialect),
-        &settings.selection,
-    ))
+    let (text, environment) = (chunk.text(db), environment(settings, &dialect));
+    Arc::new(match chunk.origin(db) {
+        Origin::Opened => ChunkFindings::new(text, u32::MAX, environment, &settings.selection),
+        Origin::Edited => ChunkFindings::of_blocks(
+            &blocks(db, chunk),
+            text,
+            u32::MAX,
+            environment,
+            &settings.selection,
+        ),
+    })
 }
 
 /// How many findings there are.
@@ -113,6 +156,8 @@ impl Chunks {
         let nothing: Arc<str> = Arc::from("");
         for chunk in self.known.drain(..).map(|(_, chunk)| chunk).chain(self.free.drain(..)) {
             chunk.set_text(storage).to(Arc::clone(&nothing));
+            tree(storage, chunk);
+            blocks(storage, chunk);
             facts(storage, chunk);
             findings(storage, chunk);
         }
@@ -143,14 +188,17 @@ impl Chunks {
             next.push((Arc::clone(text), chunk));
         }
         self.free.extend(between.into_values());
+        let is_edit = !self.known.is_empty() && missing.len() <= MOST_EDITED;
+        let origin = if is_edit { Origin::Edited } else { Origin::Opened };
         for index in missing {
             let Some((text, slot)) = next.get_mut(index) else { continue };
             *slot = Some(match self.free.pop() {
                 Some(chunk) => {
                     chunk.set_text(storage).to(Arc::clone(text));
+                    chunk.set_origin(storage).to(origin);
                     chunk
                 }
-                None => Chunk::new(storage, Arc::clone(text), self.in_force),
+                None => Chunk::new(storage, Arc::clone(text), origin, self.in_force),
             });
         }
         self.known.splice(old, next.into_iter().filter_map(|(text, chunk)| Some((text, chunk?))));

@@ -32,9 +32,12 @@ impl Watched {
     fn analyse(&mut self) -> (usize, usize) {
         self.executed.lock().unwrap().clear();
         self.database.analysis(self.id, &|| false).unwrap();
-        let executed = self.executed.lock().unwrap();
-        let count = |name: &str| executed.iter().filter(|query| query.starts_with(name)).count();
-        (count("facts"), count("findings"))
+        (self.executed("facts"), self.executed("findings"))
+    }
+
+    /// How often the last analysis executed a query.
+    fn executed(&self, name: &str) -> usize {
+        self.executed.lock().unwrap().iter().filter(|query| query.starts_with(name)).count()
     }
 
     /// The line in which `line` falls, its end included.
@@ -64,6 +67,18 @@ impl OpenAndAnalyse for Database {
             self.open(text, Settings::new(gcheck_controls::load("haas-mill").unwrap(), gcheck_rules::RULES));
         self.analysis(id, &|| false).unwrap()
     }
+}
+
+#[test]
+fn the_tree_of_an_edited_chunk_is_made_once_and_everything_follows_from_it() {
+    let mut watched = Watched::open(inputs::surfacing(60_000));
+    let of_opened = watched.executed("tree") + watched.executed("blocks");
+    assert_eq!(of_opened, 0, "a text that is opened goes from tokens to blocks");
+    let line = watched.line(50_000);
+    watched.edit(line.start..line.start, "(HERE) ");
+    let made = ["tree", "blocks", "facts", "findings"].map(|query| watched.executed(query));
+    let [trees, ..] = made;
+    assert!((1..=2).contains(&trees) && made.iter().all(|count| *count == trees), "{made:?}");
 }
 
 #[test]

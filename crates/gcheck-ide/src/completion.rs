@@ -77,8 +77,7 @@ pub enum CompletionKind {
 /// What may be typed at `offset`, the most fitting first. `trigger` is the character that opened the list by being typed,
 /// `None` where somebody asks for it.
 ///
-/// # Errors
-/// [`Cancelled`] when `stop` said yes.
+/// When `stop` says yes before the state is known, the list does not depend on it.
 pub fn completion(
     database: &mut Database,
     workspace: &Workspace,
@@ -86,13 +85,13 @@ pub fn completion(
     offset: u32,
     trigger: Option<char>,
     stop: &dyn Fn() -> bool,
-) -> Result<Vec<Completion>, Cancelled> {
-    let snapshot = database.indexed(document).ok_or(Cancelled)?;
+) -> Vec<Completion> {
+    let Some(snapshot) = database.indexed(document) else { return Vec::new() };
     let typing = Typing::new(&snapshot, offset);
     let mut items = Items { typing: &typing, from: typing.offset, list: Vec::new() };
     if let Some(comment) = typing.comment() {
         items.directives(comment);
-        return Ok(items.finish());
+        return items.finish();
     }
     let (prefix, from) = typing.prefix();
     items.from = from;
@@ -110,7 +109,7 @@ pub fn completion(
             // Values of variables cost an execution: only where they are asked for.
             with_state(database, &snapshot, document, &typing, stop, &mut |state, look| {
                 items.values(state, look);
-            })?;
+            });
         }
         _ if last == Some(SyntaxKind::GOTO_KW) => items.labels(),
         _ if typing.in_brackets() || last == Some(SyntaxKind::EQUALS) => {
@@ -124,7 +123,7 @@ pub fn completion(
             let mut active = Active::default();
             with_state(database, &snapshot, document, &typing, stop, &mut |state, look| {
                 active = Active::of(state, look);
-            })?;
+            });
             items.codes(&active, first);
             items.keywords();
         }
@@ -141,13 +140,13 @@ pub fn completion(
             let mut active = Active::default();
             with_state(database, &snapshot, document, &typing, stop, &mut |state, look| {
                 active = Active::of(state, look);
-            })?;
+            });
             items.words(&active);
             items.codes(&active, None);
             items.keywords();
         }
     }
-    Ok(items.finish())
+    items.finish()
 }
 
 /// All about an entry of a list, as Markdown, by its kind and label; `None` where the list says it all.
@@ -191,7 +190,8 @@ pub fn completion_details(snapshot: &Snapshot, kind: CompletionKind, label: &str
     }
 }
 
-/// Shows the state that holds where the block at the cursor is typed.
+/// Shows the state that holds where the block at the cursor is typed, unless no path comes there, or `stop` says yes before it
+/// is known.
 pub(crate) fn with_state(
     database: &mut Database,
     snapshot: &Snapshot,
@@ -199,13 +199,26 @@ pub(crate) fn with_state(
     typing: &Typing<'_>,
     stop: &dyn Fn() -> bool,
     with: &mut dyn FnMut(&State<Abstract>, &mut Look<'_, '_>),
-) -> Result<(), Cancelled> {
-    let Some(place) = snapshot.block_at(typing.offset) else { return Ok(()) };
+) -> Knowledge {
+    let Some(place) = snapshot.block_at(typing.offset) else { return Knowledge::Complete };
     let is_typed = place.range().end >= typing.start;
-    look_at(database, document, place.number, stop, &mut |state, look| match &state.after {
+    let looked = look_at(database, document, place.number, stop, &mut |state, look| match &state.after {
         Some(after) if !is_typed => with(after, look),
         _ => with(&state.before, look),
-    })
+    });
+    match looked {
+        Ok(()) => Knowledge::Complete,
+        Err(Cancelled) => Knowledge::OfTheTextAlone,
+    }
+}
+
+/// What an answer rests on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Knowledge {
+    /// The state is known, or no path comes there.
+    Complete,
+    /// The state was not known in time.
+    OfTheTextAlone,
 }
 
 /// The codes that are in effect, or may be.
@@ -747,8 +760,7 @@ mod tests {
             fixture.offset,
             None,
             &|| false,
-        )
-        .unwrap();
+        );
         let line = |item: &super::Completion| {
             let start = &fixture.snapshot().line_range(fixture.snapshot().line_at(fixture.offset)).start;
             let kept = fixture.snapshot().slice(*start..item.edit.range.start).into_owned();
@@ -903,7 +915,7 @@ mod tests {
     fn a_sign_of_ours_opens_no_other_list() {
         let mut fixture = Fixture::new("haas-mill", "O1\n#101=$0\n");
         let (workspace, id, at) = (&fixture.workspace, fixture.document, fixture.offset);
-        let found = completion(&mut fixture.database, workspace, id, at, Some('='), &|| false).unwrap();
+        let found = completion(&mut fixture.database, workspace, id, at, Some('='), &|| false);
         assert_eq!(found, []);
     }
 

@@ -36,48 +36,68 @@ pub struct Hover {
     pub markdown: String,
     /// The code that `gcheck explain` tells more of.
     pub code: Option<String>,
+    /// It was asked to stop before the state was known.
+    pub is_without_state: bool,
 }
+
+/// What is shown instead of the state.
+const WITHOUT_STATE: &str = "*The state here is still being worked out: point here again in a moment.*";
 
 /// What is to be said of the place at `offset`: the code, word, number, variable or label there, and the state before and
 /// after its block.
 ///
-/// # Errors
-/// [`Cancelled`] when `stop` said yes.
+/// When `stop` says yes before the state is known, the answer is what the text says, and [`Hover::is_without_state`].
 pub fn hover(
     database: &mut Database,
     document: DocumentId,
     offset: u32,
     stop: &dyn Fn() -> bool,
-) -> Result<Option<Hover>, Cancelled> {
-    let snapshot = database.indexed(document).ok_or(Cancelled)?;
-    let Some(place) = snapshot.block_at(offset).filter(|place| touches(&place.range(), offset)) else {
-        return Ok(None);
-    };
+) -> Option<Hover> {
+    let snapshot = database.indexed(document)?;
+    let place = snapshot.block_at(offset).filter(|place| touches(&place.range(), offset))?;
     let subject = subject(&snapshot, &place, offset);
-    let mut parts = None;
-    let returned = if calls_program(&snapshot, &place) {
-        state_behind(database, document, place.number, stop)?
-    } else {
-        None
-    };
-    look_at(database, document, place.number, stop, &mut |state, look| {
-        let cx = Cx { snapshot: &snapshot, place: &place, state: Some(state), returned: returned.clone() };
-        parts = Some(cx.parts(&subject, Some(look)));
-    })?;
-    let mut parts = parts.unwrap_or_else(|| {
+    let with_state = parts_with_state(database, document, &snapshot, &place, &subject, stop);
+    let is_without_state = with_state.is_err();
+    let mut parts = with_state.ok().flatten().unwrap_or_else(|| {
         let cx = Cx { snapshot: &snapshot, place: &place, state: None, returned: None };
         cx.parts(&subject, None)
     });
+    if is_without_state {
+        parts.push(WITHOUT_STATE.to_owned());
+    }
     parts.retain(|part| !part.trim().is_empty());
     if parts.is_empty() {
-        return Ok(None);
+        return None;
     }
     let parts: Vec<&str> = parts.iter().map(|part| part.trim_end()).collect();
     let code = match subject {
         Subject::Code(_, ix) => snapshot.control().code_at(ix).map(|code| code.entry().code.clone()),
         _ => None,
     };
-    Ok(Some(Hover { range: subject.range(), markdown: parts.join("\n\n---\n\n"), code }))
+    let markdown = parts.join("\n\n---\n\n");
+    Some(Hover { range: subject.range(), markdown, code, is_without_state })
+}
+
+/// What is to be said where the state is known; `None` where no path comes.
+fn parts_with_state(
+    database: &mut Database,
+    document: DocumentId,
+    snapshot: &Snapshot,
+    place: &BlockPlace,
+    subject: &Subject,
+    stop: &dyn Fn() -> bool,
+) -> Result<Option<Vec<String>>, Cancelled> {
+    let mut parts = None;
+    let returned = if calls_program(snapshot, place) {
+        state_behind(database, document, place.number, stop)?
+    } else {
+        None
+    };
+    look_at(database, document, place.number, stop, &mut |state, look| {
+        let cx = Cx { snapshot, place, state: Some(state), returned: returned.clone() };
+        parts = Some(cx.parts(subject, Some(look)));
+    })?;
+    Ok(parts)
 }
 
 /// What is at a place.
@@ -654,7 +674,7 @@ mod tests {
 
     fn check(control: &str, text: &str, expected: &Expect) {
         let mut fixture = Fixture::new(control, text);
-        let found = hover(&mut fixture.database, fixture.document, fixture.offset, &|| false).unwrap();
+        let found = hover(&mut fixture.database, fixture.document, fixture.offset, &|| false);
         let shown = found.map_or_else(
             || "nothing\n".to_owned(),
             |found| format!("[{}]\n{}\n", fixture.snapshot().slice(found.range), found.markdown),
@@ -680,7 +700,7 @@ mod tests {
         let text = "G21 G90 G17 G94 G64 P0.02\nT1 M6\nS3000 M3\nG1 X0 F600\n$0G4 P1\nX10\nM2\n";
         let mut fixture = Fixture::with(text, &settings);
         let found =
-            hover(&mut fixture.database, fixture.document, fixture.offset, &|| false).unwrap().unwrap();
+            hover(&mut fixture.database, fixture.document, fixture.offset, &|| false).unwrap();
         for shown in ["`F600 mm/min, 0.05 mm a tooth`", "`S3000 rpm, 94 m/min`", "`G64 within 0.02 mm`"] {
             assert!(found.markdown.contains(shown), "{shown} is not in {}", found.markdown);
         }
@@ -1060,10 +1080,21 @@ mod tests {
     }
 
     #[test]
+    fn without_time_for_the_state_the_text_is_told() {
+        let text = "G21 G90\nS500 M3\n$0G4 P1.\nM30\n";
+        let mut fixture = Fixture::new("fanuc-mill", text);
+        let found = hover(&mut fixture.database, fixture.document, fixture.offset, &|| true).unwrap();
+        assert!(found.is_without_state && found.markdown.contains("dwell"), "{}", found.markdown);
+        assert!(found.markdown.ends_with(super::WITHOUT_STATE), "{}", found.markdown);
+        let found = hover(&mut fixture.database, fixture.document, fixture.offset, &|| false).unwrap();
+        assert!(!found.is_without_state && found.markdown.contains("S500"), "{}", found.markdown);
+    }
+
+    #[test]
     fn text_of_a_program_is_never_more_than_text() {
         let shown = |control: &str, text: &str| {
             let mut fixture = Fixture::new(control, text);
-            let found = hover(&mut fixture.database, fixture.document, fixture.offset, &|| false).unwrap();
+            let found = hover(&mut fixture.database, fixture.document, fixture.offset, &|| false);
             found.unwrap().markdown
         };
         let called = "O1\nM98 P$02\nM30\nO2 ([HELP]`evil` ![a] <img src=x>)\nM99\n";

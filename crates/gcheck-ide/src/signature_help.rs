@@ -7,12 +7,12 @@
 use std::ops::Range;
 
 use gcheck_controls::{Code, Control, Effect, Letter, Need, WordEntry};
-use gcheck_db::{Cancelled, Database, DocumentId};
+use gcheck_db::{Database, DocumentId};
 use gcheck_engine::{Abstract, Domain as _, Look, State};
 use gcheck_syntax::SyntaxKind;
 
 use crate::arguments::{Argument, arguments};
-use crate::completion::with_state;
+use crate::completion::{Knowledge, with_state};
 use crate::typing::Typing;
 use crate::{Workspace, describe};
 
@@ -44,10 +44,7 @@ pub struct Parameter {
 /// The signatures of the codes of the block at `offset` that read words, that of the nearest code before the cursor first.
 ///
 /// Unless somebody asks for it (`is_asked`), only of codes that still need a word: one that must be in the block, one of a
-/// choice, or one that may be given earlier and was not.
-///
-/// # Errors
-/// [`Cancelled`] when `stop` said yes.
+/// choice, or one that may be given earlier and was not. When `stop` says yes before that is known, such a word counts as given.
 pub fn signature_help(
     database: &mut Database,
     workspace: &Workspace,
@@ -55,11 +52,11 @@ pub fn signature_help(
     offset: u32,
     is_asked: bool,
     stop: &dyn Fn() -> bool,
-) -> Result<Vec<Signature>, Cancelled> {
-    let snapshot = database.indexed(document).ok_or(Cancelled)?;
+) -> Vec<Signature> {
+    let Some(snapshot) = database.indexed(document) else { return Vec::new() };
     let typing = Typing::new(&snapshot, offset);
     if typing.comment().is_some() {
-        return Ok(Vec::new());
+        return Vec::new();
     }
     let mut codes: Vec<Code<'_>> = typing
         .codes()
@@ -70,7 +67,7 @@ pub fn signature_help(
         .collect();
     codes.reverse();
     if codes.is_empty() {
-        return Ok(Vec::new());
+        return Vec::new();
     }
     let at = typing
         .line
@@ -84,12 +81,15 @@ pub fn signature_help(
     // What was given earlier costs an execution: only where a word of that kind is missing.
     let mut missing: Vec<Vec<Letter>> = codes.iter().map(|code| block.missing(*code, &|_| false)).collect();
     if missing.iter().any(|missing| !missing.is_empty()) {
-        with_state(database, &snapshot, document, &typing, stop, &mut |state, look| {
+        let knowledge = with_state(database, &snapshot, document, &typing, stop, &mut |state, look| {
             missing = codes
                 .iter()
                 .map(|code| block.missing(*code, &|word| is_given(*code, word, state, look)))
                 .collect();
-        })?;
+        });
+        if knowledge == Knowledge::OfTheTextAlone {
+            missing = codes.iter().map(|code| block.missing(*code, &|_| true)).collect();
+        }
     }
     let mut shown = Vec::new();
     for (code, missing) in codes.into_iter().zip(missing) {
@@ -103,7 +103,7 @@ pub fn signature_help(
             shown.push(signature(typing.control(), code, &taken, at.or_else(|| missing.first().copied())));
         }
     }
-    Ok(shown)
+    shown
 }
 
 fn is_call(code: Code<'_>) -> bool {
@@ -258,8 +258,7 @@ mod tests {
         let mut fixture = Fixture::new(control, text);
         let (database, workspace) = (&mut fixture.database, &fixture.workspace);
         let found =
-            signature_help(database, workspace, fixture.document, fixture.offset, is_asked, &|| false)
-                .unwrap();
+            signature_help(database, workspace, fixture.document, fixture.offset, is_asked, &|| false);
         let found = found.into_iter().map(|signature| {
             let active = signature.active.and_then(|index| signature.parameters.get(index as usize));
             let label =

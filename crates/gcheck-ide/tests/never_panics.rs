@@ -100,18 +100,18 @@ fn ask_everything(world: &mut World, offset: u32, other: u32, new_name: &str) {
         world.inside(id, &found.range);
     }
     let unreachable = gcheck_ide::unreachable_ranges(&analysis);
-    if let Some(hover) = gcheck_ide::hover(&mut world.database, id, offset, &go).unwrap() {
+    if let Some(hover) = gcheck_ide::hover(&mut world.database, id, offset, &go) {
         world.inside(id, &hover.range);
     }
     let trigger = [None, Some('='), Some('G')][offset as usize % 3];
     let items = gcheck_ide::completion(&mut world.database, &world.workspace, id, offset, trigger, &go);
-    for item in items.unwrap() {
+    for item in items {
         world.inside(id, &item.edit.range);
         assert!(item.edit.range.end <= end.min(offset), "{item:?} at {offset} of {:?}", snapshot.text());
     }
     let is_asked = offset.is_multiple_of(2);
     let help = gcheck_ide::signature_help(&mut world.database, &world.workspace, id, offset, is_asked, &go);
-    for signature in help.unwrap() {
+    for signature in help {
         for word in &signature.parameters {
             assert!(signature.label.get(word.label.start as usize..word.label.end as usize).is_some());
         }

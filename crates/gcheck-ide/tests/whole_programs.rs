@@ -76,13 +76,13 @@ impl Typed {
     fn list(&mut self, trigger: Option<char>) -> Vec<Completion> {
         let workspace = self.workspace();
         let at = self.text.len() as u32;
-        completion(&mut self.database, &workspace, self.id, at, trigger, &|| false).unwrap()
+        completion(&mut self.database, &workspace, self.id, at, trigger, &|| false)
     }
 
     fn has_signatures(&mut self) -> bool {
         let workspace = self.workspace();
         let at = self.text.len() as u32;
-        !signature_help(&mut self.database, &workspace, self.id, at, false, &|| false).unwrap().is_empty()
+        !signature_help(&mut self.database, &workspace, self.id, at, false, &|| false).is_empty()
     }
 
     /// Types a program; complains of each Enter at which the first entry would change the text, and of help on an empty line.
@@ -135,7 +135,7 @@ fn a_hover_fits_in_ten_lines_and_has_the_state_on_top() {
             let mut typed = Typed::new(control);
             typed.database.edit(typed.id, 0..0, &program).unwrap();
             for at in 0..program.len() as u32 {
-                let Some(found) = hover(&mut typed.database, typed.id, at, &|| false).unwrap() else {
+                let Some(found) = hover(&mut typed.database, typed.id, at, &|| false) else {
                     continue;
                 };
                 // Rules and the line under a table's head take no line.

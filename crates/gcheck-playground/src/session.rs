@@ -86,7 +86,7 @@ impl Session {
         let document = self.document(text, control)?;
         let snapshot = self.database.snapshot(document).ok_or_else(gone)?;
         let at = offset(&snapshot, place);
-        let hover = gcheck_ide::hover(&mut self.database, document, at, &|| false).map_err(|_| gone())?;
+        let hover = gcheck_ide::hover(&mut self.database, document, at, &|| false);
         Ok(hover.map(|hover| Shown { span: span(&snapshot, &hover.range), markdown: hover.markdown }))
     }
 

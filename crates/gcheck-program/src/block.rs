@@ -241,11 +241,6 @@ impl BlockTable {
         of_block(&self.errors, ix)
     }
 
-    /// Drops the mistakes, so that two tables can be compared by what they say of blocks.
-    pub fn forget_errors(&mut self) {
-        self.errors.clear();
-    }
-
     /// Comments that hold a `gcheck:` directive.
     pub fn directives(&self) -> &[Range<u32>] {
         &self.directives

@@ -707,7 +707,8 @@ impl<'t, 'd> LowerSink<'t, 'd> {
         Some(next)
     }
 
-    /// The tree gives its errors at the end: put each to the block whose text holds it.
+    /// The tree gives its errors at the end: put each to the block whose text holds it, in the order in which the grammar met
+    /// them.
     fn place_late_errors(&mut self) {
         for error in std::mem::take(&mut self.late_errors) {
             let at =
@@ -718,6 +719,7 @@ impl<'t, 'd> LowerSink<'t, 'd> {
                 self.table.errors.push((BlockIx(at as u32), error));
             }
         }
+        self.table.errors.sort_by_key(|(ix, _)| *ix);
         for ix in 0..self.table.blocks.len() as u32 {
             if reads_like_a_remark(self.text, self.table.errors(BlockIx(ix)))
                 && let Some(block) = self.table.blocks.get_mut(ix as usize)

@@ -6,7 +6,7 @@ use std::fmt::Write as _;
 
 use expect_test::{Expect, expect};
 use gcheck_program::{BlockTable, Dialect, ExprIx, Op, StatementKind, Target, Value, lower, lower_tree};
-use gcheck_syntax::{SyntaxError, parse};
+use gcheck_syntax::parse;
 use proptest::prelude::*;
 
 /// The one boundary helper: a program on a control, its blocks as text.
@@ -476,16 +476,6 @@ fn piece() -> impl Strategy<Value = &'static str> {
     ])
 }
 
-fn table_with_errors_in_order(mut table: BlockTable) -> (BlockTable, Vec<(usize, SyntaxError)>) {
-    let mut errors: Vec<(usize, SyntaxError)> = Vec::new();
-    for (ix, _) in table.blocks() {
-        errors.extend(table.errors(ix).map(|e| (ix.index(), e.clone())));
-    }
-    errors.sort_by_key(|(ix, e)| (*ix, e.range.start, e.range.end));
-    table.forget_errors();
-    (table, errors)
-}
-
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(3_000))]
 
@@ -496,8 +486,8 @@ proptest! {
         for name in ["fanuc-mill", "linuxcnc"] {
             let control = gcheck_controls::load(name).unwrap();
             let dialect = Dialect::new(&control);
-            let flat = table_with_errors_in_order(lower(&text, &dialect));
-            let tree = table_with_errors_in_order(lower_tree(&parse(&text, dialect.profile()), &dialect));
+            let flat = lower(&text, &dialect);
+            let tree = lower_tree(&parse(&text, dialect.profile()), &dialect);
             prop_assert_eq!(&flat, &tree, "{} on {:?}", name, text);
         }
     }
@@ -509,8 +499,8 @@ proptest! {
     ) {
         let control = gcheck_controls::load("fanuc-mill").unwrap();
         let dialect = Dialect::new(&control);
-        let flat = table_with_errors_in_order(lower(&text, &dialect));
-        let tree = table_with_errors_in_order(lower_tree(&parse(&text, dialect.profile()), &dialect));
+        let flat = lower(&text, &dialect);
+        let tree = lower_tree(&parse(&text, dialect.profile()), &dialect);
         prop_assert_eq!(&flat, &tree, "{:?}", text);
     }
 }

@@ -72,7 +72,7 @@ impl Handlers {
     }
 
     async fn completion_list(&self, params: CompletionParams) -> Result<CompletionList> {
-        self.quick("textDocument/completion", move |owner, stop| owner.completion(&params, stop)).await
+        self.soon("textDocument/completion", move |owner, stop| owner.completion(&params, stop)).await
     }
 
     async fn toolpath(&self, params: OwnParams) -> Result<Value> {
@@ -103,6 +103,15 @@ impl Handlers {
         work: impl FnOnce(&mut crate::owner::Owner, &dyn Fn() -> bool) -> Result<T> + Send + 'static,
     ) -> Result<T> {
         self.mailbox.ask(name, move |owner, reply| owner.answer(reply, work)).await
+    }
+
+    /// As [`Self::quick`], for what has an answer without the state.
+    async fn soon<T: Send + 'static>(
+        &self,
+        name: &'static str,
+        work: impl FnOnce(&mut crate::owner::Owner, &dyn Fn() -> bool) -> Result<T> + Send + 'static,
+    ) -> Result<T> {
+        self.mailbox.ask(name, move |owner, reply| owner.answer_soon(reply, work)).await
     }
 
     fn change(&self, name: &'static str, work: impl FnOnce(&mut crate::owner::Owner) + Send + 'static) {
@@ -176,7 +185,7 @@ impl LanguageServer for Handlers {
     }
 
     async fn hover(&self, params: HoverParams) -> Result<Option<Hover>> {
-        self.quick("textDocument/hover", move |owner, stop| owner.hover(&params, stop)).await
+        self.soon("textDocument/hover", move |owner, stop| owner.hover(&params, stop)).await
     }
 
     async fn completion_resolve(&self, item: CompletionItem) -> Result<CompletionItem> {
@@ -184,7 +193,7 @@ impl LanguageServer for Handlers {
     }
 
     async fn signature_help(&self, params: SignatureHelpParams) -> Result<Option<SignatureHelp>> {
-        self.quick("textDocument/signatureHelp", move |owner, stop| owner.signature_help(&params, stop)).await
+        self.soon("textDocument/signatureHelp", move |owner, stop| owner.signature_help(&params, stop)).await
     }
 
     async fn document_highlight(

@@ -24,6 +24,7 @@ use gcheck_lint::RuleTable;
 
 use crate::client::{Abilities, ClientSettings};
 use crate::documents::{Document, OpenTexts};
+use crate::features::LateHover;
 use crate::mailbox::{Inbox, Mailbox, Reply, Task, Waiting, Workers};
 use crate::outbox::Outbox;
 use crate::position::Places;
@@ -41,6 +42,9 @@ const IDLE: Duration = Duration::from_mins(10);
 const PATIENCE: Duration = Duration::from_millis(50);
 /// A question that takes longer is given up in any case: nobody waits for the answer any more, and other questions do.
 const MOST_PATIENCE: Duration = Duration::from_secs(10);
+/// What a person asks while typing or pointing is answered from the text when the state takes longer: an answer within a tenth of
+/// a second reads as one at once. A build without optimisation has as much more as it is slower.
+const SOON: Duration = Duration::from_millis(if cfg!(debug_assertions) { 1_600 } else { 80 });
 
 /// Everything the server knows.
 #[derive(Debug)]
@@ -62,6 +66,8 @@ pub(crate) struct Owner {
     client_settings: Vec<(Option<PathBuf>, ClientSettings)>,
     /// Files with problems of configuration that the client was told of.
     shown_problems: Vec<PathBuf>,
+    /// The last hover that was answered without the state.
+    pub(crate) late_hover: Option<LateHover>,
     /// Counts changes of documents.
     touches: u64,
     /// Counts changes of files and configuration.
@@ -103,6 +109,7 @@ impl Owner {
             folders: Vec::new(),
             client_settings: vec![(None, ClientSettings::read(&serde_json::Value::Null).0)],
             shown_problems: Vec::new(),
+            late_hover: None,
             touches: 0,
             world: 0,
             is_ready: false,
@@ -119,17 +126,27 @@ impl Owner {
     pub(crate) fn run(mut self, inbox: &Inbox<Self>) {
         while !self.is_over {
             let next = self.next_to_diagnose();
-            let patience = if next.is_some() { Duration::ZERO } else { IDLE };
-            match (inbox.next(patience), next) {
+            let is_idle = next.is_none() && !self.has_late_hover();
+            match (inbox.next(if is_idle { IDLE } else { Duration::ZERO }), next) {
                 (Ok(task), _) => self.run_task(task),
                 (Err(RecvTimeoutError::Timeout), Some(uri)) => {
                     if !self.guarded("analysis", |owner| owner.diagnose(&uri)) {
                         self.give_up_on(&uri);
                     }
                 }
-                (Err(RecvTimeoutError::Timeout), None) => {}
+                (Err(RecvTimeoutError::Timeout), None) => self.use_the_pause(),
                 (Err(RecvTimeoutError::Disconnected), _) => return,
             }
+        }
+    }
+
+    /// Nobody asks for anything, and all findings are known.
+    fn use_the_pause(&mut self) {
+        if self.has_late_hover() {
+            let (start, waiting) = (Instant::now(), Arc::clone(&self.waiting));
+            let stop =
+                || waiting.has_changes() || waiting.has_questions() || start.elapsed() > MOST_PATIENCE;
+            self.guarded("late hover", |owner| owner.finish_late_hover(&stop));
         }
     }
 
@@ -186,16 +203,22 @@ impl Owner {
     ) {
         let start = Instant::now();
         let waiting = Arc::clone(&self.waiting);
-        let answer = {
-            let stop = || {
-                let elapsed = start.elapsed();
-                reply.is_cancelled()
-                    || (waiting.has_changes() && elapsed > PATIENCE)
-                    || elapsed > MOST_PATIENCE
-            };
-            work(self, &stop)
-        };
+        let answer = work(self, &|| is_given_up(&reply, &waiting, start) || start.elapsed() > MOST_PATIENCE);
         reply.send(answer);
+    }
+
+    /// The same for a question that has an answer without the state: it is given when the state is not known soon.
+    pub(crate) fn answer_soon<T>(
+        &mut self,
+        reply: Reply<T>,
+        work: impl FnOnce(&mut Self, &dyn Fn() -> bool) -> Result<T>,
+    ) {
+        let start = Instant::now();
+        let waiting = Arc::clone(&self.waiting);
+        let answer = work(self, &|| is_given_up(&reply, &waiting, start) || start.elapsed() > SOON);
+        // Without the state for want of time is an answer, for an edit is none.
+        let is_stale = is_given_up(&reply, &waiting, start);
+        reply.send(if is_stale { Err(Error::content_modified()) } else { answer });
     }
 
     /// An open document.
@@ -237,6 +260,11 @@ impl Owner {
     pub(crate) fn log(&self, kind: MessageType, message: impl Into<String>) {
         self.outbox.log(kind, message);
     }
+}
+
+/// Does nobody want the answer to a question that was begun at `start` any more?
+fn is_given_up<T>(reply: &Reply<T>, waiting: &Waiting, start: Instant) -> bool {
+    reply.is_cancelled() || (waiting.has_changes() && start.elapsed() > PATIENCE)
 }
 
 /// Settings for a text whose own nobody knows, so that it can be read at all.

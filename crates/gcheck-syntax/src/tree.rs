@@ -50,7 +50,7 @@ impl Parse {
         &self.green
     }
 
-    /// Mistakes in text order.
+    /// Mistakes in the order in which the grammar met them: the first of a block is what the others may come from.
     pub fn errors(&self) -> &[SyntaxError] {
         &self.errors
     }
@@ -62,7 +62,6 @@ pub fn parse(text: &str, profile: SyntaxProfile) -> Parse {
     sink.builder.start_node(PartProgram::kind_to_raw(SyntaxKind::CHUNK));
     parse_into(text, profile, &mut sink);
     sink.builder.finish_node();
-    sink.errors.sort_by_key(|e| (e.range.start, e.range.end));
     Parse { green: sink.builder.finish(), errors: sink.errors }
 }
 

@@ -64,12 +64,10 @@ impl World {
         for found in gcheck_ide::diagnostics(&analysis).list {
             self.inside(id, &found.range);
         }
-        if let Ok(Some(hover)) = gcheck_ide::hover(&mut self.database, id, offset, &go) {
+        if let Some(hover) = gcheck_ide::hover(&mut self.database, id, offset, &go) {
             self.inside(id, &hover.range);
         }
-        for item in gcheck_ide::completion(&mut self.database, &self.workspace, id, offset, None, &go)
-            .unwrap_or_default()
-        {
+        for item in gcheck_ide::completion(&mut self.database, &self.workspace, id, offset, None, &go) {
             self.inside(id, &item.edit.range);
         }
         let _ = gcheck_ide::signature_help(&mut self.database, &self.workspace, id, offset, true, &go);

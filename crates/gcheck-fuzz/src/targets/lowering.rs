@@ -2,16 +2,16 @@
 //!
 //! Knows: block tables. Must not know: what is made of them.
 
-use gcheck_program::{BlockTable, Dialect, Loaded, ToolNames, lower, lower_tree};
-use gcheck_syntax::{SyntaxError, parse};
+use gcheck_program::{Dialect, Loaded, ToolNames, lower, lower_tree};
+use gcheck_syntax::parse;
 
 use crate::programs;
 
 pub(crate) fn run(bytes: &[u8]) {
     let case = programs::case(bytes);
     let dialect = Dialect::new(case.control);
-    let flat = with_errors_in_order(lower(&case.text, &dialect));
-    let tree = with_errors_in_order(lower_tree(&parse(&case.text, dialect.profile()), &dialect));
+    let flat = lower(&case.text, &dialect);
+    let tree = lower_tree(&parse(&case.text, dialect.profile()), &dialect);
     assert_eq!(flat, tree, "the tree and the tokens give the same blocks");
     let mut tools = ToolNames::new(case.control);
     let loaded = Loaded::new(&case.text, &dialect, |_, table, text| tools.look(table, text));
@@ -19,14 +19,4 @@ pub(crate) fn run(bytes: &[u8]) {
     for block in 0..blocks {
         assert!(loaded.place(block, &dialect).is_some(), "block {block} of {blocks} has a place");
     }
-}
-
-fn with_errors_in_order(mut table: BlockTable) -> (BlockTable, Vec<(usize, SyntaxError)>) {
-    let mut errors: Vec<(usize, SyntaxError)> = Vec::new();
-    for (ix, _) in table.blocks() {
-        errors.extend(table.errors(ix).map(|error| (ix.index(), error.clone())));
-    }
-    errors.sort_by_key(|(ix, error)| (*ix, error.range.start, error.range.end));
-    table.forget_errors();
-    (table, errors)
 }

@@ -6,7 +6,7 @@
 use std::ops::Range;
 
 use gcheck_diagnostics::Finding;
-use gcheck_program::{BlockFlags, ChunkFlow, Dialect, FileIndex, TapeMarks, lower};
+use gcheck_program::{BlockFlags, BlockTable, ChunkFlow, Dialect, FileIndex, TapeMarks, lower};
 
 use super::anchored::moved_on;
 use crate::check::{Collector, Omitted, Plan, check_blocks, count_lines};
@@ -27,10 +27,14 @@ pub struct ChunkFacts {
 impl ChunkFacts {
     /// Of a chunk's text; blocks that begin at `end` or after it are not read by the control.
     pub fn new(text: &str, end: u32, dialect: &Dialect<'_>) -> Self {
-        let table = lower(text, dialect);
+        Self::of_blocks(&lower(text, dialect), text, end, dialect)
+    }
+
+    /// Of the blocks that were made of a chunk's text.
+    pub fn of_blocks(table: &BlockTable, text: &str, end: u32, dialect: &Dialect<'_>) -> Self {
         Self {
-            file_index: FileIndex::of_chunk(&table, end, dialect),
-            graph: ChunkFlow::new(&table, end, text, dialect),
+            file_index: FileIndex::of_chunk(table, end, dialect),
+            graph: ChunkFlow::new(table, end, text, dialect),
             tape: TapeMarks::new(text),
             flags: table.flags(),
             directives: table.directives().to_vec(),
@@ -69,10 +73,20 @@ pub struct ChunkFindings {
 impl ChunkFindings {
     /// Of a chunk's text; blocks that begin at `end` or after it are not read by the control.
     pub fn new(text: &str, end: u32, environment: Environment<'_>, selection: &Selection) -> Self {
-        let table = lower(text, environment.dialect);
+        Self::of_blocks(&lower(text, environment.dialect), text, end, environment, selection)
+    }
+
+    /// Of the blocks that were made of a chunk's text.
+    pub fn of_blocks(
+        table: &BlockTable,
+        text: &str,
+        end: u32,
+        environment: Environment<'_>,
+        selection: &Selection,
+    ) -> Self {
         let ((findings, mut omitted), failed) = without_rules_that_panic(selection, |rules| {
             let mut collector = Collector::new(environment);
-            check_blocks(environment, &Plan::new(rules), end, 0, &table, text, &mut collector);
+            check_blocks(environment, &Plan::new(rules), end, 0, table, text, &mut collector);
             collector.into_parts()
         });
         omitted.fail(&failed);

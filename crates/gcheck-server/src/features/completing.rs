@@ -7,7 +7,7 @@ use gcheck_ide::{Completion, CompletionKind};
 use serde::Serialize;
 use serde_json::Value;
 
-use super::{given_up, markdown, text_edit};
+use super::{markdown, text_edit};
 use crate::client::Abilities;
 use crate::owner::Owner;
 use crate::proto::{
@@ -56,7 +56,6 @@ impl Owner {
         let trigger = trigger.and_then(|trigger| trigger.chars().next());
         let workspace = &files.workspace;
         let found = gcheck_ide::completion(&mut self.database, workspace, id, offset, trigger, stop);
-        let found = found.map_err(given_up)?;
         let snapshot = self.snapshot(uri)?;
         let number = self.document(uri)?.number;
         Ok(list(&self.abilities, &snapshot, found, number))
