@@ -436,7 +436,7 @@ pub struct Hint {
     /// `turning-system-b` and `turning-system-c` (turning words and `G95`, without codes that only system A of lathes has),
     /// `milling-words` (several blocks with `Y`, at least half as many as with `X`), `tool-with-d` (`T1 D1` without a tool
     /// change code), `tape-mark-with-number` (`%1234`), `long-program-number` (`O` and six to
-    /// eight digits).
+    /// eight digits), `speed-limit-by-g50` (`G50` and `S` in a block).
     #[serde(default)]
     pub form: Option<String>,
     /// How the name of the file ends, without the dot, in lower case: `ngc`.

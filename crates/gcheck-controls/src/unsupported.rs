@@ -127,7 +127,9 @@ fn begins(line: &str, pattern: &str) -> bool {
         rest = matched;
     }
     let ends_word = pattern.ends_with(|c: char| c.is_ascii_alphabetic()) && pattern.len() > 2;
-    !(ends_word && rest.starts_with(|c: char| c.is_alphabetic() || c == '_'))
+    let ends_number = pattern.ends_with(|c: char| c.is_ascii_digit());
+    !(ends_word && rest.starts_with(|c: char| c.is_alphabetic() || c == '_')
+        || ends_number && rest.starts_with(|c: char| c.is_ascii_digit()))
 }
 
 fn is_move(line: &str) -> bool {
@@ -200,6 +202,9 @@ mod tests {
         check("; end of print\nM104 S0\nM140 S0\nM106 S0\nM84\n", Some("a 3-D printer"));
         check("M92 E415\nM500\n", Some("a 3-D printer"));
         check("G0 X1.\nM84\n", None);
+        check("G0 Z10\nM3 P100\nG1 Z-1\n", Some("a Snapmaker"));
+        check("S1000 M3 P11\nM3 P1000\n", None);
+        check("G38.3 Z-50 F100\nG43.1 Z#PRBZ\n", Some("a sender program"));
     }
 
     #[test]

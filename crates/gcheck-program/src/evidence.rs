@@ -92,6 +92,8 @@ struct Seen {
     increment: bool,
     tool_change: bool,
     macro_call: bool,
+    /// `G50`: with `S` the highest speed of a lathe's spindle, alone the end of scaling on a mill.
+    g50: bool,
     /// No word has come yet but `N` and `/`.
     is_head: bool,
 }
@@ -194,6 +196,9 @@ impl Scan {
         if seen.turning_cycle && !has('P') && has('R') && (has('U') || has('W')) || prepares_thread {
             self.form("turning-cycle-two-blocks");
         }
+        if seen.g50 && seen.valued.contains(Letter::of('S')) {
+            self.form("speed-limit-by-g50");
+        }
         if seen.increment && !seen.macro_call {
             self.form("incremental-words");
         }
@@ -253,6 +258,7 @@ impl Scan {
                     seen.threading_cycle |= code == CodeNumber::g(76);
                     seen.unit_or_cycle |= [70, 71].map(CodeNumber::g).contains(&code);
                     seen.tool_change |= code == CodeNumber::m(6);
+                    seen.g50 |= code == CodeNumber::g(50);
                     seen.macro_call |= code == CodeNumber::g(65) || code == CodeNumber::g(66);
                     if !self.codes.contains(&code) {
                         self.codes.push(code);
@@ -494,6 +500,14 @@ mod tests {
             let forms = collect_evidence(&format!("{head}{body}")).forms;
             let found = forms.iter().find(|form| form.starts_with("turning-system"));
             assert_eq!(found.map(String::as_str), system, "{head}");
+        }
+    }
+
+    #[test]
+    fn a_speed_limit_by_g50_shows_a_lathe_whatever_its_other_words() {
+        for (block, is_limit) in [("G50 S3000", true), ("G50", false), ("G50 M3 S#1", true), ("G92 S3000", false)] {
+            let forms = collect_evidence(&format!("{block}\nG0 X1 Y1\n")).forms;
+            assert_eq!(forms.contains(&"speed-limit-by-g50".to_owned()), is_limit, "{block}: {forms:?}");
         }
     }
 

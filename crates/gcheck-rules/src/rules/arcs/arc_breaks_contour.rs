@@ -99,6 +99,20 @@ struct Way {
     length: f64,
 }
 
+impl Way {
+    /// Straight from one point to another; `None` where they are one.
+    fn between(from: Vector, to: Vector) -> Option<Self> {
+        let step = [to[0] - from[0], to[1] - from[1]];
+        let length = step[0].hypot(step[1]);
+        (length > NOTHING).then(|| Self { direction: step[1].atan2(step[0]), length })
+    }
+
+    /// Are both as long, and in one direction?
+    fn is_as(self, other: Self) -> bool {
+        turn(self.direction, other.direction) < SMOOTH && (self.length / other.length - 1.0).abs() < SMOOTH
+    }
+}
+
 /// An arc that would go on smoothly from the cut before it in another form.
 #[derive(Clone, PartialEq)]
 struct Pending {
@@ -108,6 +122,8 @@ struct Pending {
     end: Way,
     /// The forms that begin smoothly, with their directions where they end.
     others: Vec<(Other, f64)>,
+    /// The cut before the arc came from its centre: the way back there, which makes a sector of a disc.
+    back: Option<Way>,
 }
 
 remembers!(Pending: bytes);
@@ -158,7 +174,8 @@ impl PathRule for ArcBreaksContour {
                 tell(cx, pending, way, report);
             }
             Event::Arc(arc) if !arc.expanded => {
-                let Some(Forms { own: [start, end], others, chord }) = Forms::of(cx, arc, start, end) else {
+                let Some(Forms { own: [start, end], spokes, others, chord }) = Forms::of(cx, arc, start, end)
+                else {
                     return;
                 };
                 let way = |direction| Way { direction, length: chord };
@@ -170,8 +187,10 @@ impl PathRule for ArcBreaksContour {
                         |(_, [start, _]): &(Other, [f64; 2])| turn(before.direction, *start) < SMOOTH;
                     let others = others.into_iter().filter(is_smooth);
                     let others: Vec<_> = others.map(|(other, [_, end])| (other, end)).collect();
+                    let [out, back] = spokes;
+                    let back = before.is_as(out).then_some(back);
                     self.pending =
-                        (!others.is_empty()).then(|| Pending { bytes: cx.range(), end: way(end), others });
+                        (!others.is_empty()).then(|| Pending { bytes: cx.range(), end: way(end), others, back });
                 }
             }
             _ => {}
@@ -182,6 +201,8 @@ impl PathRule for ArcBreaksContour {
 /// The arc, as it is and as it may be meant: its direction at its start and at its end.
 struct Forms {
     own: [f64; 2],
+    /// From its centre to its start, and from its end to its centre.
+    spokes: [Way; 2],
     others: Vec<(Other, [f64; 2])>,
     /// From its start to its end: millimetres.
     chord: f64,
@@ -208,14 +229,19 @@ impl Forms {
             // A path that comes back on the arc before it would be smooth the long way round.
             Vec::new()
         };
-        Some(Self { own: directions(centre, way), others, chord: length })
+        let spokes = [Way::between(centre, start)?, Way::between(end, centre)?];
+        Some(Self { own: directions(centre, way), spokes, others, chord: length })
     }
 }
 
 /// The arc is reported when one of its other forms goes on smoothly to the next cut, and the arc itself does not.
 fn tell(cx: &PathCx<'_>, pending: Option<Pending>, next: Way, report: &mut Report<'_>) {
-    let Some(Pending { bytes, end, others }) = pending else { return };
+    let Some(Pending { bytes, end, others, back }) = pending else { return };
     if turn(end.direction, next.direction) <= CORNER || next.length <= end.length * STEP {
+        return;
+    }
+    // From the centre out, along the arc, and back to the centre: a sector has corners.
+    if back.is_some_and(|back| next.is_as(back)) {
         return;
     }
     let is_smooth = |(_, end): &(Other, f64)| turn(*end, next.direction) < SMOOTH;
@@ -255,10 +281,7 @@ fn mirror(centre: Vector, start: Vector, chord: Vector) -> Vector {
 
 /// A straight cut in the plane; `None` where it does not move in it.
 fn straight(from: [f64; 3], to: [f64; 3], plane: Plane) -> Option<Way> {
-    let (from, to) = (point(from, plane), point(to, plane));
-    let step = [to[0] - from[0], to[1] - from[1]];
-    let length = step[0].hypot(step[1]);
-    (length > NOTHING).then(|| Way { direction: step[1].atan2(step[0]), length })
+    Way::between(point(from, plane), point(to, plane))
 }
 
 /// X, Y and Z; `None` where one is not known.
@@ -293,6 +316,21 @@ mod tests {
             "fanuc-mill",
             "G21 G19 G90 G94 G54 S3000 M3\nG0 X0. Y6. Z-12.\nG3 X1. Y-12. Z6. J-18. K0. F300.\nG2 X2. Y6. Z-12. J0. K-18.\nG3 X3. Y-12. Z6. J-18. K0.\nG17 G1 Y25.\nG0 Z50.\nM30\n",
             &expect![[""]],
+        );
+    }
+
+    #[test]
+    fn a_sector_of_a_disc_has_corners() {
+        let sector = |after: &str| program(&format!("G1 Y10. F300.\nX10.\nG3 X0. Y20. R10.\n{after}\n"));
+        check_rule(&RULE, "fanuc-mill", &sector("G1 Y10."), &expect![[""]]);
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            &sector("G1 Y-20."),
+            &expect![[r#"
+                5 | G3 X0. Y20. R10.
+                  | ^^^^^^^^^^^^^^^^ warning[arc-breaks-contour] the arc breaks the contour: corners before and after it
+            "#]],
         );
     }
 

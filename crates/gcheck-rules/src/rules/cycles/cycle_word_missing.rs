@@ -33,6 +33,7 @@ declare_rule! {
         summary: "canned cycle without a word that it needs",
         severity: Error,
         tier: Path,
+        control_specific: true,
         since: "0.1.0",
         run: Run::Path {
             watch: Watch::BLOCKS.union(Watch::CHANGES).union(Watch::FAULTS),

@@ -38,6 +38,7 @@ declare_rule! {
         summary: "shift of the work coordinates left on",
         severity: Warning,
         tier: Path,
+        control_specific: true,
         since: "0.1.0",
         run: Run::Path {
             watch: Watch::BLOCKS.union(Watch::CHANGES).union(Watch::ENDS),

@@ -40,6 +40,7 @@ declare_rule! {
         summary: "constant surface speed without a limit",
         severity: Warning,
         tier: Path,
+        control_specific: true,
         since: "0.1.0",
         run: Run::Path { watch: Watch::CUTS, make: || Box::new(SurfaceSpeedWithoutLimit { told: None }) },
     }
