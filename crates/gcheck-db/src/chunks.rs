@@ -116,13 +116,9 @@ fn findings(db: &dyn salsa::Database, chunk: Chunk) -> Arc<ChunkFindings> {
     let (text, environment) = (chunk.text(db), environment(settings, &dialect));
     Arc::new(match chunk.origin(db) {
         Origin::Opened => ChunkFindings::new(text, u32::MAX, environment, &settings.selection),
-        Origin::Edited => ChunkFindings::of_blocks(
-            &blocks(db, chunk),
-            text,
-            u32::MAX,
-            environment,
-            &settings.selection,
-        ),
+        Origin::Edited => {
+            ChunkFindings::of_blocks(&blocks(db, chunk), text, u32::MAX, environment, &settings.selection)
+        }
     })
 }
 

@@ -699,8 +699,7 @@ mod tests {
         settings.machine = Arc::new(machine);
         let text = "G21 G90 G17 G94 G64 P0.02\nT1 M6\nS3000 M3\nG1 X0 F600\n$0G4 P1\nX10\nM2\n";
         let mut fixture = Fixture::with(text, &settings);
-        let found =
-            hover(&mut fixture.database, fixture.document, fixture.offset, &|| false).unwrap();
+        let found = hover(&mut fixture.database, fixture.document, fixture.offset, &|| false).unwrap();
         for shown in ["`F600 mm/min, 0.05 mm a tooth`", "`S3000 rpm, 94 m/min`", "`G64 within 0.02 mm`"] {
             assert!(found.markdown.contains(shown), "{shown} is not in {}", found.markdown);
         }

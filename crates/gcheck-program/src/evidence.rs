@@ -505,7 +505,9 @@ mod tests {
 
     #[test]
     fn a_speed_limit_by_g50_shows_a_lathe_whatever_its_other_words() {
-        for (block, is_limit) in [("G50 S3000", true), ("G50", false), ("G50 M3 S#1", true), ("G92 S3000", false)] {
+        for (block, is_limit) in
+            [("G50 S3000", true), ("G50", false), ("G50 M3 S#1", true), ("G92 S3000", false)]
+        {
             let forms = collect_evidence(&format!("{block}\nG0 X1 Y1\n")).forms;
             assert_eq!(forms.contains(&"speed-limit-by-g50".to_owned()), is_limit, "{block}: {forms:?}");
         }

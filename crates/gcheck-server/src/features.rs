@@ -14,7 +14,6 @@ mod structure;
 pub(crate) use changing::action_kinds;
 pub(crate) use commands::COMMANDS;
 pub(crate) use completing::CompletionList;
-pub(crate) use looking::LateHover;
 pub(crate) use own::{ControlEntry, ExplainParams, OwnParams, controls};
 
 use std::ops::Range;

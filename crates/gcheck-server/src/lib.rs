@@ -12,6 +12,7 @@ mod features;
 mod framing;
 mod handlers;
 mod host;
+mod late_hover;
 mod mailbox;
 mod outbox;
 mod owner;

@@ -24,7 +24,7 @@ use gcheck_lint::RuleTable;
 
 use crate::client::{Abilities, ClientSettings};
 use crate::documents::{Document, OpenTexts};
-use crate::features::LateHover;
+use crate::late_hover::LateHover;
 use crate::mailbox::{Inbox, Mailbox, Reply, Task, Waiting, Workers};
 use crate::outbox::Outbox;
 use crate::position::Places;
@@ -144,8 +144,7 @@ impl Owner {
     fn use_the_pause(&mut self) {
         if self.has_late_hover() {
             let (start, waiting) = (Instant::now(), Arc::clone(&self.waiting));
-            let stop =
-                || waiting.has_changes() || waiting.has_questions() || start.elapsed() > MOST_PATIENCE;
+            let stop = || waiting.has_changes() || waiting.has_questions() || start.elapsed() > MOST_PATIENCE;
             self.guarded("late hover", |owner| owner.finish_late_hover(&stop));
         }
     }

@@ -425,10 +425,12 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 OffsetEvent::Programmed { segment, payload } => {
                     self.segment(compensation, &segment, &payload, payload.end, false, state);
                 }
+                // Around the corner to which the block before leads.
                 OffsetEvent::Inserted { segment, before, after } => {
-                    let _ = before;
                     let others = after.end;
-                    self.segment(compensation, &segment, &after, others, true, state);
+                    let target = before.map_or(after.target, |before| before.target);
+                    let around = Programmed { target, ..after };
+                    self.segment(compensation, &segment, &around, others, true, state);
                 }
             }
         }

@@ -2,6 +2,9 @@
 //!
 //! Knows: events of a run. Must not know: what they are compared with.
 
+use std::collections::HashMap;
+use std::mem::{Discriminant, discriminant};
+
 use gcheck_engine::{
     Concrete, Event, Machine, Model, NoLibrary, Observer, Options, Origin, Program, State, Stopped, run,
 };
@@ -26,7 +29,7 @@ impl Moves {
         let program = Program::new(loaded, dialect, &NoLibrary);
         let mut seen = Seen::default();
         let ran = run(&program, &model, &Machine::default(), Options::NONE, FUEL, &mut seen);
-        Self { events: seen.0, stopped: ran.stopped }
+        Self { events: seen.events, stopped: ran.stopped }
     }
 
     /// Did the run come to an end of the program?
@@ -36,21 +39,31 @@ impl Moves {
 }
 
 #[derive(Default)]
-struct Seen(Vec<String>);
+struct Seen {
+    events: Vec<String>,
+    /// The last of each kind that sets something.
+    set: HashMap<Discriminant<Event>, String>,
+}
 
 impl Observer<Concrete> for Seen {
     fn event(&mut self, _: Origin, _: &State<Concrete>, event: &Event) {
-        // A message is not a move, and a mode that is given twice says nothing more.
-        if self.0.len() >= MOST || matches!(event, Event::Message(_) | Event::Modal(_)) {
+        // A message is not a move.
+        if self.events.len() >= MOST || matches!(event, Event::Message(_) | Event::Modal(_)) {
             return;
         }
         let words = format!("{event:?}");
-        if !matches!(event, Event::PathMode(_)) || self.0.last() != Some(&words) {
-            self.0.push(words);
+        // What is set twice to one value says nothing more.
+        let sets = matches!(
+            event,
+            Event::PathMode(_) | Event::WorkOffset { .. } | Event::Shift(_) | Event::Rotation(_)
+        );
+        if sets && self.set.insert(discriminant(event), words.clone()).as_ref() == Some(&words) {
+            return;
         }
+        self.events.push(words);
     }
 
     fn stops(&mut self) -> bool {
-        self.0.len() >= MOST
+        self.events.len() >= MOST
     }
 }

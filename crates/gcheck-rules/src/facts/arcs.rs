@@ -1,9 +1,10 @@
-//! Arcs: what a verdict about their geometry rests on.
+//! Arcs: what a verdict about their geometry rests on, and the arc that a block's words give.
 //!
 //! Knows: numbers without a decimal point, the control's tolerance, modes at the start. Must not know: any rule.
 
 use gcheck_controls::Unpointed;
 use gcheck_engine::{Fact, Role};
+use gcheck_geometry::{Arc, ArcDirection, ArcTolerance, Mm, Plane};
 use gcheck_program::Word;
 
 use crate::{Finding, PathCx, Severity, limit};
@@ -24,6 +25,31 @@ pub(crate) fn counts_least_increments(cx: &PathCx<'_>) -> bool {
         let place = cx.place_of(gcheck_engine::At { block, ..at });
         place.is_some_and(|place| place.table.words(place.block()).iter().any(is_unpointed))
     })
+}
+
+/// The arc in XY that the block's words give from one point to another, whatever the path beside it: the offset of a cutter of
+/// unknown size hides it in the event. `None` where a word is not known, or its centre words do not lead from the start to a centre.
+pub(crate) fn by_its_words(
+    cx: &PathCx<'_>,
+    [start, end]: [[f64; 2]; 2],
+    direction: ArcDirection,
+) -> Option<Arc> {
+    /// Controls pass centres that are off by so much, and more.
+    const SLACK: f64 = 0.05;
+    let unit = cx.state().units(cx.model)?.in_mm();
+    let in_space = |[x, y]: [f64; 2]| [Mm(x), Mm(y), Mm::ZERO];
+    let (start_at, end_at) = (in_space(start), in_space(end));
+    if cx.word('R').is_some() {
+        let radius = Mm(cx.known_number('R')? * unit);
+        return Arc::by_radius(Plane::Xy, start_at, end_at, radius, direction, 1, &ArcTolerance::ANY).ok();
+    }
+    let part = |letter: char| match cx.word(letter) {
+        Some(_) => cx.known_number(letter).map(|number| number * unit),
+        None => Some(0.0),
+    };
+    let centre = (Mm(start[0] + part('I')?), Mm(start[1] + part('J')?));
+    let arc = Arc::by_centre(Plane::Xy, start_at, end_at, centre, direction, 1, &ArcTolerance::ANY).ok()?;
+    ((arc.radius() - arc.end_radius()).abs() < Mm(SLACK)).then_some(arc)
 }
 
 /// The finding, no more severe than the facts of the arc's geometry allow: the control's tolerance, and modes that the

@@ -253,6 +253,28 @@ impl Turned {
         walls.max_by(|a, b| a.0.total_cmp(&b.0))
     }
 
+    /// The radius that the outside of the part has at this level after all cuts, as far as it was cut there.
+    pub(crate) fn least_outside(&self, z: f64) -> Option<f64> {
+        self.outside(z).map(|(radius, _)| radius).min_by(f64::total_cmp)
+    }
+
+    /// The cut that gave the outside this radius.
+    pub(crate) fn cut_that_left(&self, z: f64) -> Option<&Cut> {
+        self.outside(z).min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, cut)| cut)
+    }
+
+    /// The radius to which the outside of the part was turned along Z at this level, whatever went into it across.
+    pub(crate) fn outside_along(&self, z: f64) -> Option<f64> {
+        let along = self.outside(z).filter(|(_, cut)| cut.side == Side::Outside && cut.is_surface());
+        along.map(|(radius, _)| radius).min_by(f64::total_cmp)
+    }
+
+    /// Cuts from outside that came by this level, with the radius that each has there.
+    fn outside(&self, z: f64) -> impl Iterator<Item = (f64, &Cut)> {
+        let is_outside = |cut: &&Cut| cut.side != Side::Inside && !cut.is_centre();
+        self.cuts.iter().filter(is_outside).filter_map(move |cut| Some((cut.radius_at(z)?, cut)))
+    }
+
     /// Was the part cut through this radius near this level, so that a tool can go in or out there?
     pub(crate) fn is_open_across(&self, z: f64, radius: f64) -> bool {
         self.cuts.iter().any(|cut| {
@@ -347,6 +369,16 @@ impl Cut {
     fn is_surface(&self) -> bool {
         let [from, to] = self.ends;
         is_deep(from, to) && from[0].min(to[0]) > UNDER
+    }
+
+    /// Its radius at this level; the least where it goes straight across. `None` beside it.
+    fn radius_at(&self, z: f64) -> Option<f64> {
+        let [[r0, z0], [r1, z1]] = self.ends;
+        if is_level(self.ends[0], self.ends[1]) {
+            return ((z0 - z).abs() < SLACK).then_some(r0.min(r1));
+        }
+        let is_there = (z0.min(z1) - SLACK..=z0.max(z1) + SLACK).contains(&z);
+        is_there.then(|| r0 + (z - z0) / (z1 - z0) * (r1 - r0))
     }
 
     fn spans(&self, z: f64) -> bool {

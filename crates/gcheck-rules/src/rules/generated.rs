@@ -8,6 +8,7 @@ pub(crate) mod arcs {
     pub(crate) mod arc_radius_too_small;
     pub(crate) mod arc_turns_not_whole;
     pub(crate) mod arc_wrong_plane_word;
+    pub(crate) mod circle_on_far_side;
     pub(crate) mod full_circle_by_radius;
     pub(crate) mod zero_radius_arc;
 }
@@ -39,6 +40,7 @@ pub(crate) mod compensation {
     pub(crate) mod compensation_off_in_arc;
     pub(crate) mod compensation_offset_missing;
     pub(crate) mod compensation_on_in_arc;
+    pub(crate) mod compensation_on_wrong_side;
     pub(crate) mod diameter_offset_of_another_tool;
     pub(crate) mod lead_in_too_short;
     pub(crate) mod maybe_compensation_left_on;
@@ -239,6 +241,7 @@ pub(crate) mod motion {
     pub(crate) mod feed_of_another_mode;
     pub(crate) mod feed_zero;
     pub(crate) mod finish_under_rough_level;
+    pub(crate) mod groove_left_sideways;
     pub(crate) mod home_before_retract;
     pub(crate) mod index_before_retract;
     pub(crate) mod inverse_time_feed_missing;
@@ -263,6 +266,7 @@ pub(crate) mod motion {
     pub(crate) mod reference_point_never_set;
     pub(crate) mod reference_return_through_point;
     pub(crate) mod return_level_for_feed_mode;
+    pub(crate) mod thread_into_shoulder;
     pub(crate) mod thread_without_lead;
     pub(crate) mod tolerance_above_feature;
     pub(crate) mod tool_down_at_end;
@@ -418,6 +422,7 @@ pub(crate) mod tool {
     pub(crate) mod tool_change_without_t;
     pub(crate) mod tool_comment_of_another_tool;
     pub(crate) mod tool_cuts_dry;
+    pub(crate) mod tool_does_unlike_work;
     pub(crate) mod tool_length_missing;
 }
 
@@ -468,6 +473,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &arcs::arc_radius_too_small::RULE,
     &arcs::arc_turns_not_whole::RULE,
     &arcs::arc_wrong_plane_word::RULE,
+    &arcs::circle_on_far_side::RULE,
     &arcs::full_circle_by_radius::RULE,
     &arcs::zero_radius_arc::RULE,
     &bar_feeder::bar_fed_before_cutoff::RULE,
@@ -493,6 +499,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &compensation::compensation_off_in_arc::RULE,
     &compensation::compensation_offset_missing::RULE,
     &compensation::compensation_on_in_arc::RULE,
+    &compensation::compensation_on_wrong_side::RULE,
     &compensation::diameter_offset_of_another_tool::RULE,
     &compensation::lead_in_too_short::RULE,
     &compensation::maybe_compensation_left_on::RULE,
@@ -669,6 +676,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &motion::feed_of_another_mode::RULE,
     &motion::feed_zero::RULE,
     &motion::finish_under_rough_level::RULE,
+    &motion::groove_left_sideways::RULE,
     &motion::home_before_retract::RULE,
     &motion::index_before_retract::RULE,
     &motion::inverse_time_feed_missing::RULE,
@@ -693,6 +701,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &motion::reference_point_never_set::RULE,
     &motion::reference_return_through_point::RULE,
     &motion::return_level_for_feed_mode::RULE,
+    &motion::thread_into_shoulder::RULE,
     &motion::thread_without_lead::RULE,
     &motion::tolerance_above_feature::RULE,
     &motion::tool_down_at_end::RULE,
@@ -824,6 +833,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &tool::tool_change_without_t::RULE,
     &tool::tool_comment_of_another_tool::RULE,
     &tool::tool_cuts_dry::RULE,
+    &tool::tool_does_unlike_work::RULE,
     &tool::tool_length_missing::RULE,
     &words::arc_without_centre::RULE,
     &words::axis_given_twice::RULE,

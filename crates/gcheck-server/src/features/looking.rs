@@ -2,12 +2,10 @@
 //!
 //! Knows: their forms in the protocol. Must not know: how they are worked out.
 
-use std::ops::Range;
-
-use gcheck_db::DocumentId;
 use gcheck_ide::ReferenceKind;
 
 use super::markdown;
+use crate::late_hover::LateHover;
 use crate::owner::Owner;
 use crate::proto::{
     DocumentHighlight, DocumentHighlightKind, DocumentHighlightParams, Documentation, Hover, HoverContents,
@@ -16,58 +14,35 @@ use crate::proto::{
     Uri,
 };
 
-/// A hover that was answered without the state, because the analysis takes longer than a person waits.
-#[derive(Debug)]
-pub(crate) struct LateHover {
-    document: DocumentId,
-    uri: Uri,
-    /// The document's clock.
-    clock: u64,
-    /// Bytes that it speaks of.
-    bytes: Range<u32>,
-    /// How often the state was begun and put off for something more urgent.
-    tries: u32,
-    /// The whole answer, when it is known.
-    answer: Option<Hover>,
-}
-
-/// A state that was put off this often is not tried again.
-const MOST_TRIES: u32 = 20;
-
 impl Owner {
     pub(crate) fn hover(&mut self, params: &HoverParams, stop: &dyn Fn() -> bool) -> Result<Option<Hover>> {
         let uri = &params.text_document_position_params.text_document.uri;
         let (id, offset) = self.place(&params.text_document_position_params)?;
         let clock = self.document(uri)?.clock.now();
-        let is_of = |late: &&LateHover| {
-            late.document == id && late.clock == clock && late.bytes.contains(&offset)
-        };
-        if let Some(known) = self.late_hover.as_ref().filter(is_of).and_then(|late| late.answer.clone()) {
-            return Ok(Some(known));
+        if let Some(known) = self.late_hover.as_ref().and_then(|late| late.answer(id, clock, offset)) {
+            return Ok(Some(known.clone()));
         }
         let Some(hover) = gcheck_ide::hover(&mut self.database, id, offset, stop) else { return Ok(None) };
         if hover.is_without_state {
-            let (uri, bytes) = (uri.clone(), hover.range.clone());
-            self.late_hover = Some(LateHover { document: id, uri, clock, bytes, tries: 0, answer: None });
+            self.late_hover = Some(LateHover::new(id, uri.clone(), clock, hover.range.clone()));
         }
         self.shown_hover(uri, hover).map(Some)
     }
 
     /// Is there a hover whose state is still to be worked out?
     pub(crate) fn has_late_hover(&self) -> bool {
-        let is_wanted = |late: &LateHover| {
-            late.answer.is_none() && self.document(&late.uri).is_ok_and(|known| known.clock.now() == late.clock)
-        };
-        self.late_hover.as_ref().is_some_and(is_wanted)
+        let is_of_now =
+            |late: &LateHover| self.document(&late.uri).is_ok_and(|known| known.clock.now() == late.clock);
+        self.late_hover.as_ref().is_some_and(|late| late.is_open() && is_of_now(late))
     }
 
     /// Works out, while nobody asks for anything, what a hover was too early for, so that the next one at the place has it.
     pub(crate) fn finish_late_hover(&mut self, stop: &dyn Fn() -> bool) {
-        let Some(late) = self.late_hover.take().filter(|late| late.tries < MOST_TRIES) else { return };
+        let Some(late) = self.late_hover.take() else { return };
         let hover = gcheck_ide::hover(&mut self.database, late.document, late.bytes.start, stop);
-        let Some(hover) = hover else { return };
-        let answer = if hover.is_without_state { None } else { self.shown_hover(&late.uri, hover).ok() };
-        self.late_hover = Some(LateHover { answer, tries: late.tries + 1, ..late });
+        let whole = hover.filter(|hover| !hover.is_without_state);
+        let answer = whole.and_then(|hover| self.shown_hover(&late.uri, hover).ok());
+        self.late_hover = Some(late.tried(answer));
     }
 
     fn shown_hover(&mut self, uri: &Uri, mut hover: gcheck_ide::Hover) -> Result<Hover> {

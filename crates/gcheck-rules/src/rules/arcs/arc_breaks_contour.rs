@@ -12,11 +12,11 @@ use crate::{Remembers, remembers};
 
 declare_rule! {
     /// An arc meets the cuts before and after it at an angle, and the same arc the other way round, or with the other sign of
-    /// `R`, would go on smoothly from both.
+    /// `R`, would go on smoothly from both. Or an arc that is made to round a corner begins or ends in the corner itself.
     ///
     /// ## Why it matters
-    /// `G2` and `G3` are mixed up, or `R` has a wrong sign: the tool cuts into the part where the corner should be rounded, or
-    /// goes around the outside of it.
+    /// `G2` and `G3` are mixed up, `R` has a wrong sign, or a point is wrong: the tool cuts into the part where the corner
+    /// should be rounded, goes around the outside of it, or leaves it sharp.
     ///
     /// ## Reported
     /// ```nc,reported,fanuc-mill
@@ -36,6 +36,15 @@ declare_rule! {
     /// G1 Y40
     /// G0 Z50
     /// M2
+    /// ```
+    /// ```nc,reported,haas-mill
+    /// G21 G17 G90 G54 S3000 M3
+    /// G0 X0. Y0. Z-2.
+    /// G1 Y50. F300.
+    /// G2 X10. Y50. R10.
+    /// G1 X60.
+    /// G0 Z50.
+    /// M30
     /// ```
     /// ## Not reported
     /// ```nc,quiet,fanuc-mill
@@ -72,6 +81,8 @@ const SMOOTH: f64 = 0.052;
 const CORNER: f64 = 0.349;
 /// A shorter way has no direction: millimetres.
 const NOTHING: f64 = 1e-4;
+/// Lengths that differ by a smaller part are one.
+const EQUAL: f64 = 0.01;
 /// A shorter cut beside an arc is a step on the way: parts of the arc's chord.
 const STEP: f64 = 0.5;
 
@@ -122,6 +133,10 @@ struct Pending {
     end: Way,
     /// The forms that begin smoothly, with their directions where they end.
     others: Vec<(Other, f64)>,
+    /// The cut before the arc, the arc's chord, and its radius in millimetres.
+    before: Way,
+    chord: Way,
+    radius: f64,
     /// The cut before the arc came from its centre: the way back there, which makes a sector of a disc.
     back: Option<Way>,
 }
@@ -135,6 +150,10 @@ enum Other {
     Way,
     /// The other sign of `R`.
     Sign,
+    /// Begun before the corner in which it begins.
+    Before,
+    /// Ended after the corner in which it ends.
+    After,
 }
 
 impl PathRule for ArcBreaksContour {
@@ -178,19 +197,19 @@ impl PathRule for ArcBreaksContour {
                 else {
                     return;
                 };
-                let way = |direction| Way { direction, length: chord };
+                let way = |direction| Way { direction, length: chord.length };
                 self.last = Some((arc.plane, way(end)));
                 let Some((_, before)) = last.filter(|(plane, _)| *plane == arc.plane) else { return };
                 tell(cx, pending, way(start), report);
-                if turn(before.direction, start) > CORNER && before.length > chord * STEP {
+                if turn(before.direction, start) > CORNER && before.length > chord.length * STEP {
                     let is_smooth =
                         |(_, [start, _]): &(Other, [f64; 2])| turn(before.direction, *start) < SMOOTH;
                     let others = others.into_iter().filter(is_smooth);
                     let others: Vec<_> = others.map(|(other, [_, end])| (other, end)).collect();
                     let [out, back] = spokes;
                     let back = before.is_as(out).then_some(back);
-                    self.pending =
-                        (!others.is_empty()).then(|| Pending { bytes: cx.range(), end: way(end), others, back });
+                    let (bytes, end, radius) = (cx.range(), way(end), out.length);
+                    self.pending = Some(Pending { bytes, end, others, before, chord, radius, back });
                 }
             }
             _ => {}
@@ -204,8 +223,8 @@ struct Forms {
     /// From its centre to its start, and from its end to its centre.
     spokes: [Way; 2],
     others: Vec<(Other, [f64; 2])>,
-    /// From its start to its end: millimetres.
-    chord: f64,
+    /// From its start to its end.
+    chord: Way,
 }
 
 impl Forms {
@@ -213,8 +232,8 @@ impl Forms {
         let (start, end) = (point(start, arc.plane), point(end, arc.plane));
         let centre = [arc.centre.0.0, arc.centre.1.0];
         let chord = [end[0] - start[0], end[1] - start[1]];
-        let length = chord[0].hypot(chord[1]);
-        if length < NOTHING || arc.turns.abs() != 1 || centre.iter().any(|number| !number.is_finite()) {
+        let straight = Way::between(start, end)?;
+        if arc.turns.abs() != 1 || centre.iter().any(|number| !number.is_finite()) {
             return None;
         }
         let way = f64::from(arc.turns.signum());
@@ -230,13 +249,13 @@ impl Forms {
             Vec::new()
         };
         let spokes = [Way::between(centre, start)?, Way::between(end, centre)?];
-        Some(Self { own: directions(centre, way), spokes, others, chord: length })
+        Some(Self { own: directions(centre, way), spokes, others, chord: straight })
     }
 }
 
 /// The arc is reported when one of its other forms goes on smoothly to the next cut, and the arc itself does not.
 fn tell(cx: &PathCx<'_>, pending: Option<Pending>, next: Way, report: &mut Report<'_>) {
-    let Some(Pending { bytes, end, others, back }) = pending else { return };
+    let Some(Pending { bytes, end, others, before, chord, radius, back }) = pending else { return };
     if turn(end.direction, next.direction) <= CORNER || next.length <= end.length * STEP {
         return;
     }
@@ -245,18 +264,42 @@ fn tell(cx: &PathCx<'_>, pending: Option<Pending>, next: Way, report: &mut Repor
         return;
     }
     let is_smooth = |(_, end): &(Other, f64)| turn(*end, next.direction) < SMOOTH;
-    let Some((other, _)) = others.into_iter().find(is_smooth) else { return };
+    let in_other_form = others.into_iter().find(is_smooth).map(|(other, _)| other);
+    let Some(other) = in_other_form.or_else(|| in_corner(before, chord, radius, next)) else { return };
     let (meant, help) = match other {
         Other::Way => ("the other way round", "check `G2` and `G3` of this arc"),
         Other::Sign => {
             ("with the other sign of `R`", "check the sign of `R`: below zero it means the longer arc")
         }
+        Other::Before => {
+            ("begun so far before the corner", "end the block before at the point where the rounding begins")
+        }
+        Other::After => ("ended so far after the corner", "end the arc at the point where the rounding ends"),
     };
     report.add(
         cx.finding(&META, bytes, "the arc breaks the contour: corners before and after it")
             .label(format!("{meant} it goes on smoothly from the cut before, and to the one after"))
             .help(help),
     );
+}
+
+/// An arc whose chord lies on one of two cuts that meet at an angle, and is as long as a rounding of that corner by this radius
+/// takes away of each: its other end is the corner itself.
+fn in_corner(before: Way, chord: Way, radius: f64, next: Way) -> Option<Other> {
+    let corner = turn(before.direction, next.direction);
+    let taken = radius * (corner / 2.0).tan();
+    if !(CORNER..std::f64::consts::PI - CORNER).contains(&corner)
+        || (chord.length / taken - 1.0).abs() > EQUAL
+    {
+        return None;
+    }
+    if turn(chord.direction, next.direction) < SMOOTH {
+        Some(Other::Before)
+    } else if turn(chord.direction, before.direction) < SMOOTH {
+        Some(Other::After)
+    } else {
+        None
+    }
 }
 
 /// The angle between two directions, from 0 to half a turn; NaN where one is not known.
@@ -315,6 +358,25 @@ mod tests {
             &RULE,
             "fanuc-mill",
             "G21 G19 G90 G94 G54 S3000 M3\nG0 X0. Y6. Z-12.\nG3 X1. Y-12. Z6. J-18. K0. F300.\nG2 X2. Y6. Z-12. J0. K-18.\nG3 X3. Y-12. Z6. J-18. K0.\nG17 G1 Y25.\nG0 Z50.\nM30\n",
+            &expect![[""]],
+        );
+    }
+
+    #[test]
+    fn a_rounding_that_ends_in_the_corner() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            &program("G1 Y40. F300.\nG2 X0. Y50. R10.\nG1 X60.\n"),
+            &expect![[r#"
+                4 | G2 X0. Y50. R10.
+                  | ^^^^^^^^^^^^^^^^ warning[arc-breaks-contour] the arc breaks the contour: corners before and after it
+            "#]],
+        );
+        check_rule(
+            &RULE,
+            "haas-mill",
+            &program("G1 Y40. F300.\nG2 X0. Y52. R10.\nG1 X60.\n"),
             &expect![[""]],
         );
     }

@@ -17,7 +17,8 @@ declare_rule! {
     /// same tool taps. Or it taps a pattern of holes that is drilled in another place: turned, mirrored or shifted.
     ///
     /// A hole counts as drilled if a cycle, a straight move down, or a circle around its centre went at least half as
-    /// deep there. A program that drills none of the holes is quiet: they are prepared.
+    /// deep there. A program that drills none of the holes is quiet: they are prepared. One that drills fewer than half of them
+    /// is reported once.
     ///
     /// A tap that goes deeper than a cycle has drilled there, by more than four pitches, is reported too. With less, it may
     /// run out of a through hole.
@@ -112,6 +113,8 @@ struct Tap {
     tool: Option<At>,
     /// At least so deep must the hole be.
     enough: f64,
+    /// In a hole that a cycle drilled.
+    is_drilled: bool,
     /// Without a hole.
     missed: Option<Finding>,
 }
@@ -236,6 +239,7 @@ impl TappedHoleNotDrilled {
             a.total_cmp(&b)
         });
         let tool = cx.definitions().set_by(Fact::Tool);
+        let is_drilled = nearest.is_some_and(|hole| hole.is_cycle && distance(hole.at, at) <= NEAR);
         let missed = match nearest {
             Some(hole) if distance(hole.at, at) <= NEAR => {
                 self.below(cx, frame, at, bottom);
@@ -251,7 +255,7 @@ impl TappedHoleNotDrilled {
         // A loop or a call taps it again.
         let is_again = |tap: &Tap| tap.frame == frame && tap.tool == tool && distance(tap.at, at) <= NEAR;
         if !self.taps.iter().any(is_again) {
-            self.taps.push(Tap { frame, at, tool, enough, missed });
+            self.taps.push(Tap { frame, at, tool, enough, is_drilled, missed });
         }
     }
 
@@ -293,8 +297,16 @@ impl TappedHoleNotDrilled {
             for finding in taps.filter_map(|tap| tap.missed.take()) {
                 report.add(finding.note(note.clone()));
             }
-        } else if found <= 1 && self.is_displaced(tool) {
-            let note = format!("a tool drills the same pattern of {count} holes in another place");
+            return;
+        }
+        let is_displaced = found <= 1 && self.is_displaced(tool);
+        let is_drilled = |tap: &Tap| tap.tool == tool && tap.is_drilled;
+        if is_displaced || self.taps.iter().any(is_drilled) {
+            let note = if is_displaced {
+                format!("a tool drills the same pattern of {count} holes in another place")
+            } else {
+                format!("the program drills {found} of the {count} holes that this tool taps")
+            };
             let first = self.taps.iter_mut().filter(|tap| tap.tool == tool).find_map(|tap| tap.missed.take());
             if let Some(finding) = first {
                 report.add(finding.note(note));
@@ -438,6 +450,19 @@ mod tests {
         check_rule(&RULE, "haas-mill", &deep("Z-18."), &expect![[""]]);
         let pre = deep("Z-19.5").replace("G83 Z-15.", "G83 Z#500");
         check_rule(&RULE, "haas-mill", &pre, &expect![[""]]);
+    }
+
+    #[test]
+    fn a_drill_that_stops_after_the_first_hole() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            &program("X10. Y10.\n", SQUARE),
+            &expect![[r#"
+                13 | X40.
+                   | ^^^^ warning[tapped-hole-not-drilled] the tap goes down where no hole is drilled
+            "#]],
+        );
     }
 
     #[test]

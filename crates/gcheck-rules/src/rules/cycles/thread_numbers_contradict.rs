@@ -77,6 +77,8 @@ struct Cut([[f64; 2]; 2]);
 
 /// Leads of this many heights belong to another thread: four starts of the shallowest thread have seven.
 const MOST_HEIGHTS: f64 = 10.0;
+/// Heights of this many leads belong to no thread: the deepest, a saw-tooth thread, has 0.87.
+const MOST_LEADS: f64 = 1.2;
 /// Shallower threads may be cut in one pass: millimetres.
 const SHALLOW: f64 = 0.25;
 /// Cuts that are kept. Longer programs come from a system.
@@ -105,6 +107,7 @@ impl PathRule for ThreadNumbersContradict {
         }
         if let Some(lead) = &words.lead {
             lead_for_height(cx, &words.height, lead, report);
+            height_for_lead(cx, &words.height, lead, report);
         }
     }
 
@@ -229,6 +232,27 @@ fn lead_for_height(cx: &PathCx<'_>, height: &Word, lead: &Word, report: &mut Rep
     );
 }
 
+fn height_for_lead(cx: &PathCx<'_>, height: &Word, lead: &Word, report: &mut Report<'_>) {
+    let (Some(height_mm), Some(lead_mm)) = (length(cx, height), length(cx, lead)) else { return };
+    // A computed number may count in least increments.
+    let is_unsure = height.is_computed() || lead.is_computed();
+    if is_unsure || height_mm < SHALLOW || lead_mm <= 0.0 || height_mm <= lead_mm * MOST_LEADS {
+        return;
+    }
+    let (letter, lead_letter) = (height.letter, lead.letter);
+    report.add(
+        cx.finding(
+            &META,
+            cx.word_range(|word| word.letter == letter),
+            format!("a thread {} high for a lead of {}", cx.shown(Mm(height_mm)), cx.shown(Mm(lead_mm))),
+        )
+        .label("the passes go deeper than the thread is long")
+        .also(cx.word_range(|word| word.letter == lead_letter), "the lead")
+        .note("a thread of 60 degrees with one start is about 0.6 times as high as its lead is long")
+        .help("check the point and the digits of both words"),
+    );
+}
+
 #[cfg(test)]
 mod tests {
     use expect_test::expect;
@@ -244,6 +268,24 @@ mod tests {
     }
 
     const CYCLE: &str = "G76 X28.16 Z-27. P920 Q300 F1.5";
+
+    #[test]
+    fn a_thread_that_is_higher_than_its_lead() {
+        let program = |height: &str| {
+            format!("G21 G18 G8 G97 S300 M3\nG0 X28 Z4\nG76 P1.5 Z-16 I-2 J0.3 R1.5 {height} Q29.5 H2\nM2\n")
+                .replace("G8", "G7")
+        };
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            &program("K18.4"),
+            &expect![[r#"
+                3 | G76 P1.5 Z-16 I-2 J0.3 R1.5 K18.4 Q29.5 H2
+                  |                             ^^^^^ warning[thread-numbers-contradict] a thread 9.2 mm high for a lead of 1.5 mm
+            "#]],
+        );
+        check_rule(&RULE, "linuxcnc", &program("K1.84"), &expect![[""]]);
+    }
 
     #[test]
     fn an_outside_thread_starts_outside() {

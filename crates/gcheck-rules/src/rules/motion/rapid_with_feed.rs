@@ -1,7 +1,7 @@
 //! A rapid move below the zero of the part that has a feed.
 
 use gcheck_controls::{Effect, Letter, LetterSet};
-use gcheck_engine::{Abstract, Axis, Domain, Event, Role, Travel, TravelKind};
+use gcheck_engine::{Abstract, Axis, Domain, Event, FeedMode, Role, Travel, TravelKind};
 use gcheck_geometry::Mm;
 use gcheck_program::Word;
 
@@ -27,6 +27,14 @@ declare_rule! {
     /// G0 Z5.
     /// M30
     /// ```
+    /// Under inverse time a feed is for its own block, at every height.
+    /// ```nc,reported,linuxcnc
+    /// G21 G90 G94 G0 X0 Y0 Z50
+    /// G93 X10 Z45 F30
+    /// G1 X20 Z44 F30
+    /// G94
+    /// M2
+    /// ```
     /// ## Not reported
     /// ```nc,quiet,haas-mill
     /// G21 G90 G54 G0 X10. Y10.
@@ -37,7 +45,7 @@ declare_rule! {
     /// M30
     /// ```
     rule "rapid-with-feed" in "motion" {
-        summary: "rapid move below the zero of the part has a feed",
+        summary: "rapid move in the part, or under inverse time, has a feed",
         severity: Warning,
         tier: Path,
         since: "0.1.0",
@@ -65,10 +73,12 @@ impl PathRule for RapidWithFeed {
         let (from, to) = (travel.from.raw(Axis::Z), travel.to.raw(Axis::Z));
         // An unknown height is NaN, and not below anything. A move up and out of the part is not a cut.
         let is_below = to < -LEVEL && to < from + LEVEL;
+        // There each cut has a feed of its own, and nothing that follows takes it over.
+        let is_inverse = cx.state().feed_mode(cx.model) == Some(FeedMode::InverseTime);
         let is_still = [Axis::X, Axis::Y, Axis::Z].iter().all(|axis| stays(travel, *axis));
         if !cx.is_mill()
             || !is_plain
-            || !is_below
+            || !is_below && !is_inverse
             || is_still
             || cx.has_effect(is_elsewhere)
             || has_unknown_code(cx)
@@ -78,10 +88,22 @@ impl PathRule for RapidWithFeed {
         if Abstract::known(cx.state().feed()).is_some_and(|feed| feed >= NO_CUT) {
             return;
         }
-        let depth = cx.shown(Mm(-to));
+        let (message, label) = if is_inverse {
+            let name = cx.code_name(Role::FeedMode).unwrap_or_default();
+            (
+                format!("rapid move has an inverse time feed (`F` under `{name}`)"),
+                "has no effect at rapid, and counts for no other block".to_owned(),
+            )
+        } else {
+            let depth = cx.shown(Mm(-to));
+            (
+                "rapid move below the zero of the part has a feed (`F`)".to_owned(),
+                format!("has no effect at rapid, {depth} below the zero of the part"),
+            )
+        };
         report.add(
-            cx.finding(&META, cx.letter_range('F'), "rapid move below the zero of the part has a feed (`F`)")
-                .label(format!("has no effect at rapid, {depth} below the zero of the part"))
+            cx.finding(&META, cx.letter_range('F'), message)
+                .label(label)
                 .help("write `G1` if the block should cut; else give the feed with the first cut"),
         );
     }
@@ -153,6 +175,19 @@ mod tests {
             "fanuc-mill",
             "G21 G90 G54 G0 X0. Y0. Z5.\nG83 X5. Z-20. R-2. Q5. F90.\nG80\nM30\n",
             &expect![[""]],
+        );
+    }
+
+    #[test]
+    fn inverse_time_is_for_the_block_that_has_it() {
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "G21 G90 G54 G94 G0 X0 Y0 Z50\nG93 X10 Z45 F30\nG1 X20 Z44 F30\nG94 G0 Z50\nM2\n",
+            &expect![[r#"
+                2 | G93 X10 Z45 F30
+                  |             ^^^ warning[rapid-with-feed] rapid move has an inverse time feed (`F` under `G93`)
+            "#]],
         );
     }
 

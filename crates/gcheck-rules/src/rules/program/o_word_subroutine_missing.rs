@@ -70,24 +70,41 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
         if !known {
             told.insert(label);
             let same = places.get(label).map_or(&[][..], Vec::as_slice);
-            report.add(cx.if_run(finding(call, label), same));
+            let near = subs.iter().filter_map(|sub| near(label, sub)).min();
+            report.add(cx.if_run(finding(call, label, near), same));
         }
     }
 }
 
-fn finding(call: &Call, label: &OLabel) -> Finding {
+/// `near` is the name of a subroutine of the file that differs by a letter.
+fn finding(call: &Call, label: &OLabel, near: Option<&str>) -> Finding {
     let (name, limit) = match label {
         OLabel::Number(number) => (format!("o{number}"), Severity::Warning),
         // A named subroutine usually is a file of its own in the control's folder.
         OLabel::Name(name) => (format!("o<{name}>"), Severity::Info),
         OLabel::Computed => (String::new(), Severity::Info),
     };
-    Finding::new(&META, call.range.clone(), format!("called subroutine `{name}` is missing"))
+    let finding = Finding::new(&META, call.range.clone(), format!("called subroutine `{name}` is missing"))
         .label("called here")
         .note("gcheck searched this file and the folders that it was given")
-        .assuming("the control's subroutine folders may have it as a file of its own")
-        .help("add the subroutine, correct its name, or name its folder in the configuration")
-        .at_most(limit)
+        .assuming("the control's subroutine folders may have it as a file of its own");
+    match near {
+        Some(near) => finding.help(format!("did you mean `o<{near}>`, which this file has?")),
+        None => finding
+            .help("add the subroutine, correct its name, or name its folder in the configuration")
+            .at_most(limit),
+    }
+}
+
+/// The name of a subroutine that differs from the called one by a letter that is wrong, missing or too many. Names of a few
+/// letters may be near by chance.
+fn near<'s>(called: &OLabel, sub: &'s OLabel) -> Option<&'s str> {
+    const SHORT: usize = 4;
+    let (OLabel::Name(called), OLabel::Name(sub)) = (called, sub) else { return None };
+    let is_near = called.len().min(sub.len()) >= SHORT && strsim::levenshtein(called, sub) == 1;
+    // `tap1` and `tap2` are two subroutines.
+    let without_digits = |name: &str| name.replace(|c: char| c.is_ascii_digit(), "");
+    (is_near && without_digits(called) != without_digits(sub)).then_some(sub)
 }
 
 #[cfg(test)]
@@ -108,6 +125,29 @@ mod tests {
                   | ^^^^^^^ warning[o-word-subroutine-missing] called subroutine `o7` is missing
                 2 | o<tool-probe> call [1] [2]
                   | ^^^^^^^^^^^^^^^^^^^^^^^^^^ info[o-word-subroutine-missing] called subroutine `o<tool-probe>` is missing
+            "#]],
+        );
+    }
+
+    #[test]
+    fn a_name_that_is_nearly_one_of_the_file_is_a_slip() {
+        let program = |called: &str| format!("o<hole> sub\no<hole> endsub\no<{called}> call\nM2\n");
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            &program("holes"),
+            &expect![[r#"
+                3 | o<holes> call
+                  | ^^^^^^^^^^^^^ warning[o-word-subroutine-missing] called subroutine `o<holes>` is missing
+            "#]],
+        );
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            &program("hole2"),
+            &expect![[r#"
+                3 | o<hole2> call
+                  | ^^^^^^^^^^^^^ info[o-word-subroutine-missing] called subroutine `o<hole2>` is missing
             "#]],
         );
     }

@@ -4,12 +4,15 @@ use gcheck_controls::{CodeIx, Effect, Letter};
 use gcheck_engine::{At, Event, Fact, Role, Spindle};
 
 use crate::declare::declare_rule;
+use crate::facts::boundary::is_before;
 use crate::facts::cutting::is_cut;
 use crate::{PathCx, PathRule, Report, Run, Severity, Uses, Watch};
 use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// The program changes between surface speed and turns per minute (`G96`, `G97`), cuts, and gives no `S` in between.
+    /// The program changes between surface speed and turns per minute (`G96`, `G97`), cuts, and gives no `S` in between. Or a
+    /// tool gives its speed without `G96` or `G97`, the surface speed of the tool before is still on, and the number is at least
+    /// twice as large as the one before.
     ///
     /// ## Why it matters
     /// The number gets another meaning: 1000 turns per minute become 1000 metres or feet per minute, and near the centre the
@@ -24,6 +27,18 @@ declare_rule! {
     /// G0 X50. Z2.
     /// G96
     /// G1 Z-10. F.2
+    /// M30
+    /// ```
+    /// ```nc,reported,fanuc-lathe
+    /// G21 G99 T0101
+    /// G50 S2500
+    /// G96 S180 M3
+    /// G0 X50. Z2.
+    /// G1 Z-10. F.2
+    /// T0303
+    /// S800 M3
+    /// G0 X50. Z2.
+    /// G1 Z-5. F.1
     /// M30
     /// ```
     /// ## Not reported
@@ -58,6 +73,8 @@ struct SpeedOfAnotherMode {
     given: Option<CodeIx>,
     /// The modes under which the program gave a speed on the way here.
     known: Vec<CodeIx>,
+    /// The last speed, as it was written; NaN for a computed one.
+    last: Option<f64>,
     /// The change of mode that was reported last.
     told: Option<At>,
 }
@@ -73,10 +90,15 @@ impl PathRule for SpeedOfAnotherMode {
         program.may(|effect| effect == Effect::SurfaceSpeed)
     }
 
-    fn block(&mut self, cx: &PathCx<'_>, _: &mut Report<'_>) {
+    fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
         let is_limit = cx.has_effect(|effect| effect == Effect::SpeedLimitOrSetPosition);
         if is_limit || !cx.has_word(|word| word.letter == Letter::of('S')) {
             return;
+        }
+        let speed = cx.known_number('S').unwrap_or(f64::NAN);
+        let last = self.last.replace(speed);
+        if last.is_some_and(|last| speed >= last * MUCH) {
+            inherited(cx, report);
         }
         self.at = Some(cx.origin().at);
         self.given = cx.code_of_role(Role::SpindleMode).or_else(|| cx.state().mode(Role::SpindleMode).only());
@@ -119,6 +141,41 @@ impl PathRule for SpeedOfAnotherMode {
     }
 }
 
+/// So many times as large a number is not one for another tool of the same mode.
+const MUCH: f64 = 2.0;
+
+/// A tool gives a much larger speed than the one before, without a mode, and surface speed is still on.
+fn inherited(cx: &PathCx<'_>, report: &mut Report<'_>) {
+    let Some(mode) = cx.state().mode(Role::SpindleMode).only() else { return };
+    let definitions = cx.definitions();
+    let (set, tool) = (definitions.set_by(Fact::Mode(Role::SpindleMode)), definitions.set_by(Fact::Tool));
+    let is_of_the_tool_before = set.zip(tool).is_some_and(|(set, tool)| is_before(set, tool));
+    let is_stated = cx.code_of_role(Role::SpindleMode).is_some();
+    if cx.model.effect(mode) != Effect::SurfaceSpeed
+        || is_stated
+        || !is_of_the_tool_before
+        || cx.is_called_only()
+    {
+        return;
+    }
+    let name = cx.name_of(mode);
+    let mut finding = cx
+        .finding(
+            &META,
+            cx.letter_range('S'),
+            format!("the spindle speed is given under the mode of the tool before (`{name}`)"),
+        )
+        .label(format!(
+            "with `{name}` the number means {}",
+            meaning(Effect::SurfaceSpeed).unwrap_or_default()
+        ))
+        .help("state `G97` or `G96` with the speed");
+    if let Some(range) = set.and_then(|at| cx.find_word(at, |word| word.code == mode)) {
+        finding = finding.also(range, "the mode is from here");
+    }
+    report.add(finding);
+}
+
 fn meaning(mode: Effect) -> Option<&'static str> {
     match mode {
         Effect::SurfaceSpeed => Some("surface speed"),
@@ -152,6 +209,25 @@ mod tests {
         check_rule(&RULE, "haas-lathe", &program("G96\nG0 X1.8\nS300\n"), &expect![[""]]);
         check_rule(&RULE, "haas-lathe", &program("G96\nM5\n"), &expect![[""]]);
         check_rule(&RULE, "haas-lathe", &program("G96\nG97\n"), &expect![[""]]);
+    }
+
+    #[test]
+    fn a_tool_without_a_mode_takes_that_of_the_tool_before() {
+        let program = |second: &str| {
+            format!("G21 G99 T0101\nG50 S2500\nG96 S180 M3\nG1 X20. F.2\n{second}\nG1 Z-5.\nM30\n")
+        };
+        check_rule(
+            &RULE,
+            "fanuc-lathe",
+            &program("T0303\nS800 M3"),
+            &expect![[r#"
+                6 | S800 M3
+                  | ^^^^ warning[speed-of-another-mode] the spindle speed is given under the mode of the tool before (`G96`)
+            "#]],
+        );
+        for second in ["T0303\nS220 M3", "T0303\nG97 S800 M3", "T0303\nG96 S400", "S400"] {
+            check_rule(&RULE, "fanuc-lathe", &program(second), &expect![[""]]);
+        }
     }
 
     #[test]

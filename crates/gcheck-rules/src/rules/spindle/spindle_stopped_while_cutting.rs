@@ -164,7 +164,9 @@ impl PathRule for SpindleStoppedWhileCutting {
         if self.told.contains(&stopped_by) || !is_ever_started && !self.told.is_empty() {
             return;
         }
-        if is_near(cx, touches_work) || feeds_bar(cx) || ToolWords::of(cx).needs_no_spindle() {
+        // A speed after the probing is for what is cut next.
+        let probes = !gives_speed_since(cx, touches_work);
+        if probes && is_near(cx, touches_work) || feeds_bar(cx) || ToolWords::of(cx).needs_no_spindle() {
             return;
         }
         let live = live_tool(cx);
@@ -212,7 +214,11 @@ impl PathRule for SpindleStoppedWhileCutting {
         // Held at an angle, a tool may broach.
         // What starts the spindle may be in a program of another file.
         let is_elsewhere = !is_ever_started && calls_other_files(cx.file_index);
-        if !is_mill && !needs_turns || self.is_oriented || is_elsewhere || cx.file_uses(touches_work) {
+        if !is_mill && !needs_turns
+            || self.is_oriented
+            || is_elsewhere
+            || probes && cx.file_uses(touches_work)
+        {
             finding = finding.at_most(Severity::Info);
         }
         if needs_turns && let Some(name) = cx.code_name(Role::FeedMode) {
@@ -236,6 +242,23 @@ impl PathRule for SpindleStoppedWhileCutting {
     }
 }
 
+/// Was the speed given in one of the blocks before, and none of these codes after it?
+fn gives_speed_since(cx: &PathCx<'_>, is: impl Fn(Effect) -> bool) -> bool {
+    let here = cx.origin().at;
+    let given = cx.definitions().set_by(Fact::Speed).filter(|at| at.file == here.file);
+    let Some(given) = given.filter(|at| here.block.checked_sub(at.block).is_some_and(|blocks| blocks <= FEW))
+    else {
+        return false;
+    };
+    let has = |block: u32| {
+        let place = cx.place_of(At { block, ..here });
+        place.is_some_and(|place| {
+            place.table.words(place.block()).iter().any(|word| is(cx.model.effect(word.code)))
+        })
+    };
+    !(given.block..=here.block).any(has)
+}
+
 fn help(cx: &PathCx<'_>, live: LiveTool, needs_turns: bool) -> String {
     if live != LiveTool::Stands {
         return "start the spindle with `S` and `M3` or `M4`; probing, engraving and drag knives are exceptions to suppress"
@@ -249,6 +272,8 @@ fn help(cx: &PathCx<'_>, live: LiveTool, needs_turns: bool) -> String {
     format!("{start}{mode}; the spindle holds the part as the C axis, so `M3` does not help")
 }
 
+/// Blocks between a speed and the cut that it is for.
+const FEW: u32 = 50;
 /// Blocks beside the move in which a chuck that opens or closes shows that bar is fed.
 const BESIDE: u32 = 4;
 

@@ -7,6 +7,7 @@ use gcheck_engine::{Abstract, Domain, Event, Fact, Role};
 
 use crate::declare::declare_rule;
 use crate::facts::boundary::is_before;
+use crate::facts::five_axis::is_along_tool;
 use crate::facts::offset_schemes::{Pairs, whole};
 use crate::facts::tool_comment::listed;
 use crate::{FollowedCx, PathCx, PathRule, Report, Run, Severity, Watch};
@@ -87,8 +88,10 @@ impl PathRule for LengthOffsetOfAnotherTool {
 
     fn cut(&mut self, cx: &PathCx<'_>, _: &Event, _: &mut Report<'_>) {
         let state = cx.state();
-        let is_on =
-            |effect| matches!(effect, Effect::LengthPlus | Effect::LengthMinus | Effect::ToolCentrePoint);
+        let is_on = |effect| {
+            matches!(effect, Effect::LengthPlus | Effect::LengthMinus | Effect::ToolCentrePoint)
+                || is_along_tool(effect)
+        };
         let by_t = cx.model.semantics().tools.offset_in_t;
         if !by_t && !state.effect(Role::Length, cx.model).is_some_and(is_on) {
             return;
@@ -241,6 +244,25 @@ mod tests {
                   |     ^^^ warning[length-offset-of-another-tool] tool 3 works with length offset 22 (`H22`, `T3`)
             "#]],
         );
+    }
+
+    #[test]
+    fn along_a_tilted_tool_the_offset_is_the_tools_own_too() {
+        let program = |offset: &str| {
+            format!(
+                "T1 M6\nG0 G54 X0. Y0. A0. B0. S900 M3\nG143 {offset} X0. Y0. Z3. A0. B0.\nG1 G93 X1. Y0. Z2. A1. B0. F9.\nG49\nM30\n"
+            )
+        };
+        check_rule(
+            &RULE,
+            "haas-mill",
+            &program("H10"),
+            &expect![[r#"
+                3 | G143 H10 X0. Y0. Z3. A0. B0.
+                  |      ^^^ warning[length-offset-of-another-tool] tool 1 works with length offset 10 (`H10`, `T1`)
+            "#]],
+        );
+        check_rule(&RULE, "haas-mill", &program("H1"), &expect![[""]]);
     }
 
     #[test]

@@ -1,0 +1,388 @@
+//! A cutter that is compensated to the other side of a closed contour than the one from which it comes.
+
+use gcheck_controls::{Effect, Machine};
+use gcheck_engine::{ArcMove, At, Axis, Event, Fact, Position, Role, TravelKind};
+use gcheck_geometry::{Arc, ArcDirection, ArcTolerance, Mm, Plane};
+
+use crate::declare::declare_rule;
+use crate::facts::arcs::by_its_words;
+use crate::facts::compensation::is_on;
+use crate::facts::cuts::distance;
+use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
+use crate::{Remembers, remembers};
+
+declare_rule! {
+    /// The tool comes to a closed contour from its outside and is compensated to its inside (`G41`, `G42`), or the other way.
+    ///
+    /// ## Why it matters
+    /// The tool crosses the contour on its way in, and cuts the part too small, or the pocket too large, by its own diameter.
+    /// Mostly `G41` and `G42` are mixed up, or the contour was turned round.
+    ///
+    /// ## Reported
+    /// ```nc,reported,fanuc-mill
+    /// G21 G17 G90 G94 G54 S3000 M3
+    /// G0 X-20. Y-20. Z-2.
+    /// G42 D1 G1 X0. Y-10. F300.
+    /// Y40.
+    /// X80.
+    /// Y0.
+    /// X-10.
+    /// G40 X-20. Y-20.
+    /// G0 Z50.
+    /// M30
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,fanuc-mill
+    /// G21 G17 G90 G94 G54 S3000 M3
+    /// G0 X-20. Y-20. Z-2.
+    /// G41 D1 G1 X0. Y-10. F300.
+    /// Y40.
+    /// X80.
+    /// Y0.
+    /// X-10.
+    /// G40 X-20. Y-20.
+    /// G0 Z50.
+    /// M30
+    /// ```
+    rule "compensation-on-wrong-side" in "compensation" {
+        summary: "compensation to the wrong side of a closed contour",
+        severity: Warning,
+        tier: Path,
+        since: "0.1.0",
+        run: Run::Path { watch: Watch::MOVES, make: || Box::new(CompensationOnWrongSide::default()) },
+    }
+}
+
+#[derive(Default, Clone, PartialEq)]
+struct CompensationOnWrongSide {
+    /// Where the last move ends as it is programmed.
+    at: Option<Vector>,
+    contour: Option<Contour>,
+    told: Option<At>,
+}
+
+remembers!(CompensationOnWrongSide: contour, told);
+
+/// A point in the XY plane: millimetres.
+type Vector = [f64; 2];
+
+/// What is cut between the block that switches compensation on and the one that switches it off.
+#[derive(Debug, Clone, PartialEq)]
+struct Contour {
+    on: At,
+    is_left: bool,
+    /// Where the tool was before, and the height at which it comes.
+    from: Vector,
+    height: f64,
+    points: Vec<Vector>,
+}
+
+remembers!(Contour: on);
+
+/// Longer contours come from a system.
+const MOST: usize = 2000;
+/// A contour is closed when its ends are nearer than this part of its length.
+const CLOSED: f64 = 0.2;
+/// A tool nearer to the contour than this is on neither side: millimetres.
+const NEAR: f64 = 0.5;
+/// A smaller contour has no inside that a tool comes from: square millimetres.
+const SMALL: f64 = 25.0;
+/// An arc is looked at in pieces of so much: radians.
+const PIECE: f64 = 0.4;
+
+impl PathRule for CompensationOnWrongSide {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
+    fn concerns(&self, program: &Uses<'_>) -> bool {
+        program.may(is_on) && program.environment.control().machine() == Machine::Mill
+    }
+
+    fn moved(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
+        if !cx.is_mill() {
+            cx.enough();
+            return;
+        }
+        let is_known = cx.is_on_every_path() && !cx.is_called_only() && !cx.is_after_unknown_program();
+        if !is_known || cx.state().plane(cx.model) != Some(Plane::Xy) {
+            *self = Self { told: self.told, ..Self::default() };
+            return;
+        }
+        let from = self.at.take();
+        let (points, height) = match event {
+            Event::Travel(travel) if !travel.expanded => {
+                (Some(vec![flat(&travel.programmed)]), travel.programmed.raw(Axis::Z))
+            }
+            Event::Arc(arc) if !arc.expanded => (pieces(cx, arc, from), arc.programmed.raw(Axis::Z)),
+            // Around a corner the tool stays at it.
+            Event::Travel(_) | Event::Arc(_) => (Some(from.into_iter().collect()), f64::NAN),
+            _ => (None, f64::NAN),
+        };
+        let end = match event {
+            Event::Travel(travel) => Some(flat(&travel.programmed)),
+            Event::Arc(arc) => Some(flat(&arc.programmed)),
+            _ => None,
+        };
+        self.at = end;
+        let side = side(cx);
+        let on = cx.definitions().set_by(Fact::Mode(Role::Compensation));
+        let goes_on = self
+            .contour
+            .as_ref()
+            .is_some_and(|contour| Some(contour.on) == on && side == Some(contour.is_left));
+        if !goes_on && let Some(mut contour) = self.contour.take() {
+            // Beside a cutter of a known size a move is made when the next block is read: the last one comes after compensation is off.
+            if !contour.is_closed() {
+                contour.points.extend(points.iter().flatten().copied());
+            }
+            self.judge(cx, &contour, report);
+        }
+        let (Some(is_left), Some(on), Some(from)) = (side, on, from) else { return };
+        let is_first = self.contour.is_none();
+        let contour =
+            self.contour.get_or_insert_with(|| Contour { on, is_left, from, height, points: Vec::new() });
+        // At rapid, or above the cut, the tool comes in the air.
+        let comes_in_air = is_first && is_rapid(event) || height < contour.height - NEAR;
+        let points = points.filter(|_| !comes_in_air && contour.points.len() <= MOST);
+        match points {
+            Some(points) => contour.points.extend(points),
+            None => contour.from = [f64::NAN; 2],
+        }
+    }
+}
+
+impl CompensationOnWrongSide {
+    fn judge(&mut self, cx: &PathCx<'_>, contour: &Contour, report: &mut Report<'_>) {
+        if self.told == Some(contour.on) {
+            return;
+        }
+        let points = &contour.points;
+        let area = area(points);
+        let away = edges(points).map(|edge| from_edge(contour.from, edge)).fold(f64::INFINITY, f64::min);
+        // False for a place that is not known.
+        if !(contour.is_closed() && away > NEAR) {
+            return;
+        }
+        // Counter-clockwise, the inside is on the left.
+        let to_inside = contour.is_left == (area > 0.0);
+        let comes_from_inside = is_inside(contour.from, points);
+        if to_inside == comes_from_inside {
+            return;
+        }
+        self.told = Some(contour.on);
+        let is_side = |effect| is_on(effect);
+        let range = cx.find_word(contour.on, |word| is_side(cx.model.effect(word.code)));
+        let Some((at, range)) = range.or_else(|| cx.range_of(contour.on)).map(|range| (contour.on, range))
+        else {
+            return;
+        };
+        let name = cx.place_of(at).and_then(|place| {
+            let words = place.table.words(place.block()).iter();
+            words.map(|word| word.code).find(|code| is_side(cx.model.effect(*code)))
+        });
+        let name = name.map(|code| format!(" (`{}`)", cx.name_of(code))).unwrap_or_default();
+        let (come, goes) = if comes_from_inside { ("inside", "outside") } else { ("outside", "inside") };
+        report.add(
+            cx.finding(
+                &META,
+                range,
+                format!(
+                    "compensation to the {goes} of a contour that the tool comes to from its {come}{name}"
+                ),
+            )
+            .label("on its way in the tool crosses the contour")
+            .help("check `G41` and `G42`, and the direction of the contour"),
+        );
+    }
+}
+
+impl Contour {
+    /// Does it go around something, and end near where it begins?
+    fn is_closed(&self) -> bool {
+        let (Some(first), Some(last)) = (self.points.first(), self.points.last()) else { return false };
+        let next = self.points.iter().skip(1);
+        let length: f64 = self.points.iter().zip(next).map(|(a, b)| distance(*a, *b)).sum();
+        distance(*first, *last) < length * CLOSED && area(&self.points).abs() > SMALL
+    }
+}
+
+/// Is the tool left of the path? `None` while compensation is off, or not known.
+fn side(cx: &PathCx<'_>) -> Option<bool> {
+    match cx.state().effect(Role::Compensation, cx.model)? {
+        Effect::CompensationLeft | Effect::CompensationLeftByDiameter => Some(true),
+        Effect::CompensationRight | Effect::CompensationRightByDiameter => Some(false),
+        _ => None,
+    }
+}
+
+fn flat(position: &Position) -> Vector {
+    [position.raw(Axis::X), position.raw(Axis::Y)]
+}
+
+fn is_rapid(event: &Event) -> bool {
+    matches!(event, Event::Travel(travel) if travel.kind == TravelKind::Rapid)
+}
+
+/// Points along an arc as it is programmed, its end the last; `None` where they are not known.
+fn pieces(cx: &PathCx<'_>, arc: &ArcMove, from: Option<Vector>) -> Option<Vec<Vector>> {
+    let ends = [from?, flat(&arc.programmed)];
+    let direction = if arc.turns < 0 { ArcDirection::Cw } else { ArcDirection::Ccw };
+    let in_space = |[x, y]: Vector| [Mm(x), Mm(y), Mm::ZERO];
+    let is_known = arc.sweep.is_finite() && arc.centre.0.0.is_finite() && arc.centre.1.0.is_finite();
+    let whole = if is_known {
+        let [start, end] = ends.map(in_space);
+        Arc::by_centre(Plane::Xy, start, end, arc.centre, direction, 1, &ArcTolerance::ANY).ok()
+    } else {
+        by_its_words(cx, ends, direction)
+    };
+    let whole = whole.filter(|_| arc.plane == Plane::Xy && arc.turns.abs() == 1)?;
+    let count = (whole.sweep().abs() / PIECE).ceil().clamp(1.0, 64.0) as u32;
+    let at = |piece: u32| {
+        let [x, y, _] = whole.point_at(f64::from(piece) / f64::from(count));
+        [x.0, y.0]
+    };
+    Some((1..=count).map(at).collect())
+}
+
+/// The edges of a polygon, closed.
+fn edges(points: &[Vector]) -> impl Iterator<Item = [Vector; 2]> {
+    let next = points.iter().skip(1).chain(points.first());
+    points.iter().zip(next).map(|(a, b)| [*a, *b])
+}
+
+/// Above zero counter-clockwise.
+fn area(points: &[Vector]) -> f64 {
+    edges(points).map(|[a, b]| (a[0] * b[1] - b[0] * a[1]) / 2.0).sum()
+}
+
+/// How far a point is from an edge.
+fn from_edge(point: Vector, [a, b]: [Vector; 2]) -> f64 {
+    let along = [b[0] - a[0], b[1] - a[1]];
+    let square = along[0] * along[0] + along[1] * along[1];
+    let share = if square > 0.0 {
+        (((point[0] - a[0]) * along[0] + (point[1] - a[1]) * along[1]) / square).clamp(0.0, 1.0)
+    } else {
+        0.0
+    };
+    distance(point, [a[0] + share * along[0], a[1] + share * along[1]])
+}
+
+/// Does the polygon go around the point?
+fn is_inside(point: Vector, points: &[Vector]) -> bool {
+    let crosses = |[a, b]: &[Vector; 2]| {
+        (a[1] > point[1]) != (b[1] > point[1])
+            && point[0] < a[0] + (point[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0])
+    };
+    edges(points).filter(crosses).count() % 2 == 1
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::{World, check_rule, check_rule_in};
+
+    fn program(from: &str, side: &str, contour: &str) -> String {
+        format!(
+            "G21 G17 G90 G94 G54 S3000 M3\nG0 {from} Z-2.\n{side} D1 G1 {contour}G40 {from}\nG0 Z50.\nM30\n"
+        )
+    }
+
+    /// A pocket with round corners, counter-clockwise from the middle of its lower wall.
+    const POCKET: &str = "X40. Y0. F300.\nX70.\nG3 X80. Y10. R10.\nG1 Y40.\nG3 X70. Y50. R10.\nG1 X10.\nG3 X0. Y40. R10.\nG1 Y10.\nG3 X10. Y0. R10.\nG1 X40.\nG1 ";
+
+    #[test]
+    fn a_pocket_is_milled_from_its_inside() {
+        check_rule(&RULE, "fanuc-mill", &program("X40. Y25.", "G41", POCKET), &expect![[""]]);
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            &program("X40. Y25.", "G42", POCKET),
+            &expect![[r#"
+                3 | G42 D1 G1 X40. Y0. F300.
+                  | ^^^ warning[compensation-on-wrong-side] compensation to the outside of a contour that the tool comes to from its inside (`G42`)
+            "#]],
+        );
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            &program("X40. Y-25.", "G41", POCKET),
+            &expect![[r#"
+                3 | G41 D1 G1 X40. Y0. F300.
+                  | ^^^ warning[compensation-on-wrong-side] compensation to the inside of a contour that the tool comes to from its outside (`G41`)
+            "#]],
+        );
+        check_rule(&RULE, "fanuc-mill", &program("X40. Y-25.", "G42", POCKET), &expect![[""]]);
+    }
+
+    #[test]
+    fn beside_a_cutter_of_a_known_size() {
+        let outline = "X0. Y-10. F300.\nY40.\nX80.\nY0.\nX-10.\n";
+        check_rule_in(
+            &RULE,
+            "fanuc-mill",
+            &program("X-20. Y-20.", "T1 M6\nG41", outline),
+            &World::of_group("machine"),
+            &expect![[""]],
+        );
+        check_rule_in(
+            &RULE,
+            "fanuc-mill",
+            &program("X-20. Y-20.", "T1 M6\nG42", outline),
+            &World::of_group("machine"),
+            &expect![[r#"
+                4 | G42 D1 G1 X0. Y-10. F300.
+                  | ^^^ warning[compensation-on-wrong-side] compensation to the inside of a contour that the tool comes to from its outside (`G42`)
+            "#]],
+        );
+    }
+
+    #[test]
+    fn in_the_air_a_contour_may_be_crossed() {
+        let comes_above = "X40. Y0. F300.\nZ-5.\nX70.\nY50.\nX0.\nY0.\nX40.\nG1 ";
+        check_rule(&RULE, "fanuc-mill", &program("X40. Y-25.", "G41", comes_above), &expect![[""]]);
+        let below = comes_above.replace("Z-5.\n", "");
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            &program("X40. Y-25.", "G41", &below),
+            &expect![[r#"
+                3 | G41 D1 G1 X40. Y0. F300.
+                  | ^^^ warning[compensation-on-wrong-side] compensation to the inside of a contour that the tool comes to from its outside (`G41`)
+            "#]],
+        );
+    }
+
+    #[test]
+    fn an_open_contour_has_no_inside() {
+        let open = "X0. Y0. F300.\nX50.\nY50.\nX100.\n";
+        for side in ["G41", "G42"] {
+            check_rule(&RULE, "fanuc-mill", &program("X-20. Y-20.", side, open), &expect![[""]]);
+        }
+    }
+
+    #[test]
+    fn a_full_circle_counts_by_its_way_round() {
+        let world = World::of_group("machine");
+        let circle = |way: &str| format!("X30. Y0. F300.\n{way} X30. Y0. I-30. J0.\nG1 ");
+        check_rule_in(
+            &RULE,
+            "fanuc-mill",
+            &program("X0. Y0.", "T1 M6\nG41", &circle("G3")),
+            &world,
+            &expect![[""]],
+        );
+        check_rule_in(
+            &RULE,
+            "fanuc-mill",
+            &program("X0. Y0.", "T1 M6\nG41", &circle("G2")),
+            &world,
+            &expect![[r#"
+                4 | G41 D1 G1 X30. Y0. F300.
+                  | ^^^ warning[compensation-on-wrong-side] compensation to the outside of a contour that the tool comes to from its inside (`G41`)
+            "#]],
+        );
+    }
+}

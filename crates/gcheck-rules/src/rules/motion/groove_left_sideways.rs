@@ -1,0 +1,217 @@
+//! A grooving tool that moves along the part while it is in its groove.
+
+use gcheck_engine::{At, Event, Fact, TravelKind};
+use gcheck_geometry::Mm;
+
+use crate::declare::declare_rule;
+use crate::facts::turned::{SLACK, Spot, Turned, UNDER, end, is_level, is_other_part};
+use crate::facts::turning::is_turned;
+use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
+use crate::{Remembers, remembers};
+
+declare_rule! {
+    /// A tool of a lathe has plunged into a diameter that the program turned, and moves away along Z before it has left the
+    /// groove: at rapid, or far out of the part at feed.
+    ///
+    /// ## Why it matters
+    /// The blade is pushed sideways into the wall of the groove, and breaks. Mostly the block that draws it out in X is
+    /// missing.
+    ///
+    /// ## Reported
+    /// ```nc,reported,fanuc-lathe
+    /// G21 G18 G99 T0101
+    /// G97 S800 M3
+    /// G0 X44. Z2.
+    /// X38.
+    /// G1 Z-60. F.2
+    /// G0 X44.
+    /// Z50.
+    /// T0303
+    /// G0 X42. Z-30.
+    /// G1 X26. F.08
+    /// G0 X100. Z50.
+    /// M30
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,fanuc-lathe
+    /// G21 G18 G99 T0101
+    /// G97 S800 M3
+    /// G0 X50. Z2.
+    /// X38.
+    /// G1 Z-60. F.2
+    /// G0 X60. Z50.
+    /// T0303
+    /// G0 X42. Z-30.
+    /// G1 X26. F.08
+    /// G0 X42.
+    /// X100. Z50.
+    /// M30
+    /// ```
+    rule "groove-left-sideways" in "motion" {
+        summary: "tool moves away along Z while it is in its groove",
+        severity: Warning,
+        tier: Path,
+        since: "0.1.0",
+        run: Run::Path {
+            watch: Watch::MOVES.union(Watch::CHANGES),
+            make: || Box::new(GrooveLeftSideways::default()),
+        },
+    }
+}
+
+#[derive(Default, Clone, PartialEq)]
+struct GrooveLeftSideways {
+    turned: Turned,
+    groove: Option<Groove>,
+}
+
+remembers!(GrooveLeftSideways: turned, groove);
+
+/// A plunge that the tool has not left.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Groove {
+    tool: Option<At>,
+    bottom: Spot,
+    at: At,
+}
+
+remembers!(Groove: tool, at);
+
+/// The wall of a groove is at least as thick: millimetres.
+const WALL: f64 = 3.0;
+/// So far outside of the part no tool is fed to cut: millimetres, of the radius.
+const AWAY: f64 = 20.0;
+/// A way along Z that a groove leaves to its tool: millimetres.
+const PLAY: f64 = 0.5;
+
+impl PathRule for GrooveLeftSideways {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
+    fn concerns(&self, program: &Uses<'_>) -> bool {
+        is_turned(program)
+    }
+
+    fn changed(&mut self, _: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
+        if is_other_part(event) {
+            self.turned.forget();
+            self.groove = None;
+        }
+    }
+
+    fn moved(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
+        let groove = self.groove.take();
+        if let (Event::Travel(travel), Some(from)) = (event, self.turned.here())
+            && self.turned.knows(cx)
+        {
+            let to = end(cx, travel);
+            let is_away = match travel.kind {
+                TravelKind::Rapid => true,
+                // Nearer to the part it may turn the wall.
+                TravelKind::Feed => {
+                    self.turned.outside_along(from[1]).is_some_and(|wall| to[0] > wall + AWAY)
+                }
+                _ => false,
+            };
+            if is_away && !travel.expanded {
+                self.leave(cx, groove, from, to, report);
+            } else if travel.kind == TravelKind::Feed && !travel.expanded {
+                self.groove = self.plunge(cx, from, to);
+            }
+        }
+        self.turned.moved(cx, event);
+        if self.turned.is_blind() {
+            cx.enough();
+        }
+    }
+}
+
+impl GrooveLeftSideways {
+    /// The groove that a feed move makes: straight in X, into what was turned before, below the face of the part.
+    fn plunge(&self, cx: &PathCx<'_>, from: Spot, to: Spot) -> Option<Groove> {
+        let wall = self.turned.outside_along(to[1])?;
+        let is_groove = is_level(from, to) && to[1] < -UNDER && to[0] > SLACK && to[0] < wall - UNDER;
+        is_groove.then(|| Groove {
+            tool: cx.definitions().set_by(Fact::Tool),
+            bottom: to,
+            at: cx.origin().at,
+        })
+    }
+
+    fn leave(&self, cx: &PathCx<'_>, groove: Option<Groove>, from: Spot, to: Spot, report: &mut Report<'_>) {
+        let tool = cx.definitions().set_by(Fact::Tool);
+        let Some(groove) = groove.filter(|groove| groove.tool == tool && groove.bottom == from) else {
+            return;
+        };
+        let along = to[1] - from[1];
+        // False for a place that is not known.
+        if !(along.abs() > PLAY) {
+            return;
+        }
+        // A step in a face is short.
+        let walls = [PLAY, WALL].map(|way| self.turned.outside_along(from[1] + way * along.signum()));
+        let [Some(wall), Some(beyond)] = walls else { return };
+        let radius = from[0] + (to[0] - from[0]) * PLAY / along.abs();
+        if radius > wall - UNDER || from[0] > beyond - UNDER {
+            return;
+        }
+        let is_diameter = cx.state().is_diameter(cx.model) == Some(true);
+        let wall = cx.shown(Mm(if is_diameter { wall * 2.0 } else { wall }));
+        let mut finding = cx
+            .finding(&META, cx.range(), "the tool moves along Z while it is in its groove")
+            .label(format!("the part beside the groove is turned to X {wall}"));
+        if let Some(range) = cx.range_of(groove.at) {
+            finding = finding.also(range, "the tool plunges here");
+        }
+        report.add(finding.help("draw the tool out in X first, in a block of its own (`G0 X…`)"));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::check_rule;
+
+    fn program(plunge: &str, out: &str) -> String {
+        format!(
+            "G21 G18 G99 T0101\nG97 S800 M3\nG0 X44. Z2.\nX38.\nG1 Z-60. F.2\nG0 X44.\nZ50.\nT0303\nG0 X42. Z-30.\n{plunge}\n{out}\nM30\n"
+        )
+    }
+
+    #[test]
+    fn a_dwell_at_the_bottom_draws_nothing_out() {
+        check_rule(
+            &RULE,
+            "fanuc-lathe",
+            &program("G1 X26. F.08\nG4 X.5", "G0 X100. Z50."),
+            &expect![[r#"
+                12 | G0 X100. Z50.
+                   | ^^^^^^^^^^^^^ warning[groove-left-sideways] the tool moves along Z while it is in its groove
+            "#]],
+        );
+        check_rule(&RULE, "fanuc-lathe", &program("G1 X26. F.08\nG0 X42.", "G0 X100. Z50."), &expect![[""]]);
+    }
+
+    #[test]
+    fn the_way_home_at_feed() {
+        check_rule(
+            &RULE,
+            "fanuc-lathe",
+            &program("G1 X26. F.08", "X150. Z100."),
+            &expect![[r#"
+                11 | X150. Z100.
+                   | ^^^^^^^^^^^ warning[groove-left-sideways] the tool moves along Z while it is in its groove
+            "#]],
+        );
+        check_rule(&RULE, "fanuc-lathe", &program("G1 X26. F.08", "X40. Z-28."), &expect![[""]]);
+    }
+
+    #[test]
+    fn a_face_has_no_wall() {
+        let facing = program("", "").replace("G0 X42. Z-30.\n", "G0 X42. Z0.\nG1 X-1. F.1\nG0 X50. Z5.");
+        check_rule(&RULE, "fanuc-lathe", &facing, &expect![[""]]);
+    }
+}

@@ -1,0 +1,182 @@
+//! A thread that runs on into a larger diameter.
+
+use gcheck_engine::{At, Axis, Event, TravelKind};
+use gcheck_geometry::Mm;
+
+use crate::declare::declare_rule;
+use crate::facts::turned::{SLACK, Turned, UNDER, is_other_part};
+use crate::facts::turning::is_turned;
+use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
+use crate::{Remembers, remembers};
+
+declare_rule! {
+    /// A threading cycle cuts along a diameter that the program has turned, and goes on to where the part is larger.
+    ///
+    /// ## Why it matters
+    /// The threading tool runs into the shoulder in step with the spindle, which cannot be stopped in time.
+    ///
+    /// ## Reported
+    /// ```nc,reported,fanuc-lathe
+    /// G21 G18 G99 T0101
+    /// G97 S800 M3
+    /// G0 X50. Z2.
+    /// X30.
+    /// G1 Z-30. F.2
+    /// X40.
+    /// Z-60.
+    /// G0 X60. Z50.
+    /// T0202
+    /// G0 X34. Z5.
+    /// G92 X29. Z-37. F1.5
+    /// G0 X60. Z50.
+    /// M30
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,fanuc-lathe
+    /// G21 G18 G99 T0101
+    /// G97 S800 M3
+    /// G0 X50. Z2.
+    /// X30.
+    /// G1 Z-30. F.2
+    /// X40.
+    /// Z-60.
+    /// G0 X60. Z50.
+    /// T0202
+    /// G0 X34. Z5.
+    /// G92 X29. Z-27. F1.5
+    /// G0 X60. Z50.
+    /// M30
+    /// ```
+    rule "thread-into-shoulder" in "motion" {
+        summary: "threading cycle goes on into a larger diameter of the part",
+        severity: Warning,
+        tier: Path,
+        since: "0.1.0",
+        run: Run::Path {
+            watch: Watch::MOVES.union(Watch::CHANGES),
+            make: || Box::new(ThreadIntoShoulder::default()),
+        },
+    }
+}
+
+#[derive(Default, Clone, PartialEq)]
+struct ThreadIntoShoulder {
+    turned: Turned,
+    /// The block under way, and the radius at which it began.
+    block: Option<(At, f64)>,
+    told: Option<At>,
+}
+
+remembers!(ThreadIntoShoulder: turned, block, told);
+
+/// Places along a thread that are looked at.
+const PLACES: u32 = 32;
+
+impl PathRule for ThreadIntoShoulder {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
+    fn concerns(&self, program: &Uses<'_>) -> bool {
+        is_turned(program)
+    }
+
+    fn changed(&mut self, _: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
+        if is_other_part(event) {
+            self.turned.forget();
+        }
+    }
+
+    fn moved(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
+        let at = cx.origin().at;
+        if self.block.is_none_or(|(block, _)| block != at) {
+            self.block = self.turned.here().map(|[radius, _]| (at, radius));
+        }
+        match event {
+            // A thread leaves the diameters as they were turned.
+            Event::Travel(travel) if travel.kind == TravelKind::Thread => {
+                if travel.expanded && self.turned.knows(cx) && self.told != Some(at) {
+                    let ends = [&travel.from, &travel.to].map(|end| [end.raw(Axis::X), end.raw(Axis::Z)]);
+                    self.judge(cx, ends, report);
+                }
+            }
+            _ => self.turned.moved(cx, event),
+        }
+        if self.turned.is_blind() {
+            cx.enough();
+        }
+    }
+}
+
+impl ThreadIntoShoulder {
+    /// One pass.
+    fn judge(&mut self, cx: &PathCx<'_>, [from, to]: [[f64; 2]; 2], report: &mut Report<'_>) {
+        let begins = self.block.map_or(f64::NAN, |(_, radius)| radius);
+        // From inside it is the thread of a bore.
+        if !(begins > from[0].max(to[0]) + SLACK) {
+            return;
+        }
+        let place = |step: u32| {
+            let share = f64::from(step) / f64::from(PLACES);
+            [from[0] + share * (to[0] - from[0]), from[1] + share * (to[1] - from[1])]
+        };
+        // How much the part is larger than the pass.
+        let above = |[radius, z]: [f64; 2]| Some(self.turned.least_outside(z)? - radius);
+        let mut heights: Vec<f64> = (0..=PLACES).filter_map(|step| above(place(step))).collect();
+        heights.sort_by(f64::total_cmp);
+        // A chamfer before the thread and a groove at its end are short beside it.
+        let Some(crest) = heights.get(heights.len() / 2) else { return };
+        let is_shoulder = |spot: &[f64; 2]| above(*spot).is_some_and(|height| height > crest + UNDER);
+        let Some([radius, z]) = (0..=PLACES).map(place).find(is_shoulder) else { return };
+        self.told = Some(cx.origin().at);
+        let is_diameter = cx.state().is_diameter(cx.model) == Some(true);
+        let shown = |radius: f64| cx.shown(Mm(if is_diameter { radius * 2.0 } else { radius }));
+        let part = self.turned.least_outside(z).unwrap_or(radius);
+        let mut finding = cx
+            .finding(&META, cx.range(), "the thread goes on into a larger diameter of the part")
+            .label(format!(
+                "at Z {} the part is turned to X {}, and the thread is cut at X {}",
+                cx.shown(Mm(z)),
+                shown(part),
+                shown(radius)
+            ))
+            .help("end the thread before the shoulder: check `Z` of the cycle, and its sign");
+        if let Some(cut) = self.turned.cut_that_left(z) {
+            finding = finding.also(cut.bytes.clone(), "turned here");
+        }
+        report.add(finding);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::check_rule;
+
+    /// A shaft with a shoulder at Z-30, and a groove before it where `groove` says so.
+    fn shaft(groove: &str, cycle: &str) -> String {
+        format!(
+            "G21 G18 G99 T0101\nG97 S800 M3\nG0 X50. Z2.\nX26.\nG1 Z0. F.2\nX30. Z-2.\nZ-30.\nX40.\nZ-60.\nG0 X60. Z50.\n{groove}T0404\nG0 X34. Z5.\n{cycle}\nG0 X60. Z50.\nM30\n"
+        )
+    }
+
+    #[test]
+    fn a_thread_ends_before_its_shoulder_or_in_the_groove() {
+        let groove = "T0303\nG0 X42. Z-30.\nG1 X26. F.1\nG0 X42.\nZ50.\n";
+        for cycle in ["G92 X29. Z-27. F1.5\nX28.2", "G92 X29. Z-30. F1.5\nX28.2"] {
+            check_rule(&RULE, "fanuc-lathe", &shaft("", cycle), &expect![[""]]);
+            check_rule(&RULE, "fanuc-lathe", &shaft(groove, cycle), &expect![[""]]);
+        }
+        check_rule(
+            &RULE,
+            "fanuc-lathe",
+            &shaft(groove, "G76 P020060 Q100 R0.05\nG76 X28.16 Z-37. P920 Q300 F1.5"),
+            &expect![[r#"
+                19 | G76 X28.16 Z-37. P920 Q300 F1.5
+                   | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[thread-into-shoulder] the thread goes on into a larger diameter of the part
+            "#]],
+        );
+    }
+}
