@@ -3,7 +3,7 @@
 //! Knows: a block by file and number, what a block is to those who watch. Must not know: what blocks do.
 
 use gcheck_controls::LetterSet;
-use gcheck_program::BlockFlags;
+use gcheck_program::{BlockFlags, Place};
 
 /// A block of a loaded program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -37,4 +37,24 @@ pub struct Origin {
     pub letters: LetterSet,
     /// Its sequence number.
     pub n: Option<u32>,
+}
+
+impl Origin {
+    /// Of nothing: no block was executed.
+    pub(crate) const NONE: Self = Self {
+        at: At { file: 0, block: 0 },
+        start: 0,
+        end: 0,
+        flags: BlockFlags::empty(),
+        letters: LetterSet::EMPTY,
+        n: None,
+    };
+}
+
+/// The block at `place` as the source of events; its sequence number is not looked for.
+#[inline]
+pub(crate) fn origin_of(at: At, place: &Place) -> Origin {
+    let block = place.block();
+    let range = place.range();
+    Origin { at, start: range.start, end: range.end, flags: block.flags, letters: block.letters, n: None }
 }

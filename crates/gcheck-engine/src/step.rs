@@ -48,7 +48,7 @@ use crate::lattice::Lattice;
 use crate::machine::Machine;
 use crate::model::{Model, Rank, Role};
 use crate::observer::Observer;
-use crate::origin::{At, Origin};
+use crate::origin::{At, Origin, origin_of};
 use crate::program::{Program, ProgramFile};
 use crate::state::{NameId, State, Variable};
 use crate::value::{Domain, Truth};
@@ -223,14 +223,7 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
             stack: Vec::with_capacity(16),
             words: BlockWords::new(),
             cursor: None,
-            origin: Origin {
-                at: At { file: 0, block: 0 },
-                start: 0,
-                end: 0,
-                flags: BlockFlags::empty(),
-                letters: LetterSet::EMPTY,
-                n: None,
-            },
+            origin: Origin::NONE,
             flow: None,
             machine_coordinates: false,
             lenient: false,
@@ -265,14 +258,7 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
         let table = &*place.table;
         let block = table.block(place.ix);
         self.strokes_before = self.strokes_given;
-        self.origin = Origin {
-            at,
-            start: place.base + block.range.start,
-            end: place.base + block.range.end,
-            flags: block.flags,
-            letters: block.letters,
-            n: None,
-        };
+        self.origin = origin_of(at, &place);
         if block.flags.contains(BlockFlags::LABEL) {
             let n = table.words(block).iter().find(|word| word.letter == Letter::of('N'));
             #[expect(

@@ -59,7 +59,7 @@ pub fn hover(
     let with_state = parts_with_state(database, document, &snapshot, &place, &subject, stop);
     let is_without_state = with_state.is_err();
     let mut parts = with_state.ok().flatten().unwrap_or_else(|| {
-        let cx = Cx { snapshot: &snapshot, place: &place, state: None, returned: None };
+        let cx = Cx { snapshot: &snapshot, place: &place, state: None, is_without_state, returned: None };
         cx.parts(&subject, None)
     });
     if is_without_state {
@@ -94,7 +94,8 @@ fn parts_with_state(
         None
     };
     look_at(database, document, place.number, stop, &mut |state, look| {
-        let cx = Cx { snapshot, place, state: Some(state), returned: returned.clone() };
+        let state = Some(state);
+        let cx = Cx { snapshot, place, state, is_without_state: false, returned: returned.clone() };
         parts = Some(cx.parts(subject, Some(look)));
     })?;
     Ok(parts)
@@ -172,8 +173,10 @@ fn subject(snapshot: &Snapshot, place: &BlockPlace, offset: u32) -> Subject {
 struct Cx<'a> {
     snapshot: &'a Snapshot,
     place: &'a BlockPlace,
-    /// `None` where no path comes.
+    /// `None` where no path comes, or where nobody waits for it.
     state: Option<&'a StateAt>,
+    /// Nobody waits for it.
+    is_without_state: bool,
     /// What may be the state at the next block, after a call.
     returned: Option<State<Abstract>>,
 }
@@ -232,7 +235,9 @@ impl Cx<'_> {
 
     /// How the program comes to the block, where not every path does once.
     fn way(&self) -> Option<String> {
-        let Some(state) = self.state else { return Some("no path comes here".to_owned()) };
+        let Some(state) = self.state else {
+            return (!self.is_without_state).then(|| "no path comes here".to_owned());
+        };
         if state.on_every_path {
             return (state.visits > 1).then(|| format!("comes here {} times", state.visits));
         }
@@ -1083,7 +1088,8 @@ mod tests {
         let text = "G21 G90\nS500 M3\n$0G4 P1.\nM30\n";
         let mut fixture = Fixture::new("fanuc-mill", text);
         let found = hover(&mut fixture.database, fixture.document, fixture.offset, &|| true).unwrap();
-        assert!(found.is_without_state && found.markdown.contains("dwell"), "{}", found.markdown);
+        assert!(found.is_without_state && found.markdown.contains("Waits"), "{}", found.markdown);
+        assert!(!found.markdown.contains("no path"), "{}", found.markdown);
         assert!(found.markdown.ends_with(super::WITHOUT_STATE), "{}", found.markdown);
         let found = hover(&mut fixture.database, fixture.document, fixture.offset, &|| false).unwrap();
         assert!(!found.is_without_state && found.markdown.contains("S500"), "{}", found.markdown);

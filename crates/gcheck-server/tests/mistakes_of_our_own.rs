@@ -176,6 +176,23 @@ fn an_analysis_that_takes_too_long_is_given_up_and_says_so() {
 }
 
 #[test]
+fn a_hover_does_not_wait_for_the_state_and_the_next_one_has_it() {
+    let (mut client, server) = session("%\nO1\nM98 P777\nS500 M3\nG4 P1.\nM30\n%\n");
+    let at = json!({ "textDocument": { "uri": URI }, "position": { "line": 4, "character": 1 } });
+    let mut hover = || client.request("textDocument/hover", at.clone())["contents"]["value"].to_string();
+    let first = hover();
+    assert!(first.contains("Waits") && first.contains("still being worked out"), "{first}");
+    // Nobody asks for anything meanwhile.
+    let shown = (0..20).map(|_| {
+        std::thread::sleep(Duration::from_millis(500));
+        hover()
+    });
+    let last = shown.skip_while(|shown| shown.contains("still being worked out")).next().unwrap();
+    assert!(last.contains("Waits") && last.contains("S500"), "{last}");
+    end(client, server);
+}
+
+#[test]
 fn a_session_that_ends_leaves_no_thread_behind() {
     let (input, mut to_server) = std::io::pipe().unwrap();
     let (mut from_server, output) = std::io::pipe().unwrap();

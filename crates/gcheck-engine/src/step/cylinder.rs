@@ -144,9 +144,18 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     /// The code with the radius in the rotary axis' word; 0 ends it. Its path is not followed.
     fn cylinder_by_radius(&mut self, ix: CodeIx, state: &mut State<D>) {
-        let radius = [Axis::A, Axis::B, Axis::C].iter().find_map(|axis| self.words.number(axis.letter()));
+        let rotary = [Axis::A, Axis::B, Axis::C];
+        let radius = rotary.iter().find_map(|axis| self.words.number(axis.letter()));
         let on = radius.is_some_and(|radius| radius != 0.0);
         state.set_mode(Role::Cylinder, if on { ix } else { CodeIx::NONE });
+        // A radius that is not known may be zero, and one that may be nothing leaves that of the next word.
+        if radius.is_some_and(f64::is_nan) || self.may_be_vacant(&rotary) {
+            state.modes.add(Role::Cylinder, &ModeSet::one(ix));
+            state.modes.add(Role::Cylinder, &ModeSet::one(CodeIx::NONE));
+            self.emit(state, Event::Modal(ix));
+            self.unknown_frame(ix, true, state);
+            return;
+        }
         self.emit(state, Event::Modal(ix));
         self.unknown_frame(ix, on, state);
     }

@@ -14,7 +14,7 @@ use crate::fault::Fault;
 use crate::lattice::{Flat, Perhaps};
 use crate::model::Role;
 use crate::observer::Observer;
-use crate::origin::At;
+use crate::origin::{At, Origin, origin_of};
 use crate::position::Position;
 use crate::state::{Blending, Course, ModeSet, SavedModes, State};
 use crate::step::Ending;
@@ -94,7 +94,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     /// Execution ran past the last block of a text.
     pub(super) fn end_of_text(&mut self, at: At, state: &mut State<D>) -> Outcome<D> {
-        self.origin = super::Origin { at, ..self.origin };
+        // Where that is, is the end of the last block, whichever was executed before.
+        let last = at.block.checked_sub(1).map(|block| At { block, ..at });
+        let last = last.and_then(|last| Some(origin_of(last, &self.place(last)?)));
+        self.origin = Origin { at, ..last.unwrap_or(Origin::NONE) };
         if !state.calls.is_main() {
             return Outcome::Fault(Fault::NoProgramEnd);
         }

@@ -108,6 +108,7 @@ const ALL: &[Ways] = &[
     ways("feed stop", CNC, ["", "M53 P0", "M53 P1", "G0 X1."]),
     ways("speed override", CNC, ["", "M51 P0", "M51 P1", "G0 X1."]),
     ways("spindle", MILL, ["", "S500 M3", "S600 M4", "G0 X1."]),
+    ways("cylinder by a radius that may be zero", MILL, ["", "G107 C#101", "G107 C[#102*0.]", "G0 X1."]),
     ways("limit of the speed", LATHE, ["", "G50 S2000", "G50 S3000", "G0 X1."]),
     ways("live tool", HAAS_LATHE, ["", "M133 P500", "M135", "G0 X1."]),
     ways("mist", CNC, ["", "M7", "M9", "G0 X1."]),

@@ -416,7 +416,8 @@ pub(crate) fn is_level(from: Spot, to: Spot) -> bool {
     (from[1] - to[1]).abs() < SLACK
 }
 
-fn is_one(a: Spot, b: Spot) -> bool {
+/// The same place.
+pub(crate) fn is_one(a: Spot, b: Spot) -> bool {
     (a[0] - b[0]).abs() < SLACK && (a[1] - b[1]).abs() < SLACK
 }
 

@@ -87,8 +87,8 @@ const CLOSED: f64 = 0.2;
 const NEAR: f64 = 0.5;
 /// A smaller contour has no inside that a tool comes from: square millimetres.
 const SMALL: f64 = 25.0;
-/// An arc is looked at in pieces of so much: radians.
-const PIECE: f64 = 0.4;
+/// An arc is looked at in so many pieces.
+const PIECES: u32 = 12;
 
 impl PathRule for CompensationOnWrongSide {
     fn memory(&mut self) -> Remembers<'_> {
@@ -147,6 +147,7 @@ impl PathRule for CompensationOnWrongSide {
         let points = points.filter(|_| !comes_in_air && contour.points.len() <= MOST);
         match points {
             Some(points) => contour.points.extend(points),
+            // From nowhere, it is not judged.
             None => contour.from = [f64::NAN; 2],
         }
     }
@@ -160,8 +161,8 @@ impl CompensationOnWrongSide {
         let points = &contour.points;
         let area = area(points);
         let away = edges(points).map(|edge| from_edge(contour.from, edge)).fold(f64::INFINITY, f64::min);
-        // False for a place that is not known.
-        if !(contour.is_closed() && away > NEAR) {
+        let is_known = contour.from.iter().chain(points.iter().flatten()).all(|number| number.is_finite());
+        if !is_known || !contour.is_closed() || away <= NEAR {
             return;
         }
         // Counter-clockwise, the inside is on the left.
@@ -237,12 +238,11 @@ fn pieces(cx: &PathCx<'_>, arc: &ArcMove, from: Option<Vector>) -> Option<Vec<Ve
         by_its_words(cx, ends, direction)
     };
     let whole = whole.filter(|_| arc.plane == Plane::Xy && arc.turns.abs() == 1)?;
-    let count = (whole.sweep().abs() / PIECE).ceil().clamp(1.0, 64.0) as u32;
     let at = |piece: u32| {
-        let [x, y, _] = whole.point_at(f64::from(piece) / f64::from(count));
+        let [x, y, _] = whole.point_at(f64::from(piece) / f64::from(PIECES));
         [x.0, y.0]
     };
-    Some((1..=count).map(at).collect())
+    Some((1..=PIECES).map(at).collect())
 }
 
 /// The edges of a polygon, closed.

@@ -157,6 +157,19 @@ mod tests {
     }
 
     #[test]
+    fn behind_a_condition_the_end_of_the_text_is_marked_too() {
+        check_rule(
+            &RULE,
+            "haas-lathe",
+            "O1\nG21 G90\nM98 P1001\nM30\nO1001\nIF [#110 EQ 1.] GOM98 P2\n",
+            &expect![[r#"
+            6 | IF [#110 EQ 1.] GOM98 P2
+              | ^^^^^^^^^^^^^^^^^^^^^^^^ warning[subprogram-without-return] called program has no return (`M99`)
+        "#]],
+        );
+    }
+
+    #[test]
     fn the_end_of_a_job_on_purpose_stands_beside_a_return() {
         check_rule(
             &RULE,

@@ -4,7 +4,7 @@ use gcheck_engine::{At, Event, Fact, TravelKind};
 use gcheck_geometry::Mm;
 
 use crate::declare::declare_rule;
-use crate::facts::turned::{SLACK, Spot, Turned, UNDER, end, is_level, is_other_part};
+use crate::facts::turned::{SLACK, Spot, Turned, UNDER, end, is_level, is_one, is_other_part};
 use crate::facts::turning::is_turned;
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 use crate::{Remembers, remembers};
@@ -141,12 +141,11 @@ impl GrooveLeftSideways {
 
     fn leave(&self, cx: &PathCx<'_>, groove: Option<Groove>, from: Spot, to: Spot, report: &mut Report<'_>) {
         let tool = cx.definitions().set_by(Fact::Tool);
-        let Some(groove) = groove.filter(|groove| groove.tool == tool && groove.bottom == from) else {
+        let Some(groove) = groove.filter(|groove| groove.tool == tool && is_one(groove.bottom, from)) else {
             return;
         };
         let along = to[1] - from[1];
-        // False for a place that is not known.
-        if !(along.abs() > PLAY) {
+        if along.is_nan() || along.abs() <= PLAY {
             return;
         }
         // A step in a face is short.

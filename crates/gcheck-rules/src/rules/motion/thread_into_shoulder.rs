@@ -113,7 +113,8 @@ impl ThreadIntoShoulder {
     fn judge(&mut self, cx: &PathCx<'_>, [from, to]: [[f64; 2]; 2], report: &mut Report<'_>) {
         let begins = self.block.map_or(f64::NAN, |(_, radius)| radius);
         // From inside it is the thread of a bore.
-        if !(begins > from[0].max(to[0]) + SLACK) {
+        let pass = from[0].max(to[0]);
+        if begins.is_nan() || pass.is_nan() || begins <= pass + SLACK {
             return;
         }
         let place = |step: u32| {
