@@ -4,8 +4,10 @@
 
 use std::fmt::Write as _;
 
+use gcheck_diagnostics::Severity;
 use gcheck_engine::{Axis, Machine, Model};
 use gcheck_geometry::{MmPerMin, Rpm};
+use gcheck_lint::{RuleEntry, Selection};
 
 use super::job::{Bench, Prepared, Target, prepare};
 use crate::execution::{Equipment, Start};
@@ -77,14 +79,40 @@ fn of_file(target: &Target, prepared: &Prepared, machine: &Machine) -> String {
     for folder in &settings.search {
         let _ = writeln!(out, "  search: {}", paths::shown_from_here(folder));
     }
-    let rules: Vec<String> = selection
-        .rules()
-        .map(|(rule, severity)| {
-            severity.map_or_else(|| rule.meta.id.to_owned(), |s| format!("{}={s}", rule.meta.id))
-        })
-        .collect();
-    let _ = writeln!(out, "  rules ({}): {}", rules.len(), rules.join(", "));
+    let _ = writeln!(out, "  {}", rules(selection));
     out
+}
+
+/// Rules are listed by name up to so many; of more only what differs from the recommended ones is.
+const MOST_LISTED: usize = 12;
+
+/// Which rules run.
+fn rules(selection: &Selection) -> String {
+    let shown = |(rule, severity): (&RuleEntry, Option<Severity>)| {
+        severity.map_or_else(|| rule.meta.id.to_owned(), |s| format!("{}={s}", rule.meta.id))
+    };
+    let count = selection.rules().count();
+    if count <= MOST_LISTED {
+        return format!("rules ({count}): {}", selection.rules().map(shown).collect::<Vec<_>>().join(", "));
+    }
+    let is_on = |rule: &RuleEntry| selection.rules().any(|(on, _)| on.meta == rule.meta);
+    let mut text = format!("rules ({count}): the recommended ones");
+    let mut add = |what: &str, names: Vec<String>| {
+        if names.is_empty() {
+            return;
+        }
+        let more = names.len().saturating_sub(MOST_LISTED);
+        let list = names.into_iter().take(MOST_LISTED).collect::<Vec<_>>().join(", ");
+        let rest = if more > 0 { format!(" and {more} more") } else { String::new() };
+        let _ = write!(text, "; {what} {list}{rest}");
+    };
+    let changed =
+        |(rule, severity): &(&RuleEntry, Option<Severity>)| rule.meta.recommended && severity.is_some();
+    add("and", selection.rules().filter(|(rule, _)| !rule.meta.recommended).map(shown).collect());
+    add("with another severity", selection.rules().filter(changed).map(shown).collect());
+    let left_out = selection.table().iter().filter(|rule| rule.meta.recommended && !is_on(rule));
+    add("without", left_out.map(|rule| rule.meta.id.to_owned()).collect());
+    text
 }
 
 /// Rapid rates and accelerations, as far as they are known.

@@ -308,6 +308,24 @@ fn what_is_in_force_is_shown() {
 }
 
 #[test]
+fn of_many_rules_what_differs_from_the_recommended_ones_is_shown() {
+    let shop = Shop::with(&[
+        (
+            "gcheck.toml",
+            "[rules]\nextend-select = [\"minus-zero\"]\nunknown-code = \"info\"\nfeed-zero = \"off\"\n",
+        ),
+        ("part.nc", GOOD),
+    ]);
+    let run = shop.gcheck("check --show-settings").to_string();
+    let line = run.lines().find(|line| line.contains("rules (")).unwrap_or_default();
+    let (_, differs) = line.split_once(": ").unwrap_or_default();
+    expect![
+        "the recommended ones; and minus-zero; with another severity unknown-code=info; without feed-zero"
+    ]
+    .assert_eq(differs);
+}
+
+#[test]
 fn the_machine_in_force_can_be_looked_at() {
     let shop = Shop::with(&[
         (
@@ -327,7 +345,7 @@ fn the_machine_in_force_can_be_looked_at() {
           feed: at most 12700 mm/min
           work offsets known: 1
           tools known: 2
-          rules (9): arc-breaks-contour, arc-centre-and-radius, arc-end-off-circle, arc-mode-left-on, arc-radius-too-small, arc-turns-not-whole, arc-wrong-plane-word, full-circle-by-radius, zero-radius-arc
+          rules (10): arc-breaks-contour, arc-centre-and-radius, arc-end-off-circle, arc-mode-left-on, arc-radius-too-small, arc-turns-not-whole, arc-wrong-plane-word, circle-on-far-side, full-circle-by-radius, zero-radius-arc
 
         exit 0
     "#]].assert_eq(&shop.gcheck("check --show-settings --select arcs").to_string());
