@@ -53,6 +53,7 @@ struct Hint {
     points: u32,
     line: Option<String>,
     text: Option<String>,
+    placeholder: Option<String>,
     word: Option<char>,
     extension: Option<String>,
 }
@@ -98,7 +99,11 @@ impl Hint {
         let by_word = self.word.is_some_and(|word| {
             lines.iter().filter(|line| is_move(line) && has_word(line, word)).count() >= ENOUGH_LINES
         });
-        by_line || by_text || by_word
+        let by_placeholder = self
+            .placeholder
+            .as_ref()
+            .is_some_and(|name| lines.iter().any(|line| has_placeholder(line, name)));
+        by_line || by_text || by_word || by_placeholder
     }
 }
 
@@ -135,6 +140,15 @@ fn begins(line: &str, pattern: &str) -> bool {
 fn is_move(line: &str) -> bool {
     let rest = line.strip_prefix(['G', 'g']).map(|rest| rest.trim_start_matches('0'));
     rest.is_some_and(|rest| !rest.trim_start_matches('1').starts_with(|c: char| c.is_ascii_digit()))
+}
+
+/// Is `#` and the name on the line, outside comments?
+fn has_placeholder(line: &str, name: &str) -> bool {
+    let code = line.split([';', '(']).next().unwrap_or_default();
+    code.split('#').skip(1).any(|after| {
+        let (head, rest) = after.split_at_checked(name.len()).unwrap_or_default();
+        head.eq_ignore_ascii_case(name) && !rest.starts_with(|c: char| c.is_alphanumeric() || c == '_')
+    })
 }
 
 /// Is the address on the line, outside comments, with a number after it?
@@ -205,6 +219,7 @@ mod tests {
         check("G0 Z10\nM3 P100\nG1 Z-1\n", Some("a Snapmaker"));
         check("S1000 M3 P11\nM3 P1000\n", None);
         check("G38.3 Z-50 F100\nG43.1 Z#PRBZ\n", Some("a sender program"));
+        check("#<PRBX> = 5 ; kept in #PRBX\n(laser module from Snapmaker on a grbl frame)\nG0 X1\n", None);
     }
 
     #[test]

@@ -72,13 +72,13 @@ pub(crate) struct Chunk {
 /// Where the text of a chunk comes from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) enum Origin {
-    /// The whole text was given, or so much of it that it is as good as another one.
+    /// The text was opened, or an edit made more chunks than somebody types.
     Opened,
     /// Somebody works here: more questions about the chunk will come.
     Edited,
 }
 
-/// An edit that makes more chunks than this is as good as another text.
+/// An edit that makes more chunks than this is as good as another text; a whole text of fewer is read as edited.
 const MOST_EDITED: usize = 16;
 
 /// The lossless tree.
@@ -152,8 +152,10 @@ impl Chunks {
         let nothing: Arc<str> = Arc::from("");
         for chunk in self.known.drain(..).map(|(_, chunk)| chunk).chain(self.free.drain(..)) {
             chunk.set_text(storage).to(Arc::clone(&nothing));
-            tree(storage, chunk);
-            blocks(storage, chunk);
+            if chunk.origin(storage) == Origin::Edited {
+                tree(storage, chunk);
+                blocks(storage, chunk);
+            }
             facts(storage, chunk);
             findings(storage, chunk);
         }

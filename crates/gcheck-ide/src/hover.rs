@@ -40,9 +40,6 @@ pub struct Hover {
     pub is_without_state: bool,
 }
 
-/// What is shown instead of the state.
-const WITHOUT_STATE: &str = "*The state here is still being worked out: point here again in a moment.*";
-
 /// What is to be said of the place at `offset`: the code, word, number, variable or label there, and the state before and
 /// after its block.
 ///
@@ -62,9 +59,6 @@ pub fn hover(
         let cx = Cx { snapshot: &snapshot, place: &place, state: None, is_without_state, returned: None };
         cx.parts(&subject, None)
     });
-    if is_without_state {
-        parts.push(WITHOUT_STATE.to_owned());
-    }
     parts.retain(|part| !part.trim().is_empty());
     if parts.is_empty() {
         return None;
@@ -93,12 +87,16 @@ fn parts_with_state(
     } else {
         None
     };
-    look_at(database, document, place.number, stop, &mut |state, look| {
+    let looked = look_at(database, document, place.number, stop, &mut |state, look| {
         let state = Some(state);
         let cx = Cx { snapshot, place, state, is_without_state: false, returned: returned.clone() };
         parts = Some(cx.parts(subject, Some(look)));
-    })?;
-    Ok(parts)
+    });
+    // Time may be over just after the state was shown.
+    match (parts, looked) {
+        (None, Err(cancelled)) => Err(cancelled),
+        (parts, _) => Ok(parts),
+    }
 }
 
 /// What is at a place.
@@ -1090,7 +1088,6 @@ mod tests {
         let found = hover(&mut fixture.database, fixture.document, fixture.offset, &|| true).unwrap();
         assert!(found.is_without_state && found.markdown.contains("Waits"), "{}", found.markdown);
         assert!(!found.markdown.contains("no path"), "{}", found.markdown);
-        assert!(found.markdown.ends_with(super::WITHOUT_STATE), "{}", found.markdown);
         let found = hover(&mut fixture.database, fixture.document, fixture.offset, &|| false).unwrap();
         assert!(!found.is_without_state && found.markdown.contains("S500"), "{}", found.markdown);
     }

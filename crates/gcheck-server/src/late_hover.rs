@@ -35,7 +35,9 @@ impl LateHover {
 
     /// The whole answer for a place of a text, if it is of that place and known.
     pub(crate) fn answer(&self, document: DocumentId, clock: u64, offset: u32) -> Option<&Hover> {
-        let is_of = self.document == document && self.clock == clock && self.bytes.contains(&offset);
+        // Between a word and a blank the word is meant.
+        let is_at = self.bytes.start <= offset && offset <= self.bytes.end;
+        let is_of = self.document == document && self.clock == clock && is_at;
         self.answer.as_ref().filter(|_| is_of)
     }
 

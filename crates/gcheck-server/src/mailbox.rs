@@ -47,6 +47,7 @@ impl<O> Clone for Mailbox<O> {
 pub(crate) struct Waiting {
     changes: AtomicUsize,
     questions: AtomicUsize,
+    results: AtomicUsize,
 }
 
 impl Waiting {
@@ -60,11 +61,16 @@ impl Waiting {
         self.questions.load(Ordering::Acquire) > 0
     }
 
-    fn of(&self, kind: Kind) -> Option<&AtomicUsize> {
+    /// Anything waits.
+    pub(crate) fn has_any(&self) -> bool {
+        self.has_changes() || self.has_questions() || self.results.load(Ordering::Acquire) > 0
+    }
+
+    fn of(&self, kind: Kind) -> &AtomicUsize {
         match kind {
-            Kind::Change => Some(&self.changes),
-            Kind::Question => Some(&self.questions),
-            Kind::Result => None,
+            Kind::Change => &self.changes,
+            Kind::Question => &self.questions,
+            Kind::Result => &self.results,
         }
     }
 }
@@ -86,9 +92,7 @@ pub(crate) fn mailbox<O>() -> (Mailbox<O>, Inbox<O>) {
 impl<O: 'static> Mailbox<O> {
     /// Posts a task. It is dropped if the owner is gone.
     pub(crate) fn post(&self, name: &'static str, kind: Kind, work: impl FnOnce(&mut O) + Send + 'static) {
-        if let Some(count) = self.waiting.of(kind) {
-            count.fetch_add(1, Ordering::AcqRel);
-        }
+        self.waiting.of(kind).fetch_add(1, Ordering::AcqRel);
         let _ = self.sender.send(Task { name, kind, work: Box::new(work) });
     }
 
@@ -124,9 +128,7 @@ impl<O> Inbox<O> {
     /// When no task came in time, or every sender is gone.
     pub(crate) fn next(&self, patience: Duration) -> std::result::Result<Task<O>, RecvTimeoutError> {
         let task = self.receiver.recv_timeout(patience)?;
-        if let Some(count) = self.waiting.of(task.kind) {
-            count.fetch_sub(1, Ordering::AcqRel);
-        }
+        self.waiting.of(task.kind).fetch_sub(1, Ordering::AcqRel);
         Ok(task)
     }
 

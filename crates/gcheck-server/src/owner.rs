@@ -144,7 +144,7 @@ impl Owner {
     fn use_the_pause(&mut self) {
         if self.has_late_hover() {
             let (start, waiting) = (Instant::now(), Arc::clone(&self.waiting));
-            let stop = || waiting.has_changes() || waiting.has_questions() || start.elapsed() > MOST_PATIENCE;
+            let stop = || waiting.has_any() || start.elapsed() > MOST_PATIENCE;
             self.guarded("late hover", |owner| owner.finish_late_hover(&stop));
         }
     }

@@ -183,11 +183,11 @@ fn a_hover_does_not_wait_for_the_state_and_the_next_one_has_it() {
     let first = hover();
     assert!(first.contains("Waits") && first.contains("still being worked out"), "{first}");
     // Nobody asks for anything meanwhile.
-    let shown = (0..20).map(|_| {
+    let mut shown = (0..20).map(|_| {
         std::thread::sleep(Duration::from_millis(500));
         hover()
     });
-    let last = shown.skip_while(|shown| shown.contains("still being worked out")).next().unwrap();
+    let last = shown.find(|shown| !shown.contains("still being worked out")).unwrap();
     assert!(last.contains("Waits") && last.contains("S500"), "{last}");
     end(client, server);
 }

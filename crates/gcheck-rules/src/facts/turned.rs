@@ -275,6 +275,15 @@ impl Turned {
         self.cuts.iter().filter(is_outside).filter_map(move |cut| Some((cut.radius_at(z)?, cut)))
     }
 
+    /// Did another cut across go through this radius beside this level, so that a tool has room there?
+    pub(crate) fn is_opened_beside(&self, z: f64, radius: f64) -> bool {
+        self.cuts.iter().any(|cut| {
+            let [[r0, z0], [r1, _]] = cut.ends;
+            let away = (z0 - z).abs();
+            is_level(cut.ends[0], cut.ends[1]) && r0.min(r1) < radius + SLACK && away > SLACK && away < WIDTH
+        })
+    }
+
     /// Was the part cut through this radius near this level, so that a tool can go in or out there?
     pub(crate) fn is_open_across(&self, z: f64, radius: f64) -> bool {
         self.cuts.iter().any(|cut| {

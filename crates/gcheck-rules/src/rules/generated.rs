@@ -107,6 +107,7 @@ pub(crate) mod five_axis {
     pub(crate) mod five_axis_zero_not_upright;
     pub(crate) mod maybe_five_axis_length_in_incremental;
     pub(crate) mod maybe_refused_in_five_axis_mode;
+    pub(crate) mod rapid_down_from_cut;
     pub(crate) mod reference_return_under_tilt;
     pub(crate) mod refused_in_five_axis_mode;
     pub(crate) mod rotary_axis_jumps;
@@ -190,6 +191,7 @@ pub(crate) mod macros {
 
 pub(crate) mod mapping {
     pub(crate) mod cylinder_begins_nothing;
+    pub(crate) mod cylinder_cut_to_axis;
     pub(crate) mod cylinder_diameter_from_setting;
     pub(crate) mod cylinder_end_without_begin;
     pub(crate) mod cylinder_feed_mode;
@@ -560,6 +562,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &five_axis::five_axis_zero_not_upright::RULE,
     &five_axis::maybe_five_axis_length_in_incremental::RULE,
     &five_axis::maybe_refused_in_five_axis_mode::RULE,
+    &five_axis::rapid_down_from_cut::RULE,
     &five_axis::reference_return_under_tilt::RULE,
     &five_axis::refused_in_five_axis_mode::RULE,
     &five_axis::rotary_axis_jumps::RULE,
@@ -631,6 +634,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &macros::variable_unlisted::RULE,
     &macros::words_beside_o_word::RULE,
     &mapping::cylinder_begins_nothing::RULE,
+    &mapping::cylinder_cut_to_axis::RULE,
     &mapping::cylinder_diameter_from_setting::RULE,
     &mapping::cylinder_end_without_begin::RULE,
     &mapping::cylinder_feed_mode::RULE,

@@ -14,6 +14,10 @@ use crate::proto::{
     Uri,
 };
 
+/// What a hover says instead of the state.
+const STATE_TO_COME: &str = "*The state here is still being worked out: point here again in a moment.*";
+const STATE_GIVEN_UP: &str = "*The state here is not known: the analysis of this program takes too long.*";
+
 impl Owner {
     pub(crate) fn hover(&mut self, params: &HoverParams, stop: &dyn Fn() -> bool) -> Result<Option<Hover>> {
         let uri = &params.text_document_position_params.text_document.uri;
@@ -31,8 +35,12 @@ impl Owner {
 
     /// Is there a hover whose state is still to be worked out?
     pub(crate) fn has_late_hover(&self) -> bool {
-        let is_of_now =
-            |late: &LateHover| self.document(&late.uri).is_ok_and(|known| known.clock.now() == late.clock);
+        // An analysis that was given up is not begun again for it.
+        let is_of_now = |late: &LateHover| {
+            self.document(&late.uri).is_ok_and(|known| {
+                known.id == late.document && known.clock.now() == late.clock && !known.took_too_long()
+            })
+        };
         self.late_hover.as_ref().is_some_and(|late| late.is_open() && is_of_now(late))
     }
 
@@ -47,6 +55,11 @@ impl Owner {
 
     fn shown_hover(&mut self, uri: &Uri, mut hover: gcheck_ide::Hover) -> Result<Hover> {
         let snapshot = self.snapshot(uri)?;
+        if hover.is_without_state {
+            let is_given_up = self.document(uri)?.took_too_long();
+            hover.markdown.push_str("\n\n---\n\n");
+            hover.markdown.push_str(if is_given_up { STATE_GIVEN_UP } else { STATE_TO_COME });
+        }
         if let Some(code) = &hover.code {
             let control = snapshot.control().name();
             hover.markdown.push_str("\n\n");

@@ -1,9 +1,9 @@
-//! A full circle around the point beyond the wall, where the tool came from the centre of the other one.
+//! A full circle whose centre words have the wrong signs: the tool came from where its centre would be with the others.
 
 use std::ops::Range;
 
 use gcheck_controls::Effect;
-use gcheck_engine::{ArcMove, Axis, Event, Position, TravelKind};
+use gcheck_engine::{ArcMove, Axis, Event, Position, Role, TravelKind};
 
 use crate::declare::declare_rule;
 use crate::facts::cuts::distance;
@@ -39,7 +39,7 @@ declare_rule! {
     /// M30
     /// ```
     rule "circle-on-far-side" in "arcs" {
-        summary: "full circle around the far side of the wall to which the tool came",
+        summary: "full circle on the far side of the wall",
         severity: Warning,
         tier: Path,
         since: "0.1.0",
@@ -95,14 +95,14 @@ impl PathRule for CircleOnFarSide {
                 {
                     report.add(
                         cx.finding(&META, pending.bytes, "the circle lies on the far side of where the tool came from")
-                            .label("the tool comes from the centre that it has with the other signs, and goes back there")
+                            .label("with the other signs of its centre words, the centre is where the tool came from")
                             .help("check the signs of the centre words (`I`, `J`, `K`)"),
                     );
                 }
             }
             Event::Arc(arc) if !arc.expanded => {
                 self.at = Some(arc.programmed);
-                let from = last.and_then(|[from, to]| comes_from_the_mirrored_centre(arc, from, to));
+                let from = last.and_then(|last| comes_from_the_mirrored_centre(cx, arc, last));
                 self.pending = from.map(|back| Pending { bytes: cx.range(), back });
             }
             _ => {}
@@ -111,7 +111,11 @@ impl PathRule for CircleOnFarSide {
 }
 
 /// Where the tool came from, if that is the centre of the full circle with the other signs.
-fn comes_from_the_mirrored_centre(arc: &ArcMove, from: Position, start: Position) -> Option<Position> {
+fn comes_from_the_mirrored_centre(
+    cx: &PathCx<'_>,
+    arc: &ArcMove,
+    [from, start]: [Position; 2],
+) -> Option<Position> {
     let (first, second, _) = arc.plane.axes();
     let [first, second] = [first, second].map(|index| Axis::ALL.get(index).copied());
     let (first, second) = (first?, second?);
@@ -122,7 +126,18 @@ fn comes_from_the_mirrored_centre(arc: &ArcMove, from: Position, start: Position
     // False where a coordinate is not known.
     let is_full =
         arc.turns.abs() == 1 && distance([x, y], flat(&arc.programmed)) < NEAR && radius > NEAR * 10.0;
-    (is_full && distance([from_x, from_y], mirrored) < NEAR).then_some(from)
+    // A boss around the zero of the part, or one that compensation goes around on its outside, may have such a way in.
+    let is_boss = distance(centre, [0.0; 2]) < NEAR || is_outside(cx, arc);
+    (is_full && !is_boss && distance([from_x, from_y], mirrored) < NEAR).then_some(from)
+}
+
+/// Does compensation keep the tool on the outside of the circle?
+fn is_outside(cx: &PathCx<'_>, arc: &ArcMove) -> bool {
+    match cx.state().effect(Role::Compensation, cx.model) {
+        Some(Effect::CompensationLeft | Effect::CompensationLeftByDiameter) => arc.turns < 0,
+        Some(Effect::CompensationRight | Effect::CompensationRightByDiameter) => arc.turns > 0,
+        _ => false,
+    }
 }
 
 /// Is it the same place across?
@@ -141,6 +156,12 @@ mod tests {
         format!(
             "G21 G17 G90 G94 G54 S3000 M3\nT1 M6\nG0 X0. Y0. Z-2.\nG41 D1 G1 X30. F300.\n{circle}\nG40 G1 {back}\nG0 Z50.\nM30\n"
         )
+    }
+
+    #[test]
+    fn a_boss_may_have_a_way_in_as_long_as_its_radius() {
+        let boss = "G21 G17 G90 G94 G54 S3000 M3\nG0 X-20. Y0. Z5.\nG1 Z-2. F300.\nX-10.\nG2 X-10. Y0. I10. J0.\nG1 X-20.\nG0 Z50.\nM30\n";
+        check_rule(&RULE, "fanuc-mill", boss, &expect![[""]]);
     }
 
     #[test]

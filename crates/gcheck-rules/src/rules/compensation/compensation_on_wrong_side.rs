@@ -55,7 +55,7 @@ declare_rule! {
 
 #[derive(Default, Clone, PartialEq)]
 struct CompensationOnWrongSide {
-    /// Where the last move ends as it is programmed.
+    /// Where the last move ends as it is programmed, if that is known.
     at: Option<Vector>,
     contour: Option<Contour>,
     told: Option<At>,
@@ -71,24 +71,34 @@ type Vector = [f64; 2];
 struct Contour {
     on: At,
     is_left: bool,
-    /// Where the tool was before, and the height at which it comes.
-    from: Vector,
+    /// Where the tool was before; `None` for a contour that is not judged.
+    from: Option<Vector>,
+    /// The height at which it is cut: millimetres.
     height: f64,
     points: Vec<Vector>,
+    /// The tool has left it at rapid, or upward.
+    is_over: bool,
 }
 
 remembers!(Contour: on);
 
 /// Longer contours come from a system.
-const MOST: usize = 2000;
-/// A contour is closed when its ends are nearer than this part of its length.
-const CLOSED: f64 = 0.2;
-/// A tool nearer to the contour than this is on neither side: millimetres.
+const MOST: usize = 400;
+/// Parts of a path that are nearer than this meet: millimetres.
+const MEET: f64 = 0.2;
+/// A tool nearer to the contour than this is on neither side, and a height that differs by more is another one: millimetres.
 const NEAR: f64 = 0.5;
 /// A smaller contour has no inside that a tool comes from: square millimetres.
 const SMALL: f64 = 25.0;
 /// An arc is looked at in so many pieces.
 const PIECES: u32 = 12;
+
+/// A move as this rule sees it.
+struct Way {
+    points: Vec<Vector>,
+    height: f64,
+    is_rapid: bool,
+}
 
 impl PathRule for CompensationOnWrongSide {
     fn memory(&mut self) -> Remembers<'_> {
@@ -110,46 +120,33 @@ impl PathRule for CompensationOnWrongSide {
             return;
         }
         let from = self.at.take();
-        let (points, height) = match event {
-            Event::Travel(travel) if !travel.expanded => {
-                (Some(vec![flat(&travel.programmed)]), travel.programmed.raw(Axis::Z))
-            }
-            Event::Arc(arc) if !arc.expanded => (pieces(cx, arc, from), arc.programmed.raw(Axis::Z)),
-            // Around a corner the tool stays at it.
-            Event::Travel(_) | Event::Arc(_) => (Some(from.into_iter().collect()), f64::NAN),
-            _ => (None, f64::NAN),
-        };
-        let end = match event {
-            Event::Travel(travel) => Some(flat(&travel.programmed)),
-            Event::Arc(arc) => Some(flat(&arc.programmed)),
-            _ => None,
-        };
-        self.at = end;
+        let way = way(cx, event, from);
+        self.at = end(event);
         let side = side(cx);
         let on = cx.definitions().set_by(Fact::Mode(Role::Compensation));
-        let goes_on = self
-            .contour
-            .as_ref()
-            .is_some_and(|contour| Some(contour.on) == on && side == Some(contour.is_left));
-        if !goes_on && let Some(mut contour) = self.contour.take() {
-            // Beside a cutter of a known size a move is made when the next block is read: the last one comes after compensation is off.
-            if !contour.is_closed() {
-                contour.points.extend(points.iter().flatten().copied());
+        let is_same = |contour: &Contour| Some(contour.on) == on && side == Some(contour.is_left);
+        if !self.contour.as_ref().is_some_and(is_same)
+            && let Some(mut contour) = self.contour.take()
+        {
+            // Beside a cutter of a known size a move is made when the next block is read: the last one comes after
+            // compensation is off.
+            let is_way_out = cx.has_effect(|effect| effect == Effect::CompensationOff);
+            if !is_way_out && contour.loop_of().is_none() {
+                contour.goes(way.as_ref());
             }
             self.judge(cx, &contour, report);
         }
-        let (Some(is_left), Some(on), Some(from)) = (side, on, from) else { return };
-        let is_first = self.contour.is_none();
-        let contour =
-            self.contour.get_or_insert_with(|| Contour { on, is_left, from, height, points: Vec::new() });
-        // At rapid, or above the cut, the tool comes in the air.
-        let comes_in_air = is_first && is_rapid(event) || height < contour.height - NEAR;
-        let points = points.filter(|_| !comes_in_air && contour.points.len() <= MOST);
-        match points {
-            Some(points) => contour.points.extend(points),
-            // From nowhere, it is not judged.
-            None => contour.from = [f64::NAN; 2],
-        }
+        let (Some(is_left), Some(on)) = (side, on) else { return };
+        let contour = self.contour.get_or_insert_with(|| Contour {
+            on,
+            is_left,
+            // At rapid the tool comes in the air.
+            from: from.filter(|_| way.as_ref().is_some_and(|way| !way.is_rapid)),
+            height: way.as_ref().map_or(f64::INFINITY, |way| way.height),
+            points: Vec::new(),
+            is_over: false,
+        });
+        contour.goes(way.as_ref());
     }
 }
 
@@ -158,54 +155,102 @@ impl CompensationOnWrongSide {
         if self.told == Some(contour.on) {
             return;
         }
-        let points = &contour.points;
-        let area = area(points);
-        let away = edges(points).map(|edge| from_edge(contour.from, edge)).fold(f64::INFINITY, f64::min);
-        let is_known = contour.from.iter().chain(points.iter().flatten()).all(|number| number.is_finite());
-        if !is_known || !contour.is_closed() || away <= NEAR {
+        let (Some(from), Some(around)) = (contour.from, contour.loop_of()) else { return };
+        let away = edges(&around).map(|edge| from_edge(from, edge)).fold(f64::INFINITY, f64::min);
+        if away <= NEAR {
             return;
         }
         // Counter-clockwise, the inside is on the left.
-        let to_inside = contour.is_left == (area > 0.0);
-        let comes_from_inside = is_inside(contour.from, points);
+        let to_inside = contour.is_left == (area(&around) > 0.0);
+        let comes_from_inside = goes_around(&around, from);
         if to_inside == comes_from_inside {
             return;
         }
         self.told = Some(contour.on);
-        let is_side = |effect| is_on(effect);
-        let range = cx.find_word(contour.on, |word| is_side(cx.model.effect(word.code)));
-        let Some((at, range)) = range.or_else(|| cx.range_of(contour.on)).map(|range| (contour.on, range))
-        else {
-            return;
-        };
-        let name = cx.place_of(at).and_then(|place| {
+        let range = cx.find_word(contour.on, |word| is_on(cx.model.effect(word.code)));
+        let Some(range) = range.or_else(|| cx.range_of(contour.on)) else { return };
+        let name = cx.place_of(contour.on).and_then(|place| {
             let words = place.table.words(place.block()).iter();
-            words.map(|word| word.code).find(|code| is_side(cx.model.effect(*code)))
+            words.map(|word| word.code).find(|code| is_on(cx.model.effect(*code)))
         });
         let name = name.map(|code| format!(" (`{}`)", cx.name_of(code))).unwrap_or_default();
-        let (come, goes) = if comes_from_inside { ("inside", "outside") } else { ("outside", "inside") };
+        let (comes, goes) = if comes_from_inside { ("inside", "outside") } else { ("outside", "inside") };
         report.add(
             cx.finding(
                 &META,
                 range,
-                format!(
-                    "compensation to the {goes} of a contour that the tool comes to from its {come}{name}"
-                ),
+                format!("compensation to the {goes}, but the tool comes from {comes}{name}"),
             )
-            .label("on its way in the tool crosses the contour")
+            .label("on its way in the tool crosses the closed contour")
             .help("check `G41` and `G42`, and the direction of the contour"),
         );
     }
 }
 
 impl Contour {
-    /// Does it go around something, and end near where it begins?
-    fn is_closed(&self) -> bool {
-        let (Some(first), Some(last)) = (self.points.first(), self.points.last()) else { return false };
-        let next = self.points.iter().skip(1);
-        let length: f64 = self.points.iter().zip(next).map(|(a, b)| distance(*a, *b)).sum();
-        distance(*first, *last) < length * CLOSED && area(&self.points).abs() > SMALL
+    /// The next move; `None` for one that is not known.
+    fn goes(&mut self, way: Option<&Way>) {
+        let Some(way) = way.filter(|_| self.points.len() <= MOST) else {
+            self.from = None;
+            return;
+        };
+        // False for a height that is not known.
+        self.is_over |= !self.points.is_empty() && (way.is_rapid || way.height > self.height + NEAR);
+        if self.is_over {
+            return;
+        }
+        if way.height < self.height - NEAR {
+            // The tool came above what it cuts.
+            self.from = None;
+        }
+        self.points.extend(&way.points);
     }
+
+    /// The part of the path that goes around something, from where it first comes back to itself: without the ways in and out.
+    fn loop_of(&self) -> Option<Vec<Vector>> {
+        let points = &self.points;
+        let edge = |index: usize| Some([*points.get(index)?, *points.get(index + 1)?]);
+        let count = points.len().saturating_sub(1);
+        (0..count).find_map(|first| {
+            let others = (first + 2..count).rev();
+            others.into_iter().find_map(|last| {
+                if !meet(edge(first)?, edge(last)?) {
+                    return None;
+                }
+                let around = points.get(first + 1..=last)?.to_vec();
+                (area(&around).abs() > SMALL).then_some(around)
+            })
+        })
+    }
+}
+
+/// A move of the contour; `None` for one that is not known.
+fn way(cx: &PathCx<'_>, event: &Event, from: Option<Vector>) -> Option<Way> {
+    match event {
+        Event::Travel(travel) if !travel.expanded => Some(Way {
+            points: vec![end(event)?],
+            height: travel.programmed.raw(Axis::Z),
+            is_rapid: travel.kind == TravelKind::Rapid,
+        }),
+        Event::Arc(arc) if !arc.expanded => {
+            Some(Way { points: pieces(cx, arc, from)?, height: arc.programmed.raw(Axis::Z), is_rapid: false })
+        }
+        // Around a corner the tool stays at it.
+        Event::Travel(_) | Event::Arc(_) => {
+            Some(Way { points: vec![from?], height: f64::NAN, is_rapid: false })
+        }
+        _ => None,
+    }
+}
+
+/// Where a move ends as it is programmed, if that is known.
+fn end(event: &Event) -> Option<Vector> {
+    let end = match event {
+        Event::Travel(travel) => flat(&travel.programmed),
+        Event::Arc(arc) => flat(&arc.programmed),
+        _ => return None,
+    };
+    end.iter().all(|number| number.is_finite()).then_some(end)
 }
 
 /// Is the tool left of the path? `None` while compensation is off, or not known.
@@ -219,10 +264,6 @@ fn side(cx: &PathCx<'_>) -> Option<bool> {
 
 fn flat(position: &Position) -> Vector {
     [position.raw(Axis::X), position.raw(Axis::Y)]
-}
-
-fn is_rapid(event: &Event) -> bool {
-    matches!(event, Event::Travel(travel) if travel.kind == TravelKind::Rapid)
 }
 
 /// Points along an arc as it is programmed, its end the last; `None` where they are not known.
@@ -268,13 +309,28 @@ fn from_edge(point: Vector, [a, b]: [Vector; 2]) -> f64 {
     distance(point, [a[0] + share * along[0], a[1] + share * along[1]])
 }
 
-/// Does the polygon go around the point?
-fn is_inside(point: Vector, points: &[Vector]) -> bool {
-    let crosses = |[a, b]: &[Vector; 2]| {
-        (a[1] > point[1]) != (b[1] > point[1])
-            && point[0] < a[0] + (point[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0])
+/// Do two edges cross, or come as near as parts that meet?
+fn meet(one: [Vector; 2], other: [Vector; 2]) -> bool {
+    let side = |[a, b]: [Vector; 2], point: Vector| {
+        (b[0] - a[0]) * (point[1] - a[1]) - (b[1] - a[1]) * (point[0] - a[0])
     };
-    edges(points).filter(crosses).count() % 2 == 1
+    let parts = |edge: [Vector; 2], [a, b]: [Vector; 2]| side(edge, a) * side(edge, b) < 0.0;
+    let is_near =
+        |edge: [Vector; 2], ends: [Vector; 2]| ends.into_iter().any(|end| from_edge(end, edge) < MEET);
+    parts(one, other) && parts(other, one) || is_near(one, other) || is_near(other, one)
+}
+
+/// Does the polygon go around the point, once or more often?
+fn goes_around(points: &[Vector], point: Vector) -> bool {
+    let turns = edges(points).map(|[a, b]| {
+        let is_right = point[0] < a[0] + (point[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0]);
+        match (a[1] > point[1], b[1] > point[1]) {
+            (false, true) if is_right => 1,
+            (true, false) if is_right => -1,
+            _ => 0,
+        }
+    });
+    turns.sum::<i32>() != 0
 }
 
 #[cfg(test)]
@@ -302,7 +358,7 @@ mod tests {
             &program("X40. Y25.", "G42", POCKET),
             &expect![[r#"
                 3 | G42 D1 G1 X40. Y0. F300.
-                  | ^^^ warning[compensation-on-wrong-side] compensation to the outside of a contour that the tool comes to from its inside (`G42`)
+                  | ^^^ warning[compensation-on-wrong-side] compensation to the outside, but the tool comes from inside (`G42`)
             "#]],
         );
         check_rule(
@@ -311,7 +367,7 @@ mod tests {
             &program("X40. Y-25.", "G41", POCKET),
             &expect![[r#"
                 3 | G41 D1 G1 X40. Y0. F300.
-                  | ^^^ warning[compensation-on-wrong-side] compensation to the inside of a contour that the tool comes to from its outside (`G41`)
+                  | ^^^ warning[compensation-on-wrong-side] compensation to the inside, but the tool comes from outside (`G41`)
             "#]],
         );
         check_rule(&RULE, "fanuc-mill", &program("X40. Y-25.", "G42", POCKET), &expect![[""]]);
@@ -334,9 +390,40 @@ mod tests {
             &World::of_group("machine"),
             &expect![[r#"
                 4 | G42 D1 G1 X0. Y-10. F300.
-                  | ^^^ warning[compensation-on-wrong-side] compensation to the inside of a contour that the tool comes to from its outside (`G42`)
+                  | ^^^ warning[compensation-on-wrong-side] compensation to the inside, but the tool comes from outside (`G42`)
             "#]],
         );
+    }
+
+    #[test]
+    fn going_round_twice_and_over_the_start_is_going_round() {
+        let world = World::of_group("machine");
+        let quiet = |from: &str, contour: &str| {
+            let text = program(from, "T1 M6\nG41", contour);
+            check_rule_in(&RULE, "fanuc-mill", &text, &world, &expect![[""]]);
+        };
+        quiet("X0. Y0.", "X30. Y0. F300.\nG3 I-30.\nG3 I-30.\nG1 ");
+        let overlap = "X10. Y-10. F300.\nG3 X20. Y0. R10.\nG3 X20. Y0. I-20. J0.\nG3 X19.696 Y3.473 I-20. J0.\nG3 X8.112 Y11.585 R10.\nG1 ";
+        quiet("X10. Y0.", overlap);
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            &program("X40. Y25.", "G41", &format!("{POCKET}X70.\n{}", &POCKET[20..])),
+            &expect![[""]],
+        );
+    }
+
+    #[test]
+    fn a_slot_that_is_open_at_the_edge_is_no_closed_contour() {
+        for (from, contour) in [
+            ("X10. Y-20.", "X20. Y-10. F300.\nY100.\nX0.\nY-10.\n"),
+            ("X-10. Y0.", "X-5. Y-5. F300.\nX40.\nG3 X40. Y5. R5.\nG1 X-5.\n"),
+            ("X20. Y-30.", "X0. Y-10. F300.\nY60.\nX100.\nG0 Z50.\n"),
+        ] {
+            for side in ["G41", "G42"] {
+                check_rule(&RULE, "fanuc-mill", &program(from, side, contour), &expect![[""]]);
+            }
+        }
     }
 
     #[test]
@@ -350,7 +437,7 @@ mod tests {
             &program("X40. Y-25.", "G41", &below),
             &expect![[r#"
                 3 | G41 D1 G1 X40. Y0. F300.
-                  | ^^^ warning[compensation-on-wrong-side] compensation to the inside of a contour that the tool comes to from its outside (`G41`)
+                  | ^^^ warning[compensation-on-wrong-side] compensation to the inside, but the tool comes from outside (`G41`)
             "#]],
         );
     }
@@ -381,7 +468,7 @@ mod tests {
             &world,
             &expect![[r#"
                 4 | G41 D1 G1 X30. Y0. F300.
-                  | ^^^ warning[compensation-on-wrong-side] compensation to the outside of a contour that the tool comes to from its inside (`G41`)
+                  | ^^^ warning[compensation-on-wrong-side] compensation to the outside, but the tool comes from inside (`G41`)
             "#]],
         );
     }

@@ -17,8 +17,8 @@ declare_rule! {
     /// same tool taps. Or it taps a pattern of holes that is drilled in another place: turned, mirrored or shifted.
     ///
     /// A hole counts as drilled if a cycle, a straight move down, or a circle around its centre went at least half as
-    /// deep there. A program that drills none of the holes is quiet: they are prepared. One that drills fewer than half of them
-    /// is reported once.
+    /// deep there. A program that drills none of the holes is quiet: they are prepared. A program that drills the first of them
+    /// and fewer than half is reported once.
     ///
     /// A tap that goes deeper than a cycle has drilled there, by more than four pitches, is reported too. With less, it may
     /// run out of a through hole.
@@ -300,8 +300,9 @@ impl TappedHoleNotDrilled {
             return;
         }
         let is_displaced = found <= 1 && self.is_displaced(tool);
-        let is_drilled = |tap: &Tap| tap.tool == tool && tap.is_drilled;
-        if is_displaced || self.taps.iter().any(is_drilled) {
+        // A drill that stops after the first hole; of others, some may be prepared.
+        let begins_drilled = self.taps.iter().find(|tap| tap.tool == tool).is_some_and(|tap| tap.is_drilled);
+        if is_displaced || begins_drilled {
             let note = if is_displaced {
                 format!("a tool drills the same pattern of {count} holes in another place")
             } else {

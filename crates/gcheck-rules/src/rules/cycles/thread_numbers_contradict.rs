@@ -246,7 +246,7 @@ fn height_for_lead(cx: &PathCx<'_>, height: &Word, lead: &Word, report: &mut Rep
             cx.word_range(|word| word.letter == letter),
             format!("a thread {} high for a lead of {}", cx.shown(Mm(height_mm)), cx.shown(Mm(lead_mm))),
         )
-        .label("the passes go deeper than the thread is long")
+        .label("the thread is higher than its lead")
         .also(cx.word_range(|word| word.letter == lead_letter), "the lead")
         .note("a thread of 60 degrees with one start is about 0.6 times as high as its lead is long")
         .help("check the point and the digits of both words"),

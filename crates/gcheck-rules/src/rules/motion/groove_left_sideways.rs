@@ -4,6 +4,7 @@ use gcheck_engine::{At, Event, Fact, TravelKind};
 use gcheck_geometry::Mm;
 
 use crate::declare::declare_rule;
+use crate::facts::tool_words::ToolWords;
 use crate::facts::turned::{SLACK, Spot, Turned, UNDER, end, is_level, is_one, is_other_part};
 use crate::facts::turning::is_turned;
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
@@ -131,8 +132,12 @@ impl GrooveLeftSideways {
     /// The groove that a feed move makes: straight in X, into what was turned before, below the face of the part.
     fn plunge(&self, cx: &PathCx<'_>, from: Spot, to: Spot) -> Option<Groove> {
         let wall = self.turned.outside_along(to[1])?;
-        let is_groove = is_level(from, to) && to[1] < -UNDER && to[0] > SLACK && to[0] < wall - UNDER;
-        is_groove.then(|| Groove {
+        // Begun inside the wall it is the way out of a bore, or the end of a shoulder.
+        let is_from_outside = from[0] > wall - SLACK;
+        let is_deep = to[0] > SLACK && to[0] < wall - UNDER;
+        let is_groove = is_level(from, to) && to[1] < -UNDER && is_from_outside && is_deep;
+        let is_widened = self.turned.is_opened_beside(to[1], to[0]);
+        (is_groove && !is_widened && !ToolWords::of(cx).bores()).then(|| Groove {
             tool: cx.definitions().set_by(Fact::Tool),
             bottom: to,
             at: cx.origin().at,
@@ -152,7 +157,11 @@ impl GrooveLeftSideways {
         let walls = [PLAY, WALL].map(|way| self.turned.outside_along(from[1] + way * along.signum()));
         let [Some(wall), Some(beyond)] = walls else { return };
         let radius = from[0] + (to[0] - from[0]) * PLAY / along.abs();
-        if radius > wall - UNDER || from[0] > beyond - UNDER {
+        let is_open = |way: f64| {
+            let left = self.turned.least_outside(from[1] + way * along.signum());
+            left.is_some_and(|left| left < from[0] + UNDER)
+        };
+        if radius > wall - UNDER || from[0] > beyond - UNDER || is_open(PLAY) || is_open(WALL) {
             return;
         }
         let is_diameter = cx.state().is_diameter(cx.model) == Some(true);
@@ -206,6 +215,19 @@ mod tests {
             "#]],
         );
         check_rule(&RULE, "fanuc-lathe", &program("G1 X26. F.08", "X40. Z-28."), &expect![[""]]);
+    }
+
+    #[test]
+    fn a_way_out_of_a_bore_is_no_plunge() {
+        let turned = "G21 G18 G99 T0101\nG97 S800 M3\nG0 X44. Z2.\nX40.\nG1 Z-30. F.2\nG0 X44.\nZ50.\n";
+        let bored = "T0505 (DRILL 16)\nG0 X0. Z2.\nG1 Z-28. F.1\nG0 Z50.\nX100.\nT0202\nG0 X20. Z2.\nG1 Z-22. F.1\nX19.\nG0 Z50.\nM30\n";
+        check_rule(&RULE, "fanuc-lathe", &format!("{turned}{bored}"), &expect![[""]]);
+    }
+
+    #[test]
+    fn in_a_wide_groove_the_tool_may_move() {
+        let wide = "G1 X26. F.08\nG0 X42.\nZ-32.5\nG1 X26. F.08\nG0 X42.\nZ-35.\nG1 X26. F.08";
+        check_rule(&RULE, "fanuc-lathe", &program(wide, "G0 Z-34."), &expect![[""]]);
     }
 
     #[test]

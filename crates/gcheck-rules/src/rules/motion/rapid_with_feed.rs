@@ -74,7 +74,9 @@ impl PathRule for RapidWithFeed {
         // An unknown height is NaN, and not below anything. A move up and out of the part is not a cut.
         let is_below = to < -LEVEL && to < from + LEVEL;
         // There each cut has a feed of its own, and nothing that follows takes it over.
-        let is_inverse = cx.state().feed_mode(cx.model) == Some(FeedMode::InverseTime);
+        // A block that says `G0` means it.
+        let is_inverse = cx.state().feed_mode(cx.model) == Some(FeedMode::InverseTime)
+            && !cx.has_effect(|effect| effect == Effect::Rapid);
         let is_still = [Axis::X, Axis::Y, Axis::Z].iter().all(|axis| stays(travel, *axis));
         if !cx.is_mill()
             || !is_plain
@@ -92,7 +94,7 @@ impl PathRule for RapidWithFeed {
             let name = cx.code_name(Role::FeedMode).unwrap_or_default();
             (
                 format!("rapid move has an inverse time feed (`F` under `{name}`)"),
-                "has no effect at rapid, and counts for no other block".to_owned(),
+                "has no effect at rapid, and the control does not keep it for the next block".to_owned(),
             )
         } else {
             let depth = cx.shown(Mm(-to));
@@ -101,11 +103,11 @@ impl PathRule for RapidWithFeed {
                 format!("has no effect at rapid, {depth} below the zero of the part"),
             )
         };
-        report.add(
-            cx.finding(&META, cx.letter_range('F'), message)
-                .label(label)
-                .help("write `G1` if the block should cut; else give the feed with the first cut"),
-        );
+        report.add(cx.finding(&META, cx.letter_range('F'), message).label(label).help(if is_inverse {
+            "write `G1` if the block should cut; else leave the feed out"
+        } else {
+            "write `G1` if the block should cut; else give the feed with the first cut"
+        }));
     }
 }
 

@@ -1,6 +1,6 @@
 //! A thread that runs on into a larger diameter.
 
-use gcheck_engine::{At, Axis, Event, TravelKind};
+use gcheck_engine::{At, Axis, Event, Fact, TravelKind};
 use gcheck_geometry::Mm;
 
 use crate::declare::declare_rule;
@@ -64,6 +64,7 @@ struct ThreadIntoShoulder {
     turned: Turned,
     /// The block under way, and the radius at which it began.
     block: Option<(At, f64)>,
+    /// Where the tool was put in that was reported last.
     told: Option<At>,
 }
 
@@ -95,7 +96,8 @@ impl PathRule for ThreadIntoShoulder {
         match event {
             // A thread leaves the diameters as they were turned.
             Event::Travel(travel) if travel.kind == TravelKind::Thread => {
-                if travel.expanded && self.turned.knows(cx) && self.told != Some(at) {
+                let tool = cx.definitions().set_by(Fact::Tool);
+                if travel.expanded && self.turned.knows(cx) && (self.told.is_none() || self.told != tool) {
                     let ends = [&travel.from, &travel.to].map(|end| [end.raw(Axis::X), end.raw(Axis::Z)]);
                     self.judge(cx, ends, report);
                 }
@@ -123,13 +125,18 @@ impl ThreadIntoShoulder {
         };
         // How much the part is larger than the pass.
         let above = |[radius, z]: [f64; 2]| Some(self.turned.least_outside(z)? - radius);
-        let mut heights: Vec<f64> = (0..=PLACES).filter_map(|step| above(place(step))).collect();
+        let heights = (0..=PLACES).filter_map(|step| above(place(step)));
+        // What lies below the pass is a bore, a pilot, a groove.
+        let mut heights: Vec<f64> = heights.filter(|height| *height > 0.0).collect();
         heights.sort_by(f64::total_cmp);
-        // A chamfer before the thread and a groove at its end are short beside it.
+        // A chamfer before the thread is short beside it.
         let Some(crest) = heights.get(heights.len() / 2) else { return };
-        let is_shoulder = |spot: &[f64; 2]| above(*spot).is_some_and(|height| height > crest + UNDER);
+        // Where the cycle begins, the tool is outside of what it cuts.
+        let is_shoulder = |spot: &[f64; 2]| {
+            above(*spot).is_some_and(|height| height > crest + UNDER && spot[0] + height > begins)
+        };
         let Some([radius, z]) = (0..=PLACES).map(place).find(is_shoulder) else { return };
-        self.told = Some(cx.origin().at);
+        self.told = cx.definitions().set_by(Fact::Tool).or(Some(cx.origin().at));
         let is_diameter = cx.state().is_diameter(cx.model) == Some(true);
         let shown = |radius: f64| cx.shown(Mm(if is_diameter { radius * 2.0 } else { radius }));
         let part = self.turned.least_outside(z).unwrap_or(radius);
@@ -161,6 +168,27 @@ mod tests {
         format!(
             "G21 G18 G99 T0101\nG97 S800 M3\nG0 X50. Z2.\nX26.\nG1 Z0. F.2\nX30. Z-2.\nZ-30.\nX40.\nZ-60.\nG0 X60. Z50.\n{groove}T0404\nG0 X34. Z5.\n{cycle}\nG0 X60. Z50.\nM30\n"
         )
+    }
+
+    #[test]
+    fn one_thread_is_one_finding() {
+        check_rule(
+            &RULE,
+            "fanuc-lathe",
+            &shaft("", "G92 X29. Z-37. F1.5\nX28.6\nX28.3"),
+            &expect![[r#"
+                13 | G92 X29. Z-37. F1.5
+                   | ^^^^^^^^^^^^^^^^^^^ warning[thread-into-shoulder] the thread goes on into a larger diameter of the part
+            "#]],
+        );
+    }
+
+    #[test]
+    fn below_the_pass_is_no_crest() {
+        let bore = "T0202\nG0 X18. Z2.\nG1 Z-22.\nX17.\nG0 Z50.\n";
+        check_rule(&RULE, "fanuc-lathe", &shaft(bore, "G92 X29. Z-27. F1.5"), &expect![[""]]);
+        let dog = "G21 G18 G99 T0101\nG97 S800 M3\nG0 X10. Z2.\nG1 Z-20. F.2\nX20.\nZ-36.\nG0 X50. Z50.\nT0404\nG0 X24. Z3.\nG92 X19.2 Z-34. F2.\nG0 X60. Z50.\nM30\n";
+        check_rule(&RULE, "fanuc-lathe", dog, &expect![[""]]);
     }
 
     #[test]

@@ -1,22 +1,22 @@
 //! A program that ends with the tool below the zero of the part.
 
 use gcheck_controls::Letter;
-use gcheck_engine::{Axis, Event, Fact};
+use gcheck_engine::{At, Axis, Event, Fact, Spindle};
 use gcheck_geometry::{Mm, Plane};
 
 use crate::declare::declare_rule;
 use crate::facts::boundary::{Boundary, boundary, boundary_range};
 use crate::facts::cuts::SURFACE;
-use crate::{PathCx, PathRule, Report, Run, Watch};
+use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
 use crate::{Remembers, remembers};
 
 declare_rule! {
     /// The program ends while the tool that cut last is still below the zero of the part, and below the heights of its
-    /// rapid moves.
+    /// rapid moves. It is a warning where the tool went down there at rapid with the spindle stopped.
     ///
     /// ## Why it matters
     /// The spindle stops in the part, and the first move of the next run drags the tool through it. The last retract is
-    /// missing, or its height has a wrong minus sign.
+    /// missing, its height has a wrong minus sign, or a code for machine coordinates (`G53`) is missing.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -42,7 +42,7 @@ declare_rule! {
     /// ```
     rule "tool-down-at-end" in "motion" {
         summary: "program ends with the tool below the zero of the part",
-        severity: Info,
+        severity: Warning,
         tier: Path,
         since: "0.1.0",
         run: Run::Path {
@@ -58,9 +58,11 @@ struct ToolDownAtEnd {
     has_cut: bool,
     /// The highest level of its rapid moves: if the zero is far above the part, all moves are below it.
     highest: Option<f64>,
+    /// The block that brought it down at rapid while the spindle was stopped.
+    lowered: Option<At>,
 }
 
-remembers!(ToolDownAtEnd);
+remembers!(ToolDownAtEnd: lowered);
 
 /// The tool counts as down if it is deeper than the highest rapid move by more than this: millimetres.
 const LIFT: f64 = 0.5;
@@ -71,14 +73,21 @@ impl PathRule for ToolDownAtEnd {
     }
 
     fn cut(&mut self, _: &PathCx<'_>, _: &Event, _: &mut Report<'_>) {
-        self.has_cut = true;
+        (self.has_cut, self.lowered) = (true, None);
     }
 
-    fn rapid(&mut self, _: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
+    fn rapid(&mut self, cx: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
         if let Event::Travel(travel) = event
             && let Some(z) = travel.to.get(Axis::Z)
         {
             self.highest = Some(self.highest.map_or(z, |highest| highest.max(z)));
+            let goes_down = travel.from.get(Axis::Z).is_some_and(|from| from > SURFACE && z < -LIFT);
+            let is_stopped = cx.state().spindle() == Some(Spindle::Stopped) && self.has_cut;
+            if goes_down && is_stopped && cx.is_on_every_path() {
+                self.lowered = Some(cx.origin().at);
+            } else if z > SURFACE {
+                self.lowered = None;
+            }
         }
     }
 
@@ -104,15 +113,20 @@ impl ToolDownAtEnd {
         let is_down = z < SURFACE && z < highest - LIFT;
         if is_mill && works && is_down && !cx.origin().letters.contains(Letter::of('Z')) {
             let depth = cx.shown(Mm(-z));
-            report.add(
-                cx.finding(
+            let finding = cx
+                .finding(
                     &META,
                     boundary_range(cx, Boundary::ProgramEnd),
                     "the program ends with the tool below the zero of the part",
                 )
                 .label(format!("the tool is still {depth} below it"))
-                .help("retract the tool from the part before the end"),
-            );
+                .help("retract the tool from the part before the end");
+            report.add(match self.lowered.and_then(|at| cx.range_of(at)) {
+                Some(range) => {
+                    finding.also(range, "the tool goes down here at rapid, with the spindle stopped")
+                }
+                None => finding.at_most(Severity::Info),
+            });
         }
     }
 }
@@ -135,6 +149,23 @@ mod tests {
                   | ^^ info[tool-down-at-end] the program ends with the tool below the zero of the part
             "#]],
         );
+    }
+
+    #[test]
+    fn down_at_rapid_with_the_spindle_stopped() {
+        let program = |way: &str| {
+            format!("G21 G90 G54 S900 M3\nG0 X0 Y0 Z5\nG1 Z-2 F90\nX9\nG0 Z5\nM5\n{way}\nG0 X0 Y0\nM2\n")
+        };
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            &program("G0 Z-5"),
+            &expect![[r#"
+                9 | M2
+                  | ^^ warning[tool-down-at-end] the program ends with the tool below the zero of the part
+            "#]],
+        );
+        check_rule(&RULE, "linuxcnc", &program("G53 G0 Z-5"), &expect![[""]]);
     }
 
     #[test]

@@ -70,7 +70,9 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
         if !known {
             told.insert(label);
             let same = places.get(label).map_or(&[][..], Vec::as_slice);
-            let near = subs.iter().filter_map(|sub| near(label, sub)).min();
+            // Thousands of missing names are not slips.
+            let is_few = told.len() <= MOST_NAMES;
+            let near = subs.iter().filter(|_| is_few).filter_map(|sub| near(label, sub)).min();
             report.add(cx.if_run(finding(call, label, near), same));
         }
     }
@@ -101,11 +103,21 @@ fn finding(call: &Call, label: &OLabel, near: Option<&str>) -> Finding {
 fn near<'s>(called: &OLabel, sub: &'s OLabel) -> Option<&'s str> {
     const SHORT: usize = 4;
     let (OLabel::Name(called), OLabel::Name(sub)) = (called, sub) else { return None };
-    let is_near = called.len().min(sub.len()) >= SHORT && strsim::levenshtein(called, sub) == 1;
-    // `tap1` and `tap2` are two subroutines.
+    let is_near = called.len().min(sub.len()) >= SHORT
+        && called.len().abs_diff(sub.len()) <= 1
+        && strsim::levenshtein(called, sub) == 1;
+    // `tap1` and `tap2`, `probe_x` and `probe_y` are two subroutines.
     let without_digits = |name: &str| name.replace(|c: char| c.is_ascii_digit(), "");
-    (is_near && without_digits(called) != without_digits(sub)).then_some(sub)
+    let is_counted = without_digits(called) == without_digits(sub);
+    let differs = called.chars().zip(sub.chars()).position(|(one, other)| one != other);
+    let ends =
+        |name: &str| differs.is_some_and(|at| matches!(name.chars().nth(at + 1), None | Some('_' | '-')));
+    let is_lettered = called.len() == sub.len() && ends(called);
+    (is_near && !is_counted && !is_lettered).then_some(sub)
 }
+
+/// Missing names that are compared with those of the file.
+const MOST_NAMES: usize = 100;
 
 #[cfg(test)]
 mod tests {
@@ -139,6 +151,16 @@ mod tests {
             &expect![[r#"
                 3 | o<holes> call
                   | ^^^^^^^^^^^^^ warning[o-word-subroutine-missing] called subroutine `o<holes>` is missing
+            "#]],
+        );
+        let lettered = "o<probe_x> sub\no<probe_x> endsub\no<probe_y> call\nM2\n";
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            lettered,
+            &expect![[r#"
+                3 | o<probe_y> call
+                  | ^^^^^^^^^^^^^^^ info[o-word-subroutine-missing] called subroutine `o<probe_y>` is missing
             "#]],
         );
         check_rule(

@@ -1,7 +1,7 @@
 //! A cut at a speed that was given while `S` meant something else.
 
 use gcheck_controls::{CodeIx, Effect, Letter};
-use gcheck_engine::{At, Event, Fact, Role, Spindle};
+use gcheck_engine::{At, Event, Fact, Role, Spindle, Units};
 
 use crate::declare::declare_rule;
 use crate::facts::boundary::is_before;
@@ -11,8 +11,8 @@ use crate::{Remembers, remembers};
 
 declare_rule! {
     /// The program changes between surface speed and turns per minute (`G96`, `G97`), cuts, and gives no `S` in between. Or a
-    /// tool gives its speed without `G96` or `G97`, the surface speed of the tool before is still on, and the number is at least
-    /// twice as large as the one before.
+    /// tool gives its speed without `G96` or `G97`, the surface speed of the tool before is still on, and the number is twice as
+    /// large as the one before, and more than a surface speed is.
     ///
     /// ## Why it matters
     /// The number gets another meaning: 1000 turns per minute become 1000 metres or feet per minute, and near the centre the
@@ -73,7 +73,7 @@ struct SpeedOfAnotherMode {
     given: Option<CodeIx>,
     /// The modes under which the program gave a speed on the way here.
     known: Vec<CodeIx>,
-    /// The last speed, as it was written; NaN for a computed one.
+    /// The last speed, as it was written; `None` after a computed one.
     last: Option<f64>,
     /// The change of mode that was reported last.
     told: Option<At>,
@@ -95,9 +95,16 @@ impl PathRule for SpeedOfAnotherMode {
         if is_limit || !cx.has_word(|word| word.letter == Letter::of('S')) {
             return;
         }
-        let speed = cx.known_number('S').unwrap_or(f64::NAN);
-        let last = self.last.replace(speed);
-        if last.is_some_and(|last| speed >= last * MUCH) {
+        let speed = cx.known_number('S');
+        let last = std::mem::replace(&mut self.last, speed);
+        let most = match cx.state().units(cx.model) {
+            Some(Units::Inch) => MOST_FEET,
+            _ => MOST_METRES,
+        };
+        if let (Some(speed), Some(last)) = (speed, last)
+            && speed >= last * MUCH
+            && speed > most
+        {
             inherited(cx, report);
         }
         self.at = Some(cx.origin().at);
@@ -141,8 +148,11 @@ impl PathRule for SpeedOfAnotherMode {
     }
 }
 
-/// So many times as large a number is not one for another tool of the same mode.
+/// So many times as large a number is not one for another tool of the same mode, where no tool cuts so fast.
 const MUCH: f64 = 2.0;
+/// Surface speeds above which numbers are mostly turns: metres, and feet, a minute.
+const MOST_METRES: f64 = 500.0;
+const MOST_FEET: f64 = 1_600.0;
 
 /// A tool gives a much larger speed than the one before, without a mode, and surface speed is still on.
 fn inherited(cx: &PathCx<'_>, report: &mut Report<'_>) {
@@ -163,7 +173,7 @@ fn inherited(cx: &PathCx<'_>, report: &mut Report<'_>) {
         .finding(
             &META,
             cx.letter_range('S'),
-            format!("the spindle speed is given under the mode of the tool before (`{name}`)"),
+            format!("the speed is given under the mode of the tool before (`{name}`)"),
         )
         .label(format!(
             "with `{name}` the number means {}",
@@ -222,10 +232,10 @@ mod tests {
             &program("T0303\nS800 M3"),
             &expect![[r#"
                 6 | S800 M3
-                  | ^^^^ warning[speed-of-another-mode] the spindle speed is given under the mode of the tool before (`G96`)
+                  | ^^^^ warning[speed-of-another-mode] the speed is given under the mode of the tool before (`G96`)
             "#]],
         );
-        for second in ["T0303\nS220 M3", "T0303\nG97 S800 M3", "T0303\nG96 S400", "S400"] {
+        for second in ["T0303\nS220 M3", "T0303\nS400 M3", "T0303\nG97 S800 M3", "T0303\nG96 S400", "S400"] {
             check_rule(&RULE, "fanuc-lathe", &program(second), &expect![[""]]);
         }
     }

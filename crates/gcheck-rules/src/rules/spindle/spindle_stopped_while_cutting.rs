@@ -164,8 +164,7 @@ impl PathRule for SpindleStoppedWhileCutting {
         if self.told.contains(&stopped_by) || !is_ever_started && !self.told.is_empty() {
             return;
         }
-        // A speed after the probing is for what is cut next.
-        let probes = !gives_speed_since(cx, touches_work);
+        let probes = !gives_speed_after(cx, touches_work);
         if probes && is_near(cx, touches_work) || feeds_bar(cx) || ToolWords::of(cx).needs_no_spindle() {
             return;
         }
@@ -242,8 +241,8 @@ impl PathRule for SpindleStoppedWhileCutting {
     }
 }
 
-/// Was the speed given in one of the blocks before, and none of these codes after it?
-fn gives_speed_since(cx: &PathCx<'_>, is: impl Fn(Effect) -> bool) -> bool {
+/// Did the tool in the spindle touch the work, and was a speed given after that, which is for what is cut next?
+fn gives_speed_after(cx: &PathCx<'_>, touches: impl Fn(Effect) -> bool) -> bool {
     let here = cx.origin().at;
     let given = cx.definitions().set_by(Fact::Speed).filter(|at| at.file == here.file);
     let Some(given) = given.filter(|at| here.block.checked_sub(at.block).is_some_and(|blocks| blocks <= FEW))
@@ -253,10 +252,12 @@ fn gives_speed_since(cx: &PathCx<'_>, is: impl Fn(Effect) -> bool) -> bool {
     let has = |block: u32| {
         let place = cx.place_of(At { block, ..here });
         place.is_some_and(|place| {
-            place.table.words(place.block()).iter().any(|word| is(cx.model.effect(word.code)))
+            place.table.words(place.block()).iter().any(|word| touches(cx.model.effect(word.code)))
         })
     };
-    !(given.block..=here.block).any(has)
+    let changed = cx.definitions().set_by(Fact::Tool).filter(|at| at.file == here.file);
+    let first = changed.map_or(0, |at| at.block).max(given.block.saturating_sub(FEW));
+    (first..given.block).any(has) && !(given.block..=here.block.saturating_add(SOON)).any(has)
 }
 
 fn help(cx: &PathCx<'_>, live: LiveTool, needs_turns: bool) -> String {
@@ -272,8 +273,10 @@ fn help(cx: &PathCx<'_>, live: LiveTool, needs_turns: bool) -> String {
     format!("{start}{mode}; the spindle holds the part as the C axis, so `M3` does not help")
 }
 
-/// Blocks between a speed and the cut that it is for.
+/// Blocks between a touch and a speed, and between a speed and the cut that it is for.
 const FEW: u32 = 50;
+/// Blocks after a move in which a touch shows that it was the way there.
+const SOON: u32 = 3;
 /// Blocks beside the move in which a chuck that opens or closes shows that bar is fed.
 const BESIDE: u32 = 4;
 

@@ -1,7 +1,7 @@
 //! One tool that does the work of two kinds of tools.
 
 use gcheck_controls::{Effect, Machine};
-use gcheck_engine::{Abstract, At, Axis, Domain, Event, Position, Travel, TravelKind};
+use gcheck_engine::{Abstract, At, Axis, Domain, Event, Position, Spindle, Stop, Travel, TravelKind};
 
 use crate::declare::declare_rule;
 use crate::facts::cycles::is_drilling;
@@ -13,8 +13,8 @@ use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// A tool does work that no tool does beside its other work in the program: it taps and does anything else, it cuts a
-    /// thread on a lathe and also turns, drills or parts off, or it drills along the centre of a lathe after it has turned.
+    /// A tool does work that is seldom one tool's: it taps and also drills or mills, it cuts a thread on a lathe and also drills
+    /// or parts off, or it drills along the centre of a lathe after it has turned or parted off.
     ///
     /// ## Why it matters
     /// The number of the tool is wrong in one of the places, or a tool change is missing: an insert for turning is pushed
@@ -74,7 +74,7 @@ struct ToolDoesUnlikeWork {
     /// The first work of each kind that each tool does.
     works: Vec<Work>,
     /// Tools that were reported.
-    told: Vec<u32>,
+    told: Vec<Tool>,
     /// X as a radius, and Z, where the last move ends as it is programmed: beside a nose of unknown size nothing else is known.
     here: Option<[f64; 2]>,
 }
@@ -83,12 +83,15 @@ remembers!(ToolDoesUnlikeWork: works);
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Work {
-    tool: u32,
+    tool: Tool,
     kind: Kind,
     at: At,
 }
 
 remembers!(Work: at);
+
+/// A tool by its number; on a turret by its offset, too, because a holder may have two.
+type Tool = [u32; 2];
 
 /// What a move does to the part.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -123,15 +126,18 @@ impl PathRule for ToolDoesUnlikeWork {
     }
 
     fn changed(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
-        if matches!(event, Event::RigidTap { .. }) {
-            self.does(cx, Kind::Tap, report);
+        match event {
+            Event::RigidTap { .. } => self.does(cx, Kind::Tap, report),
+            // Somebody may change the tool by hand.
+            Event::Stop(Stop::Program | Stop::Message(_)) => self.works.clear(),
+            _ => {}
         }
     }
 
     fn moved(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
         let from = match event {
-            Event::Travel(travel) => self.here.replace(spot(&travel.programmed)),
-            Event::Arc(arc) => self.here.replace(spot(&arc.programmed)),
+            Event::Travel(travel) => std::mem::replace(&mut self.here, known(&travel.programmed)),
+            Event::Arc(arc) => std::mem::replace(&mut self.here, known(&arc.programmed)),
             _ => self.here.take(),
         };
         let from = from.unwrap_or([f64::NAN; 2]);
@@ -144,9 +150,12 @@ impl PathRule for ToolDoesUnlikeWork {
 
 impl ToolDoesUnlikeWork {
     fn does(&mut self, cx: &PathCx<'_>, kind: Kind, report: &mut Report<'_>) {
-        let Some(tool) = Abstract::known(cx.state().tool()).and_then(whole) else { return };
+        let Some(number) = Abstract::known(cx.state().tool()).and_then(whole) else { return };
+        let by_t = cx.model.semantics().tools.offset_in_t;
+        let offset = Abstract::known(cx.state().h()).and_then(whole).filter(|_| by_t);
+        let tool = [number, offset.unwrap_or(0)];
         let is_known = |work: &Work| work.tool == tool && work.kind == kind;
-        if tool == 0 || self.works.iter().any(is_known) || self.told.contains(&tool) {
+        if number == 0 || self.works.iter().any(is_known) || self.told.contains(&tool) {
             return;
         }
         // Of several paths, another one may have changed the tool.
@@ -160,11 +169,11 @@ impl ToolDoesUnlikeWork {
                 .finding(
                     &META,
                     cx.range(),
-                    format!("tool {tool} {}, and {} before", verb(kind), verb(before.kind)),
+                    format!("tool {number} {}, but {} before", verb(kind, false), verb(before.kind, true)),
                 )
-                .label(format!("no tool does both: it {} here", verb(kind)));
+                .label("seldom the work of one tool");
             if let Some(range) = cx.range_of(before.at) {
-                finding = finding.also(range, format!("tool {tool} {} here", verb(before.kind)));
+                finding = finding.also(range, format!("tool {number} {} here", verb(before.kind, true)));
             }
             report.add(
                 finding.help("check the tool's number, and whether a tool change is missing between them"),
@@ -178,18 +187,26 @@ impl ToolDoesUnlikeWork {
 /// Is the later work none of a tool that has done the earlier?
 fn are_unlike(before: Kind, now: Kind) -> bool {
     let is_either = |kind: Kind| before == kind || now == kind;
-    before != now && (is_either(Kind::Tap) || is_either(Kind::Thread))
+    // A point that cuts threads may also turn a relief.
+    let is_turned = is_either(Kind::Turn);
+    before != now && (is_either(Kind::Tap) || is_either(Kind::Thread) && !is_turned)
         || now == Kind::Drill && matches!(before, Kind::Turn | Kind::PartOff)
 }
 
-const fn verb(kind: Kind) -> &'static str {
-    match kind {
-        Kind::Tap => "taps",
-        Kind::Thread => "cuts a thread",
-        Kind::Drill => "drills",
-        Kind::Turn => "turns",
-        Kind::PartOff => "parts off",
-        Kind::Mill => "mills",
+const fn verb(kind: Kind, is_past: bool) -> &'static str {
+    match (kind, is_past) {
+        (Kind::Tap, false) => "taps",
+        (Kind::Tap, true) => "tapped",
+        (Kind::Thread, false) => "cuts a thread",
+        (Kind::Thread, true) => "cut a thread",
+        (Kind::Drill, false) => "drills",
+        (Kind::Drill, true) => "drilled",
+        (Kind::Turn, false) => "turns",
+        (Kind::Turn, true) => "turned",
+        (Kind::PartOff, false) => "parts off",
+        (Kind::PartOff, true) => "parted off",
+        (Kind::Mill, false) => "mills",
+        (Kind::Mill, true) => "milled",
     }
 }
 
@@ -230,8 +247,14 @@ fn spot(position: &Position) -> [f64; 2] {
     [position.raw(Axis::X), position.raw(Axis::Z)]
 }
 
+/// The same, if it is known.
+fn known(position: &Position) -> Option<[f64; 2]> {
+    Some(spot(position)).filter(|spot| spot.iter().all(|number| number.is_finite()))
+}
+
 fn on_a_lathe(cx: &PathCx<'_>, event: &Event, [x0, z0]: [f64; 2]) -> Option<Kind> {
-    if !turns_the_part(cx) {
+    // With the spindle stopped a tool pushes the bar, or is its stop.
+    if !turns_the_part(cx) || cx.state().spindle() == Some(Spindle::Stopped) {
         return None;
     }
     if let Some(kind) = by_cycle(cx, event) {
@@ -280,7 +303,7 @@ mod tests {
             &lathe(THREADS, "", PARTS),
             &expect![[r#"
                 9 | G1 X0. F.1
-                  | ^^^^^^^^^^ warning[tool-does-unlike-work] tool 5 parts off, and cuts a thread before
+                  | ^^^^^^^^^^ warning[tool-does-unlike-work] tool 5 parts off, but cut a thread before
             "#]],
         );
         check_rule(&RULE, "fanuc-lathe", &lathe(THREADS, "T0606", PARTS), &expect![[""]]);
@@ -294,11 +317,19 @@ mod tests {
             &lathe(TURNS, "", DRILLS),
             &expect![[r#"
                 8 | G1 Z-25. F.1
-                  | ^^^^^^^^^^^^ warning[tool-does-unlike-work] tool 5 drills, and turns before
+                  | ^^^^^^^^^^^^ warning[tool-does-unlike-work] tool 5 drills, but turned before
             "#]],
         );
         check_rule(&RULE, "fanuc-lathe", &lathe(DRILLS, "", TURNS), &expect![[""]]);
+        check_rule(&RULE, "fanuc-lathe", &lathe(TURNS, "M5", DRILLS), &expect![[""]]);
         check_rule(&RULE, "fanuc-lathe", &lathe(TURNS, "", PARTS), &expect![[""]]);
+    }
+
+    #[test]
+    fn two_tools_in_one_holder_and_a_change_by_hand() {
+        let second = format!("T0515\n{DRILLS}");
+        check_rule(&RULE, "fanuc-lathe", &lathe(TURNS, "", &second), &expect![[""]]);
+        check_rule(&RULE, "fanuc-lathe", &lathe(TURNS, "M0", DRILLS), &expect![[""]]);
     }
 
     #[test]
@@ -314,7 +345,7 @@ mod tests {
             &mill("G84"),
             &expect![[r#"
                 6 | G81 X9. Z-9. R2. F90.
-                  | ^^^^^^^^^^^^^^^^^^^^^ warning[tool-does-unlike-work] tool 3 drills, and taps before
+                  | ^^^^^^^^^^^^^^^^^^^^^ warning[tool-does-unlike-work] tool 3 drills, but tapped before
             "#]],
         );
         check_rule(&RULE, "haas-mill", &mill("G82 P0.5"), &expect![[""]]);
