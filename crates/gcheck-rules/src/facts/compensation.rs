@@ -20,6 +20,15 @@ pub(crate) fn is_on(effect: Effect) -> bool {
     )
 }
 
+/// Is the cutter left of the path? `None` while compensation is off, or not known, or along vectors.
+pub(crate) fn is_left(cx: &PathCx<'_>) -> Option<bool> {
+    match cx.state().effect(Role::Compensation, cx.model)? {
+        Effect::CompensationLeft | Effect::CompensationLeftByDiameter => Some(true),
+        Effect::CompensationRight | Effect::CompensationRightByDiameter => Some(false),
+        _ => None,
+    }
+}
+
 /// A finding about compensation that is, or may be, still on at a place.
 pub(crate) fn left_on_finding(
     cx: &PathCx<'_>,

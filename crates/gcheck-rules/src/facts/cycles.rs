@@ -34,7 +34,12 @@ pub(crate) fn is_drilling(effect: Effect) -> bool {
     )
 }
 
-/// Is such a cycle in effect?
+/// Is it a cycle that taps?
+pub(crate) fn is_tapping(effect: Effect) -> bool {
+    matches!(effect, Effect::CycleTap | Effect::CycleLeftTap)
+}
+
+/// Is a cycle in effect that drills into the full?
 pub(crate) fn drills_by_cycle(cx: &PathCx<'_>) -> bool {
     let cycle = cx.state().active_cycle(cx.model).filter(|code| code.is_some());
     cycle.is_some_and(|code| is_drilling(cx.model.effect(code)))

@@ -253,14 +253,10 @@ impl Turned {
         walls.max_by(|a, b| a.0.total_cmp(&b.0))
     }
 
-    /// The radius that the outside of the part has at this level after all cuts, as far as it was cut there.
-    pub(crate) fn least_outside(&self, z: f64) -> Option<f64> {
-        self.outside(z).map(|(radius, _)| radius).min_by(f64::total_cmp)
-    }
-
-    /// The cut that gave the outside this radius.
-    pub(crate) fn cut_that_left(&self, z: f64) -> Option<&Cut> {
-        self.outside(z).min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, cut)| cut)
+    /// The radius that the outside of the part has at this level after all cuts, as far as it was cut there, and the cut that
+    /// left it.
+    pub(crate) fn least_outside(&self, z: f64) -> Option<(f64, &Cut)> {
+        self.outside(z).min_by(|a, b| a.0.total_cmp(&b.0))
     }
 
     /// The radius to which the outside of the part was turned along Z at this level, whatever went into it across.
@@ -401,7 +397,7 @@ impl Cut {
 }
 
 /// X as a radius, and Z, of a position.
-fn spot(position: &Position) -> Spot {
+pub(crate) fn spot(position: &Position) -> Spot {
     [position.raw(Axis::X), position.raw(Axis::Z)]
 }
 

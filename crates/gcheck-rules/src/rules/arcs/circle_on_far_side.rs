@@ -3,9 +3,10 @@
 use std::ops::Range;
 
 use gcheck_controls::Effect;
-use gcheck_engine::{ArcMove, Axis, Event, Position, Role, TravelKind};
+use gcheck_engine::{ArcMove, Axis, Event, Position, TravelKind};
 
 use crate::declare::declare_rule;
+use crate::facts::compensation::is_left;
 use crate::facts::cuts::distance;
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 use crate::{Remembers, remembers};
@@ -127,17 +128,9 @@ fn comes_from_the_mirrored_centre(
     let is_full =
         arc.turns.abs() == 1 && distance([x, y], flat(&arc.programmed)) < NEAR && radius > NEAR * 10.0;
     // A boss around the zero of the part, or one that compensation goes around on its outside, may have such a way in.
-    let is_boss = distance(centre, [0.0; 2]) < NEAR || is_outside(cx, arc);
+    let is_boss =
+        distance(centre, [0.0; 2]) < NEAR || is_left(cx).is_some_and(|left| left != (arc.turns > 0));
     (is_full && !is_boss && distance([from_x, from_y], mirrored) < NEAR).then_some(from)
-}
-
-/// Does compensation keep the tool on the outside of the circle?
-fn is_outside(cx: &PathCx<'_>, arc: &ArcMove) -> bool {
-    match cx.state().effect(Role::Compensation, cx.model) {
-        Some(Effect::CompensationLeft | Effect::CompensationLeftByDiameter) => arc.turns < 0,
-        Some(Effect::CompensationRight | Effect::CompensationRightByDiameter) => arc.turns > 0,
-        _ => false,
-    }
 }
 
 /// Is it the same place across?

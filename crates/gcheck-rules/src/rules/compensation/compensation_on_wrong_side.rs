@@ -6,7 +6,7 @@ use gcheck_geometry::{Arc, ArcDirection, ArcTolerance, Mm, Plane};
 
 use crate::declare::declare_rule;
 use crate::facts::arcs::by_its_words;
-use crate::facts::compensation::is_on;
+use crate::facts::compensation::{is_left, is_on};
 use crate::facts::cuts::distance;
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 use crate::{Remembers, remembers};
@@ -122,7 +122,7 @@ impl PathRule for CompensationOnWrongSide {
         let from = self.at.take();
         let way = way(cx, event, from);
         self.at = end(event);
-        let side = side(cx);
+        let side = is_left(cx);
         let on = cx.definitions().set_by(Fact::Mode(Role::Compensation));
         let is_same = |contour: &Contour| Some(contour.on) == on && side == Some(contour.is_left);
         if !self.contour.as_ref().is_some_and(is_same)
@@ -251,15 +251,6 @@ fn end(event: &Event) -> Option<Vector> {
         _ => return None,
     };
     end.iter().all(|number| number.is_finite()).then_some(end)
-}
-
-/// Is the tool left of the path? `None` while compensation is off, or not known.
-fn side(cx: &PathCx<'_>) -> Option<bool> {
-    match cx.state().effect(Role::Compensation, cx.model)? {
-        Effect::CompensationLeft | Effect::CompensationLeftByDiameter => Some(true),
-        Effect::CompensationRight | Effect::CompensationRightByDiameter => Some(false),
-        _ => None,
-    }
 }
 
 fn flat(position: &Position) -> Vector {

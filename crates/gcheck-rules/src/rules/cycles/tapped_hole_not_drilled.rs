@@ -2,13 +2,13 @@
 
 use std::ops::Range;
 
-use gcheck_controls::Effect;
 use gcheck_engine::{Abstract, At, Axis, Domain, Event, Fact, FeedMode, Position, Role, Travel, TravelKind};
 use gcheck_geometry::{Mm, Plane};
 
 use crate::declare::declare_rule;
 use crate::facts::compensation::may_be_on;
 use crate::facts::cuts::distance;
+use crate::facts::cycles::is_tapping;
 use crate::{Finding, FollowedCx, PathCx, PathRule, Report, Run, Uses, Watch};
 use crate::{Remembers, remembers};
 
@@ -347,10 +347,6 @@ fn pitch(cx: &PathCx<'_>) -> Option<f64> {
         FeedMode::PerMinute => Some(feed / known(state.speed()).filter(|speed| *speed > 0.0)?),
         FeedMode::InverseTime => None,
     }
-}
-
-fn is_tapping(effect: Effect) -> bool {
-    matches!(effect, Effect::CycleTap | Effect::CycleLeftTap)
 }
 
 /// Distances of points from their middle, in order.

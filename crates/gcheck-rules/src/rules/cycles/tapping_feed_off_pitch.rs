@@ -1,10 +1,11 @@
 //! A tap that is not fed by its pitch each turn.
 
-use gcheck_controls::{Effect, Letter};
+use gcheck_controls::Letter;
 use gcheck_engine::{Abstract, At, Domain, Fact, FeedMode, Role, Units};
 
 use crate::declare::declare_rule;
 use crate::facts::boundary::is_before;
+use crate::facts::cycles::is_tapping;
 use crate::facts::threads::{Wanted, rounding, thread_in_block, thread_in_list, thread_of_tool, trimmed};
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 use crate::{Remembers, remembers};
@@ -158,10 +159,6 @@ impl PathRule for TappingFeedOffPitch {
         }
         report.add(finding);
     }
-}
-
-fn is_tapping(effect: Effect) -> bool {
-    matches!(effect, Effect::CycleTap | Effect::CycleLeftTap)
 }
 
 fn is_speed(word: &gcheck_program::Word) -> bool {

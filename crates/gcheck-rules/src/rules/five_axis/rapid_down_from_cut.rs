@@ -6,6 +6,7 @@ use gcheck_geometry::Mm;
 
 use crate::declare::declare_rule;
 use crate::facts::five_axis::is_along_tool;
+use crate::facts::turned::goes_home;
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 use crate::{Remembers, remembers};
 
@@ -87,7 +88,7 @@ impl PathRule for RapidDownFromCut {
         let follows = |effect| is_along_tool(effect) || effect == Effect::ToolCentrePoint;
         let is_five_axis = cx.state().effect(Role::Length, cx.model).is_some_and(follows);
         let Some((from, true)) = last else { return };
-        if !is_five_axis || travel.kind != TravelKind::Rapid || is_elsewhere(cx) {
+        if !is_five_axis || travel.kind != TravelKind::Rapid || goes_home(cx) {
             return;
         }
         let stays = |axis: Axis| {
@@ -108,11 +109,6 @@ impl PathRule for RapidDownFromCut {
             );
         }
     }
-}
-
-/// A move that is not in the coordinates of the part.
-fn is_elsewhere(cx: &PathCx<'_>) -> bool {
-    cx.has_effect(|effect| matches!(effect, Effect::ReturnReference(_) | Effect::MachineCoordinates))
 }
 
 #[cfg(test)]

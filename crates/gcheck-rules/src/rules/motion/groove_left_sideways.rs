@@ -159,7 +159,7 @@ impl GrooveLeftSideways {
         let radius = from[0] + (to[0] - from[0]) * PLAY / along.abs();
         let is_open = |way: f64| {
             let left = self.turned.least_outside(from[1] + way * along.signum());
-            left.is_some_and(|left| left < from[0] + UNDER)
+            left.is_some_and(|(left, _)| left < from[0] + UNDER)
         };
         if radius > wall - UNDER || from[0] > beyond - UNDER || is_open(PLAY) || is_open(WALL) {
             return;

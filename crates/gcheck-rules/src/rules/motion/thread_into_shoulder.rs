@@ -124,7 +124,7 @@ impl ThreadIntoShoulder {
             [from[0] + share * (to[0] - from[0]), from[1] + share * (to[1] - from[1])]
         };
         // How much the part is larger than the pass.
-        let above = |[radius, z]: [f64; 2]| Some(self.turned.least_outside(z)? - radius);
+        let above = |[radius, z]: [f64; 2]| Some(self.turned.least_outside(z)?.0 - radius);
         let heights = (0..=PLACES).filter_map(|step| above(place(step)));
         // What lies below the pass is a bore, a pilot, a groove.
         let mut heights: Vec<f64> = heights.filter(|height| *height > 0.0).collect();
@@ -136,11 +136,12 @@ impl ThreadIntoShoulder {
             above(*spot).is_some_and(|height| height > crest + UNDER && spot[0] + height > begins)
         };
         let Some([radius, z]) = (0..=PLACES).map(place).find(is_shoulder) else { return };
+        let Some((part, cut)) = self.turned.least_outside(z) else { return };
+        let turned = cut.bytes.clone();
         self.told = cx.definitions().set_by(Fact::Tool).or(Some(cx.origin().at));
         let is_diameter = cx.state().is_diameter(cx.model) == Some(true);
         let shown = |radius: f64| cx.shown(Mm(if is_diameter { radius * 2.0 } else { radius }));
-        let part = self.turned.least_outside(z).unwrap_or(radius);
-        let mut finding = cx
+        let finding = cx
             .finding(&META, cx.range(), "the thread goes on into a larger diameter of the part")
             .label(format!(
                 "at Z {} the part is turned to X {}, and the thread is cut at X {}",
@@ -148,10 +149,8 @@ impl ThreadIntoShoulder {
                 shown(part),
                 shown(radius)
             ))
+            .also(turned, "turned here")
             .help("end the thread before the shoulder: check `Z` of the cycle, and its sign");
-        if let Some(cut) = self.turned.cut_that_left(z) {
-            finding = finding.also(cut.bytes.clone(), "turned here");
-        }
         report.add(finding);
     }
 }

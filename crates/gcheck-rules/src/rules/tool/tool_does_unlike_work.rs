@@ -4,10 +4,11 @@ use gcheck_controls::{Effect, Machine};
 use gcheck_engine::{Abstract, At, Axis, Domain, Event, Position, Spindle, Stop, Travel, TravelKind};
 
 use crate::declare::declare_rule;
-use crate::facts::cycles::is_drilling;
+use crate::facts::cycles::{is_drilling, is_tapping};
 use crate::facts::edge::cuts_across;
 use crate::facts::offset_schemes::whole;
 use crate::facts::parting::Parting;
+use crate::facts::turned::spot;
 use crate::facts::turning::turns_the_part;
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 use crate::{Remembers, remembers};
@@ -122,7 +123,7 @@ impl PathRule for ToolDoesUnlikeWork {
 
     fn concerns(&self, program: &Uses<'_>) -> bool {
         let is_lathe = program.environment.control().machine() == Machine::Lathe;
-        is_lathe || program.may(is_tapping)
+        is_lathe || program.may(taps)
     }
 
     fn changed(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
@@ -210,11 +211,9 @@ const fn verb(kind: Kind, is_past: bool) -> &'static str {
     }
 }
 
-fn is_tapping(effect: Effect) -> bool {
-    matches!(
-        effect,
-        Effect::CycleTap | Effect::CycleLeftTap | Effect::TapHere | Effect::LeftTapHere | Effect::RigidTap
-    )
+/// Is it a code that taps, in a cycle or where the tool is?
+fn taps(effect: Effect) -> bool {
+    is_tapping(effect) || matches!(effect, Effect::TapHere | Effect::LeftTapHere | Effect::RigidTap)
 }
 
 fn on_a_mill(cx: &PathCx<'_>, event: &Event) -> Option<Kind> {
@@ -237,17 +236,13 @@ fn by_cycle(cx: &PathCx<'_>, event: &Event) -> Option<Kind> {
     }
     let cycle = cx.state().active_cycle(cx.model).filter(|code| code.is_some())?;
     match cx.model.effect(cycle) {
-        effect if is_tapping(effect) => Some(Kind::Tap),
+        effect if taps(effect) => Some(Kind::Tap),
         effect if is_drilling(effect) && cx.is_mill() => Some(Kind::Drill),
         _ => None,
     }
 }
 
-fn spot(position: &Position) -> [f64; 2] {
-    [position.raw(Axis::X), position.raw(Axis::Z)]
-}
-
-/// The same, if it is known.
+/// X as a radius, and Z, if both are known.
 fn known(position: &Position) -> Option<[f64; 2]> {
     Some(spot(position)).filter(|spot| spot.iter().all(|number| number.is_finite()))
 }
