@@ -58,7 +58,7 @@ fn law_2_tree_and_tokens_give_the_same_blocks() {
             for range in cut(source.text()) {
                 let text = &source.text()[range];
                 let flat = lower(text, &dialect);
-                let tree = lower_tree(&parse(text, dialect.profile()), &dialect);
+                let tree = lower_tree(&parse(text, dialect.profile()), text, &dialect);
                 assert_eq!(flat, tree, "{}", control.name());
             }
         }

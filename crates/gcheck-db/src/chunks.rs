@@ -92,7 +92,7 @@ fn tree(db: &dyn salsa::Database, chunk: Chunk) -> Arc<Parse> {
 #[salsa::tracked(returns(clone), no_eq, lru = 16)]
 fn blocks(db: &dyn salsa::Database, chunk: Chunk) -> Arc<BlockTable> {
     let settings = chunk.in_force(db).settings(db);
-    Arc::new(lower_tree(&tree(db, chunk), &Dialect::new(&settings.control)))
+    Arc::new(lower_tree(&tree(db, chunk), chunk.text(db), &Dialect::new(&settings.control)))
 }
 
 /// What the chunk gives to the file as a whole.

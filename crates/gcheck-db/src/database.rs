@@ -112,8 +112,9 @@ impl Open {
         let source = Asking { storage, chunks: &self.chunks };
         let edited = edited(&self.document, &self.settings, &dialect, &source, stop);
         let mut keeper = Keeper::new(blocks.clone());
-        self.incremental
-            .show_again(&edited, blocks, &mut keeper, |keeper, look| keeper.hand_on(look, stop, with))
+        self.incremental.show_again(&edited, &keeper.executed(), &mut keeper, |keeper, look| {
+            keeper.hand_on(look, stop, with);
+        })
     }
 
     /// The same by an analysis of its own: the one that is kept had no path rules, or the switches of block delete are on for

@@ -20,10 +20,28 @@ pub struct StateAt {
     pub definitions_after: ReachingDefinitions,
     /// What may be the state after it; `None` when the program never goes on from here.
     pub after: Option<State<Abstract>>,
+    /// Of a block that calls a program of the file: what may be the state when the program is back at the block after it, and where
+    /// its facts were set. `None` where nothing is called, or nothing comes back.
+    pub returned: Option<(State<Abstract>, ReachingDefinitions)>,
     /// Every path comes here.
     pub on_every_path: bool,
     /// How often it was executed: turns of loops and calls of its program.
     pub visits: u32,
+}
+
+impl StateAt {
+    /// Does the block go on in a program that it calls?
+    pub fn calls(&self) -> bool {
+        self.after.as_ref().is_some_and(|after| after.frames().len() > self.before.frames().len())
+    }
+
+    /// The state after the block as people count: of a call, when the program is back.
+    pub fn settled(&self) -> Option<(&State<Abstract>, &ReachingDefinitions)> {
+        if self.calls() {
+            return self.returned.as_ref().map(|(state, definitions)| (state, definitions));
+        }
+        self.after.as_ref().map(|after| (after, &self.definitions_after))
+    }
 }
 
 /// Keeps the states of a range of blocks.
@@ -49,6 +67,26 @@ impl Keeper {
         }
     }
 
+    /// The blocks that must be executed: those that are kept, and the one that the last of them goes back to after a call.
+    pub(crate) fn executed(&self) -> Range<u32> {
+        self.blocks.start..self.blocks.end.saturating_add(1)
+    }
+
+    /// Is a program back that the block in front of this one has called?
+    fn come_back(&mut self, cx: &FlowCx<'_>) {
+        let at = cx.origin.at;
+        let caller = at.block.checked_sub(1).filter(|caller| at.file == 0 && self.blocks.contains(caller));
+        let Some(seen) = caller.and_then(|caller| self.seen.get_mut(&caller)) else { return };
+        if !seen.calls() || seen.before.frames().len() != cx.state.frames().len() {
+            return;
+        }
+        let state = match &seen.returned {
+            Some((returned, _)) => returned.union(cx.state),
+            None => cx.state.clone(),
+        };
+        seen.returned = Some((state, cx.definitions.clone()));
+    }
+
     fn is_wanted(&self, cx: &FlowCx<'_>) -> bool {
         cx.origin.at.file == 0 && self.blocks.contains(&cx.origin.at.block)
     }
@@ -56,6 +94,7 @@ impl Keeper {
 
 impl FlowObserver for Keeper {
     fn before(&mut self, cx: &FlowCx<'_>) {
+        self.come_back(cx);
         if !self.is_wanted(cx) {
             return;
         }
@@ -73,6 +112,7 @@ impl FlowObserver for Keeper {
                     definitions: cx.definitions.clone(),
                     definitions_after: cx.definitions.clone(),
                     after: None,
+                    returned: None,
                     on_every_path: cx.solo,
                     visits: 1,
                 };

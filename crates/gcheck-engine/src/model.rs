@@ -325,7 +325,14 @@ impl<'c> Model<'c> {
 
     /// The code that a computed `G` or `M` word names, rounded to tenths as controls read it; `None` when there is none.
     pub fn code_of_value(&self, letter: Letter, value: f64) -> Option<CodeIx> {
-        let number = CodeNumber::from_value(letter.ascii(), (value * 10.0).round() / 10.0)?;
+        let nearest = (value * 10.0).round() / 10.0;
+        // The strict control reads M codes as whole numbers, and G codes as tenths (observed: M2.00009 is M2, M2.0001 is refused;
+        // G1.0001 is G1, G1.0002 is refused).
+        let slack = if letter == Letter::of('M') { 9.9e-5 } else { 1.2e-4 };
+        if self.semantics().strict && (value - nearest).abs() > slack {
+            return None;
+        }
+        let number = CodeNumber::from_value(letter.ascii(), nearest)?;
         Some(self.control.code_ix(number)).filter(|code| code.is_some())
     }
 

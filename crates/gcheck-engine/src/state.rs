@@ -221,7 +221,8 @@ impl<D: Domain> State<D> {
         &self.feed.given_under
     }
 
-    /// The feed as the program wrote it: its number without a unit, 0 for none.
+    /// The feed as the program wrote it: its number without a unit, 0 for none. It counts in the units of its time, which a
+    /// later `G20` or `G21` may have changed; [`Self::feed`] is in millimetres.
     pub fn feed_word(&self) -> &D::Value {
         &self.feed.word
     }
@@ -407,21 +408,20 @@ impl<D: Domain> State<D> {
         }
     }
 
-    /// How corners are taken. Tolerances are in millimetres, as their numbers count in the program's present units; NaN
-    /// where they are not known.
+    /// How corners are taken. Tolerances are in millimetres; NaN where they are not known.
     pub fn path_mode(&self, model: &Model<'_>) -> Option<PathMode> {
         let mode = self.mode(Role::PathControl).only()?;
         Some(match model.effect(mode) {
             Effect::ExactPath => PathMode::ExactPath,
             Effect::ExactStop => PathMode::ExactStop,
-            _ => self.blending_mode(self.units(model).map_or(f64::NAN, Units::in_mm)),
+            _ => self.blending_mode(),
         })
     }
 
-    /// Blending as it is announced: its numbers count in the program's present units, of so many millimetres.
-    pub(crate) fn blending_mode(&self, unit: f64) -> PathMode {
+    /// Blending in effect.
+    pub(crate) fn blending_mode(&self) -> PathMode {
+        let Blending { tolerance, naive, unit } = self.blending;
         let length = |number: f64| Mm(if number == 0.0 { 0.0 } else { number * unit });
-        let Blending { tolerance, naive } = self.blending;
         PathMode::Blending { tolerance: length(tolerance), naive: naive.map(length) }
     }
 

@@ -33,10 +33,10 @@ mod transform;
 use std::collections::BTreeSet;
 use std::rc::Rc;
 
-use gcheck_controls::{CodeIx, Effect, Letter, LetterSet, SystemValue, Unpointed, Unset, WordKind};
+use gcheck_controls::{Access, CodeIx, Effect, Letter, LetterSet, SystemValue, Unpointed, Unset, WordKind};
 use gcheck_program::{
-    BinaryOp, Block, BlockFlags, BlockTable, Expr, ExprIx, Function, Op, Place, StatementKind, Target, Value,
-    Word,
+    BinaryOp, Block, BlockFlags, BlockTable, Expr, ExprIx, Function, OLabel, Op, Place, StatementKind,
+    Target, Value, Word,
 };
 use rustc_hash::FxHashMap;
 
@@ -150,6 +150,15 @@ pub(crate) struct Executor<'a, 'p, D: Domain, O: Observer<D>> {
     rest_is_lost: bool,
     /// Subroutines passed over, and whether another is defined inside.
     nested: FxHashMap<At, bool>,
+    /// By file, subroutine and label: the O-word block that opened a structure first. Of a subroutine's own label no
+    /// subroutine is told.
+    #[expect(
+        clippy::option_option,
+        reason = "no subroutine is one thing, the one without a block of its own another"
+    )]
+    labels_defined: FxHashMap<(u32, Option<Option<u32>>, OLabel), u32>,
+    /// Names that assignments of the block brought into being, each with where its assignment begins in the chunk.
+    created: Vec<(NameId, u32)>,
     /// Room for the strokes of a hole.
     stroke_buffer: Vec<Stroke>,
     /// Assignments that wait for the end of the block.
@@ -236,6 +245,8 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
             passes_exactly: false,
             rest_is_lost: false,
             nested: FxHashMap::default(),
+            labels_defined: FxHashMap::default(),
+            created: Vec::new(),
             stroke_buffer: Vec::new(),
             pending: Vec::new(),
             acted_to: None,
@@ -285,6 +296,7 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
         self.flow = None;
         self.machine_coordinates = false;
         self.pending.clear();
+        self.created.clear();
         self.acted_to = None;
         if self.lenient {
             self.before = Some(self.before_block(state));
@@ -955,7 +967,15 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
                 }
                 Op::Number(number) => Ok(D::number(*number)),
                 Op::Variable(number) => self.read_variable(*number, state),
-                Op::Named { start, end } => self.read_named(place, (*start, *end), state),
+                Op::Named { start, end } => {
+                    let name = self.name(place, (*start, *end));
+                    // In front of the assignment that brings it into being the name does not exist yet.
+                    if self.created.iter().any(|(created, from)| *created == name && start < from) {
+                        Err(Fault::UnsetParameter)
+                    } else {
+                        self.read_name(name, state)
+                    }
+                }
                 Op::Indirect => {
                     let number = self.stack.pop().unwrap_or_else(D::unknown);
                     self.read_indirect(&number, state)
@@ -1077,10 +1097,6 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
         }
     }
 
-    fn read_named(&mut self, place: &Place, range: (u32, u32), state: &State<D>) -> Step<D::Value> {
-        self.read_name(self.name(place, range), state)
-    }
-
     fn read_name(&mut self, name: NameId, state: &State<D>) -> Step<D::Value> {
         let local = state.calls.own_locals().and_then(|locals| locals.named(name));
         let Some(Variable { value, written }) = local.or_else(|| state.variables.named(name)) else {
@@ -1156,6 +1172,9 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
                 StatementKind::Assign { target, value } => {
                     let Some(value) = value else { return Err(Fault::Malformed) };
                     let target = self.assignee(place, table, target, state)?;
+                    if self.model.semantics().assignments_after_block {
+                        self.create(target, statement.range.start, state);
+                    }
                     let value = self.evaluate(place, table, table.expr(*value), state)?;
                     if self.model.semantics().assignments_after_block {
                         match self.check_assignable(target) {
@@ -1207,6 +1226,24 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
             }
         }
         Ok(Statements::Words)
+    }
+
+    /// `#<a>=1 G0 X#<a>`: an assignment brings its name into being, with zero, as soon as it is read; its value comes after the
+    /// block (observed).
+    fn create(&mut self, target: Assignee, start: u32, state: &mut State<D>) {
+        let Assignee::Name(name) = target else { return };
+        if self.has_name(name, state) == Some(false) && self.check_assignable(target).is_ok() {
+            self.created.push((name, start));
+            self.set_name(name, D::number(0.0), state);
+        }
+    }
+
+    fn set_name(&self, name: NameId, value: D::Value, state: &mut State<D>) {
+        let is_global = self.program.name_text(name).starts_with('_');
+        match state.calls.own_locals_mut() {
+            Some(locals) if !is_global => locals.set_named(name, value),
+            _ => state.variables.set_named(name, value),
+        }
     }
 
     fn condition(
@@ -1371,7 +1408,9 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
         match target {
             Assignee::Name(name) => {
                 let text = self.program.name_text(name);
-                if self.model.named_variable(&text).is_some() {
+                let listed = self.model.control().named_parameter(&text);
+                let is_read_only = listed.is_some_and(|entry| entry.access == Access::Read);
+                if is_read_only || self.model.named_variable(&text).is_some() {
                     Err(Fault::ReadOnlyVariable(0))
                 } else {
                     Ok(())
@@ -1424,15 +1463,8 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
     ) -> Step<Option<Outcome<D>>> {
         match target {
             Assignee::Name(name) => {
-                let text = self.program.name_text(name);
-                if self.model.named_variable(&text).is_some() {
-                    return Err(Fault::ReadOnlyVariable(0));
-                }
-                let global = text.starts_with('_');
-                match state.calls.own_locals_mut() {
-                    Some(locals) if !global => locals.set_named(name, value),
-                    _ => state.variables.set_named(name, value),
-                }
+                self.check_assignable(target)?;
+                self.set_name(name, value, state);
                 Ok(None)
             }
             Assignee::Anywhere => {

@@ -75,3 +75,62 @@ fn numbers_without_a_point_count_in_the_units_of_their_own_block() {
         at x38.1 y0 z5"#]],
     );
 }
+
+#[test]
+fn a_hole_is_gone_to_on_the_level_of_the_tool_when_that_is_above_r() {
+    check(
+        "linuxcnc",
+        "G99 G81 X7 Z-4 R0\nG98 X8 R-1\nG99 X9\nG98 X10",
+        &expect![[r#"
+        rapid x0 y0 z5
+        rapid x7 y0 z5
+        rapid x7 y0 z0
+        feed x7 y0 z-4
+        rapid x7 y0 z0
+        rapid x8 y0 z0
+        rapid x8 y0 z-1
+        feed x8 y0 z-4
+        rapid x8 y0 z5
+        rapid x9 y0 z5
+        rapid x9 y0 z-1
+        feed x9 y0 z-4
+        rapid x9 y0 z-1
+        rapid x10 y0 z5
+        rapid x10 y0 z-1
+        feed x10 y0 z-4
+        rapid x10 y0 z5
+        at x10 y0 z5"#]],
+    );
+    check(
+        "linuxcnc",
+        "G91 G99 G83 X7 Z-4 R-3 Q5\nG98 X8 R-4",
+        &expect![[r#"
+        rapid x0 y0 z5
+        rapid x7 y0 z5
+        rapid x7 y0 z2
+        feed x7 y0 z-2
+        rapid x7 y0 z2
+        rapid x15 y0 z2
+        rapid x15 y0 z1
+        feed x15 y0 z-3
+        rapid x15 y0 z5
+        at x15 y0 z5"#]],
+    );
+    check(
+        "linuxcnc",
+        "G99 G89 X7 Z-4 R0 P1\nG98 X8 R-1",
+        &expect![[r#"
+        rapid x0 y0 z5
+        rapid x7 y0 z5
+        rapid x7 y0 z0
+        feed x7 y0 z-4
+        dwell 1
+        feed x7 y0 z0
+        rapid x8 y0 z0
+        rapid x8 y0 z-1
+        feed x8 y0 z-4
+        dwell 1
+        feed x8 y0 z5
+        at x8 y0 z5"#]],
+    );
+}

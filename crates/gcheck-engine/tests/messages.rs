@@ -84,3 +84,15 @@ fn a_printed_line_has_its_variables_with_their_decimals() {
     );
     check("fanuc-mill", "O1\nDPRNT[\nDPRNT[#[1\nDPRNT[#99999999999[\nM30\n", &expect![]);
 }
+
+#[test]
+fn a_comment_in_a_remark_is_no_message() {
+    check(
+        "linuxcnc",
+        ";(msg,one)\nG0 X1 (msg,two) ; (debug,three)\n(msg,four; five)\nM2\n",
+        &expect![[r#"
+        message "two"
+        move
+        message "four; five""#]],
+    );
+}

@@ -181,3 +181,131 @@ fn curves_are_drawn_in_one_plane_from_enough_points() {
     assert!(refused("F100 G18 G5 X1 Y1 I1 J1 P1 Q1").starts_with("NotNow("));
     assert_eq!(refused("F100 G5 X1 Y1 I1 J1 P1 Q1\nX2 P1 Q1"), "NoMotionMode");
 }
+
+#[test]
+fn text_after_a_complete_word_is_refused() {
+    for block in [
+        "G1 F10 X5[2]",
+        "X[1][2]",
+        "G0 X-SIN[30][2]",
+        "G0[2-1]",
+        "#1=3[2]",
+        "T1[2] M6",
+        "G0 X1 [2]",
+        "G0 X1 Y2,Z3",
+        "G53,G0 X1",
+        "#1=3,G0 X1",
+        "G0 X1 %",
+        "(a) %",
+        "S100 :3",
+        "#1=EXISTS[2]",
+        "#1=EXISTS[#<a>+1]",
+        "#1=EXISTS[[#<a>]]",
+        "o1.5 if [1]\no1.5 endif",
+        "o[1.5] if [1]\no[1.5] endif",
+        "[1] G0 X1",
+    ] {
+        assert_eq!(refused(block), "Malformed", "{block}");
+    }
+    for control in ["fanuc-mill", "haas-mill"] {
+        for block in ["G0 X5.[2]", "X[1][2]", "G0 X1. Y2.,Z3.", "#1=3[2]"] {
+            assert!(!accepted(control, block), "{control}: {block}");
+        }
+    }
+    assert!(accepted("linuxcnc", "#<a>=1\n#1=EXISTS[#<a>]\n#2=EXISTS[ #5220 ]"));
+    assert!(accepted("fanuc-mill", "G1 F100. X10.,R2.\nY10."));
+}
+
+#[test]
+fn codes_may_have_zeros_at_their_end() {
+    assert!(accepted("linuxcnc", "G01.00 F10.0 X1\nG41.10 D0.1 X2\nG40.0\nG59.10\nM05.00"));
+    assert_eq!(refused("G59.11"), "UnknownCode");
+    assert_eq!(refused("G1.01 X1"), "UnknownCode");
+}
+
+#[test]
+fn computed_codes_are_as_near_as_the_control_asks() {
+    assert!(accepted("linuxcnc", "G[0.0001] X1\nM[5.00009]"));
+    for block in ["M[5.0001]", "M[1.9999]", "G[1.0002] F10 X1", "G[59.11]"] {
+        assert_eq!(refused(block), "UnknownCode", "{block}");
+    }
+}
+
+#[test]
+fn an_assignment_brings_its_name_into_being() {
+    assert!(accepted("linuxcnc", "#<a>=#<a>"));
+    assert_eq!(refused("#<a>=1 G0 X#<a>\nG0 X#<a>\nP5"), "rapid x0 y0 z0 | rapid x1 y0 z0 | UnreadWord(P)");
+    assert_eq!(refused("G0 X#<a> #<a>=1"), "UnsetParameter");
+}
+
+#[test]
+fn what_the_control_keeps_is_not_assigned_to() {
+    for name in ["_value", "_value_returned", "_x", "_vmajor"] {
+        assert_eq!(refused(&format!("#<{name}>=1")), "ReadOnlyVariable(0)", "{name}");
+    }
+}
+
+#[test]
+fn a_repeat_is_neither_left_nor_cut_short() {
+    assert_eq!(refused("o1 repeat [2]\no1 break\no1 endrepeat"), "LoopMismatch");
+    assert_eq!(refused("o1 repeat [2]\no1 continue\no1 endrepeat"), "LoopMismatch");
+}
+
+#[test]
+fn a_label_opens_one_structure_that_is_executed() {
+    for second in ["repeat [0]\no1 endrepeat", "while [0]\no1 endwhile", "if [0]\no1 endif"] {
+        assert_eq!(refused(&format!("o1 repeat [1]\no1 endrepeat\no1 {second}")), "LoopMismatch", "{second}");
+    }
+    assert_eq!(refused("o1 sub\no1 endsub\no1 sub\no1 endsub"), "LoopMismatch");
+    assert!(accepted("linuxcnc", "o2 if [0]\no1 if [1]\no1 endif\no2 endif\no1 if [1]\no1 endif"));
+    assert!(accepted("linuxcnc", "o1 do\no1 while [0]\no1 do\no1 while [0]"));
+    assert!(accepted(
+        "linuxcnc",
+        "o9 sub\no1 if [1]\no1 endif\no9 endsub\no9 call\no1 if [1]\no1 endif\no9 call"
+    ));
+}
+
+#[test]
+fn tool_data_is_written_with_a_value() {
+    assert_eq!(refused("G10 L1 P1"), "MissingWord(R)");
+    assert_eq!(refused("G10 L11 P1"), "MissingWord(R)");
+    assert!(accepted("linuxcnc", "G10 L1 P1 R1\nG10 L1 P1 Z2\nG10 L2 P1"));
+}
+
+#[test]
+fn labels_are_numbers_however_they_are_written() {
+    let moves = |program: &str| refused(&format!("{program}\nP5"));
+    for (label, again, caller) in [
+        ("100", "100", "<100>"),
+        ("<100>", "<100>", "100"),
+        ("[200]", "[200]", "[100*2]"),
+        ("[200]", "200", "200"),
+    ] {
+        let program = format!("o{label} sub\nG0 X1\no{again} endsub\no{caller} call");
+        assert_eq!(moves(&program), "rapid x1 y0 z0 | UnreadWord(P)", "{program}");
+    }
+    assert_eq!(moves("o<0100> call\no100 sub\no100 endsub"), "NoSuchProgram");
+}
+
+#[test]
+fn computed_labels_are_matched_by_their_values() {
+    let moves = |program: &str| refused(&format!("#1=1\n{program}\nP5"));
+    assert_eq!(moves("o[#1] if [0]\nG0 X1\no[#1] endif"), "UnreadWord(P)");
+    assert_eq!(moves("o[#1] if [0]\nG0 X1\no1 endif"), "UnreadWord(P)");
+    assert_eq!(moves("o#1 if [1]\nG0 X1\no[#1] else\nG0 X2\no1 endif"), "rapid x1 y0 z0 | UnreadWord(P)");
+    assert_eq!(
+        moves("o[#1] repeat [2]\nG0 X1\no[#1] endrepeat"),
+        "rapid x1 y0 z0 | rapid x1 y0 z0 | UnreadWord(P)"
+    );
+    assert_eq!(moves("o[#1] while [#1 lt 1]\nG0 X1\no[#1] endwhile"), "UnreadWord(P)");
+    assert_eq!(
+        moves("o[#1] do\n#2=[#2+1]\nG0 X#2\no[#1] while [#2 lt 2]"),
+        "rapid x1 y0 z0 | rapid x2 y0 z0 | UnreadWord(P)"
+    );
+    assert_eq!(
+        moves("o[#1] while [1]\nG0 X1\no[#1] break\no[#1] endwhile"),
+        "rapid x1 y0 z0 | UnreadWord(P)"
+    );
+    assert_eq!(moves("o[#1+199] sub\nG0 X1\no[#1+199] endsub\no200 call"), "rapid x1 y0 z0 | UnreadWord(P)");
+    assert_eq!(moves("o[#1/2] if [1]\no[#1/2] endif"), "WordRange(O)");
+}

@@ -6,18 +6,21 @@ use std::ops::Range;
 
 use gcheck_controls::Control;
 use gcheck_db::Snapshot;
-use gcheck_program::remark;
+use gcheck_program::{OLabel, remark};
 
-use crate::symbols::{Occurrence, Symbol, all_variables, program_around};
+use crate::remarks::is_directive;
+use crate::symbols::{Occurrence, Symbol, all_variables, program_around, subs};
 use crate::{ReferenceKind, Workspace};
 
 /// Bytes of a file that is read for its arguments while somebody types.
 const LARGE: u32 = 256 << 10;
+/// Arguments that a call of an O-word may have.
+const MOST_ARGUMENTS: u8 = 30;
 
 /// An argument of a macro.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Argument {
-    /// The address that gives it.
+    /// The address that gives it; none for an argument of an O-word, which its place gives.
     pub(crate) letter: String,
     /// The local variable that it becomes.
     pub(crate) variable: u8,
@@ -39,12 +42,43 @@ pub(crate) fn arguments(workspace: &Workspace, control: &Control, number: u32) -
         return None;
     }
     let program = program_around(snapshot, head);
+    let letters = &control.semantics().argument_letters;
+    let taken = letters.iter().map(|(letter, variable)| (letter.clone(), *variable));
+    Some(taken_by(snapshot, &program, taken))
+}
+
+/// The arguments of a subroutine of O-words, up to the last that it reads; they have no letters. `None` where no such subroutine is
+/// known, or its file is too large to be read.
+pub(crate) fn arguments_of_sub(workspace: &Workspace, label: &OLabel) -> Option<Vec<Argument>> {
+    let (snapshot, range) = workspace.files.iter().find_map(|file| {
+        let sub = subs(&file.snapshot).into_iter().find(|sub| sub.label == *label)?;
+        Some((&file.snapshot, sub.range))
+    })?;
+    if snapshot.len() > LARGE {
+        return None;
+    }
+    let read = taken_by(snapshot, &range, (1..=MOST_ARGUMENTS).map(|variable| (String::new(), variable)));
+    let last = read.last().map_or(0, |argument| argument.variable);
+    // The arguments of a call have places: one that is not read has one as well.
+    let all = (1..=last).map(|variable| {
+        let known = read.iter().find(|argument| argument.variable == variable).cloned();
+        known.unwrap_or(Argument { letter: String::new(), variable, is_needed: false, says: None })
+    });
+    Some(all.collect())
+}
+
+/// The arguments that a part of a file reads, of those that it may be given, in the order of their variables.
+fn taken_by(
+    snapshot: &Snapshot,
+    program: &Range<u32>,
+    given: impl Iterator<Item = (String, u8)>,
+) -> Vec<Argument> {
     let all = all_variables(snapshot);
     let mut found = Vec::new();
-    for (letter, variable) in &control.semantics().argument_letters {
+    for (letter, variable) in given {
         let of_it = |occurrence: &&Occurrence| {
             program.contains(&occurrence.range.start)
-                && matches!(occurrence.symbol, Symbol::Variable { number, .. } if number == u32::from(*variable))
+                && matches!(occurrence.symbol, Symbol::Variable { number, .. } if number == u32::from(variable))
         };
         let occurrences: Vec<&Occurrence> = all.iter().filter(of_it).collect();
         let line = |occurrence: &Occurrence| snapshot.line_at(occurrence.range.start);
@@ -59,14 +93,14 @@ pub(crate) fn arguments(workspace: &Workspace, control: &Control, number: u32) -
         }
         let lines = Lines { snapshot, program: program.clone() };
         found.push(Argument {
-            letter: letter.clone(),
-            variable: *variable,
-            is_needed: !lines.does_without(&occurrences, *variable),
-            says: lines.says(&occurrences, letter, *variable),
+            is_needed: !lines.does_without(&occurrences, variable),
+            says: lines.says(&occurrences, &letter, variable),
+            letter,
+            variable,
         });
     }
-    found.sort_by_key(|argument| argument.variable);
-    Some(found)
+    found.sort_by_key(|argument: &Argument| argument.variable);
+    found
 }
 
 /// The lines of a macro.
@@ -123,17 +157,18 @@ impl Lines<'_> {
             (is_it && !text.is_empty()).then(|| text.to_owned())
         };
         let of_letter = |comment: &str| {
-            let rest = comment.strip_prefix(letter)?.trim_start();
+            let rest = comment.strip_prefix(letter).filter(|_| !letter.is_empty())?.trim_start();
             let rest = rest.strip_prefix(['=', ':', '-'])?;
             Some(trimmed(rest).to_owned()).filter(|text| !text.is_empty())
         };
-        let comments: Vec<String> = self.all().filter_map(|line| remark(&line).map(str::to_owned)).collect();
+        let said = |line: &str| remark(line).filter(|comment| !is_directive(comment)).map(str::to_owned);
+        let comments: Vec<String> = self.all().filter_map(|line| said(&line)).collect();
         let named = || comments.iter().find_map(|comment| of_variable(comment));
         let lettered = || comments.iter().find_map(|comment| of_letter(comment));
         let beside = || {
             occurrences.iter().find_map(|occurrence| {
                 let line = self.snapshot.line_text(self.snapshot.line_at(occurrence.range.start));
-                remark(&line).map(str::to_owned)
+                said(&line)
             })
         };
         named().or_else(lettered).or_else(beside)

@@ -103,7 +103,7 @@ mod tests {
                 G1 X6
                 M30
                 %
-                # Fix: Fix all 2 `missing-decimal-point` findings in this file
+                # Fix: Fix all 2 `missing-decimal-point` findings in this file (may change moves)
                 %
                 O1
                 G21 G90 G54 G0 X1.

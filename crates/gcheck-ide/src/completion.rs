@@ -13,16 +13,17 @@ use gcheck_controls::{Code, CodeIx, CodeNumber, Control, Effect, Letter, Motion,
 use gcheck_db::{Cancelled, Database, DocumentId, Snapshot};
 use gcheck_diagnostics::Edit;
 use gcheck_engine::{Abstract, Look, Role, State};
-use gcheck_program::{OKeyword, remark};
+use gcheck_program::{OKeyword, OLabel};
 use gcheck_syntax::SyntaxKind;
 
 use crate::document_symbols::o_name;
 use crate::number_text::value;
+use crate::remarks::title;
 use crate::sections::sections;
 use crate::state_at::look_at;
-use crate::symbols::{parameter_names, program_around};
-use crate::typing::Typing;
-use crate::{Workspace, describe};
+use crate::symbols::{parameter_key, parameter_names, program_around};
+use crate::typing::{Expected, Typing};
+use crate::{Workspace, describe, keywords};
 
 /// Characters that open the list without being asked. No blank: after one, everything is possible.
 pub const TRIGGERS: &[&str] = &["G", "M", "#", "<", ":", "="];
@@ -88,7 +89,7 @@ pub fn completion(
 ) -> Vec<Completion> {
     let Some(snapshot) = database.indexed(document) else { return Vec::new() };
     let typing = Typing::new(&snapshot, offset);
-    let mut items = Items { typing: &typing, from: typing.offset, list: Vec::new() };
+    let mut items = Items { typing: &typing, document, from: typing.offset, list: Vec::new() };
     if let Some(comment) = typing.comment() {
         items.directives(comment);
         return items.finish();
@@ -100,9 +101,26 @@ pub fn completion(
         rest.is_some_and(|rest| rest.bytes().all(|byte| byte.is_ascii_digit() || byte == b'.'))
     };
     let last = typing.last_before(from).map(|lexeme| lexeme.kind);
+    // It opens the list in comments of ours alone.
+    if first.is_none() && matches!(trigger, Some('=' | ':')) {
+        return Vec::new();
+    }
+    if first.is_none_or(|first| first.is_ascii_alphabetic()) {
+        match typing.expected(from) {
+            Expected::OKeyword => {
+                items.o_keywords();
+                return items.finish();
+            }
+            Expected::Operator { in_condition } => {
+                items.operators(in_condition);
+                return items.finish();
+            }
+            // Words may follow as well.
+            Expected::AfterCondition(keyword) => items.after_condition(keyword),
+            Expected::Anything => {}
+        }
+    }
     match first {
-        // It opens the list in comments of ours alone.
-        None if matches!(trigger, Some('=' | ':')) => {}
         Some('#') => {
             items.variables();
             items.parameters();
@@ -269,6 +287,7 @@ impl Active {
 /// The entries of a list while it is made.
 struct Items<'t, 's> {
     typing: &'t Typing<'s>,
+    document: DocumentId,
     /// Where what is replaced begins.
     from: u32,
     /// With a number by which they are sorted.
@@ -284,6 +303,12 @@ const USED: u32 = 100_000;
 const UNUSED: u32 = 200_000;
 /// Codes that cannot be written here.
 const OBJECTED: u32 = 300_000;
+/// Variables of the program that come before the functions.
+const FEW: usize = 40;
+/// Functions of expressions: a list that is cut has them all.
+const FUNCTIONS: u32 = 900_000;
+/// Other variables of the program; then those of the control.
+const OWN: u32 = 1_000_000;
 
 impl Items<'_, '_> {
     fn control(&self) -> &Control {
@@ -387,10 +412,12 @@ impl Items<'_, '_> {
     /// G and M codes, those that can be written here first, and cycles with their words.
     fn codes(&mut self, active: &Active, letter: Option<char>) {
         let file_index = self.typing.snapshot.file_index();
-        let style = Spelling::of(self.typing, letter);
+        let mut style = Spelling::of(self.typing, letter);
         let in_block = self.typing.codes();
         let control = self.typing.snapshot.control();
         let typed = self.typed().to_owned();
+        // `G0` may become `G01`, however the program spells its codes.
+        style.padded |= typed.get(1..2) == Some("0");
         let typed_code = CodeNumber::parse(&typed);
         for code in control.codes() {
             let number = code.number();
@@ -434,6 +461,14 @@ impl Items<'_, '_> {
     /// A cycle as its example writes it, with places for the numbers.
     fn cycle(&mut self, code: Code<'_>, style: &Spelling, rank: u32) {
         let entry = code.entry();
+        let is_tap = matches!(
+            code.effect(),
+            Effect::CycleTap
+                | Effect::CycleLeftTap
+                | Effect::TapHere
+                | Effect::LeftTapHere
+                | Effect::RigidTap
+        );
         let mut text = String::new();
         let mut places = 0;
         for word in entry.example.split_whitespace() {
@@ -450,8 +485,13 @@ impl Items<'_, '_> {
                 return;
             }
             places += 1;
+            // The feed of a tap is its lead: the tap's own number, and no other.
+            let number = if letter == 'F' && is_tap { "" } else { number };
             // Writing to a string cannot fail.
-            let _ = write!(text, "{}${{{places}:{number}}}", style.letter(letter));
+            let _ = match number {
+                "" => write!(text, "{}${places}", style.letter(letter)),
+                _ => write!(text, "{}${{{places}:{number}}}", style.letter(letter)),
+            };
         }
         if places == 0 {
             return;
@@ -535,18 +575,22 @@ impl Items<'_, '_> {
         }
     }
 
-    /// Programs of all files.
+    /// Programs of all files, but for the one that the cursor is in.
     fn programs(&mut self, workspace: &Workspace) {
+        let own = program_around(self.typing.snapshot, self.typing.offset);
         let mut known = Vec::new();
         for file in &workspace.files {
-            for program in &file.snapshot.file_index().programs {
+            let document = self.document;
+            let is_own = |start: u32| file.id == document && own.contains(&start);
+            let programs = file.snapshot.file_index().programs.iter();
+            for program in programs.filter(|program| !is_own(program.range.start)) {
                 let Some(number) = program.number.filter(|number| !known.contains(number)) else { continue };
                 if known.len() >= MOST {
                     return;
                 }
                 known.push(number);
                 let line = file.snapshot.line_text(file.snapshot.line_at(program.range.start)).into_owned();
-                let comment = remark(&line).map(|remark| format!("{remark}, ")).unwrap_or_default();
+                let comment = title(&line).map(|title| format!("{title}, ")).unwrap_or_default();
                 let description = format!("{comment}{}", file.name);
                 self.add(CompletionKind::Program, &number.to_string(), &description, number.min(9_999_999));
             }
@@ -604,13 +648,14 @@ impl Items<'_, '_> {
     fn variables(&mut self) {
         let snapshot = self.typing.snapshot;
         let control = snapshot.control();
-        for (number, range) in snapshot.file_index().assigned.iter().take(MOST) {
+        for (index, (number, range)) in snapshot.file_index().assigned.iter().take(MOST).enumerate() {
             // The one that is being typed is not a news.
             if range.end == self.typing.offset {
                 continue;
             }
             let line = snapshot.line_text(snapshot.line_at(range.start)).into_owned();
-            self.add(CompletionKind::Variable, &format!("#{number}"), line.trim(), (*number).min(999_999));
+            let rank = if index < FEW { 0 } else { OWN } + (*number).min(899_999);
+            self.add(CompletionKind::Variable, &format!("#{number}"), line.trim(), rank);
         }
         for entry in control.variables() {
             let Some([first, last]) = entry.range else { continue };
@@ -624,7 +669,7 @@ impl Items<'_, '_> {
                 CompletionKind::Variable,
                 &format!("#{first}"),
                 &description,
-                1_000_000 + first.min(999_999),
+                2 * OWN + first.min(999_999),
             );
         }
         let number = self.typed().strip_prefix('#').and_then(|number| number.parse().ok());
@@ -644,13 +689,14 @@ impl Items<'_, '_> {
             return;
         }
         if snapshot.len() <= LARGE {
-            for name in parameter_names(snapshot).into_iter().take(MOST) {
-                self.add(CompletionKind::Variable, &format!("#<{name}>"), "named parameter", 0);
+            for (index, name) in parameter_names(snapshot).into_iter().take(MOST).enumerate() {
+                let rank = if index < FEW { 0 } else { OWN };
+                self.add(CompletionKind::Variable, &format!("#<{name}>"), "named parameter", rank);
             }
         }
         for entry in snapshot.control().variables() {
             let Some(name) = &entry.name else { continue };
-            self.add(CompletionKind::Variable, &format!("#<{name}>"), &entry.title, 2_000_000);
+            self.add(CompletionKind::Variable, &format!("#<{name}>"), &entry.title, 3 * OWN);
         }
     }
 
@@ -676,12 +722,101 @@ impl Items<'_, '_> {
         let control = self.typing.snapshot.control();
         for function in control.functions() {
             let is_typed = function.name.eq_ignore_ascii_case(self.typed());
-            let item = self.add(CompletionKind::Function, &function.name, &function.title, 3_000_000);
+            let item = self.add(CompletionKind::Function, &function.name, &function.title, FUNCTIONS);
             if !is_typed {
                 item.edit.text = format!("{}[$0]", function.name);
                 item.is_snippet = true;
             }
         }
+    }
+
+    /// What may follow a condition.
+    fn after_condition(&mut self, keyword: SyntaxKind) {
+        let all: &[(&str, &str, &str)] = match keyword {
+            SyntaxKind::IF_KW => &[
+                ("GOTO", "GOTO $0", "jump to a sequence number when the condition holds"),
+                ("THEN", "THEN $0", "one statement when the condition holds"),
+            ],
+            _ => &[
+                ("DO", "DO${1:1}", "the loop begins here"),
+                ("DO … END", "DO${1:1}\n$0\nEND${1:1}", "the loop with its end"),
+            ],
+        };
+        for (label, text, description) in all {
+            let item = self.add(CompletionKind::Keyword, label, description, WORDS);
+            (*text).clone_into(&mut item.edit.text);
+            item.is_snippet = true;
+            label.split(' ').next().unwrap_or(label).clone_into(&mut item.filter);
+        }
+    }
+
+    /// What may follow an operand.
+    fn operators(&mut self, in_condition: bool) {
+        if self.control().functions().is_empty() {
+            return;
+        }
+        let comparisons = ["EQ", "NE", "GT", "LT", "GE", "LE"].map(|name| (name, SyntaxKind::COMPARISON));
+        let others = [
+            ("AND", SyntaxKind::AND_KW),
+            ("OR", SyntaxKind::OR_KW),
+            ("XOR", SyntaxKind::OR_KW),
+            ("MOD", SyntaxKind::MOD_KW),
+        ];
+        let has_comparisons = in_condition || self.control().syntax().o_words;
+        let all = comparisons.into_iter().filter(|_| has_comparisons).chain(others);
+        for (rank, (name, kind)) in all.enumerate() {
+            let name = self.in_hand(name);
+            let does = keywords::does(kind, &name.to_ascii_uppercase(), false).unwrap_or_default();
+            self.add(CompletionKind::Keyword, &name, does, rank as u32);
+        }
+    }
+
+    /// The keywords of O-words. After a label that the file has opened, what goes on with it comes first.
+    fn o_keywords(&mut self) {
+        let label = self.typing.last_before(self.from);
+        let label = label.map(|label| label.range.clone()).unwrap_or_default();
+        let typed = self.typing.snapshot.slice(label.clone()).to_ascii_lowercase();
+        let mut opened = None;
+        for word in &self.typing.snapshot.file_index().o_words {
+            if word.range.start >= self.typing.start {
+                break;
+            }
+            let is_same = match &word.label {
+                OLabel::Number(number) => {
+                    typed.get(1..).and_then(|digits| digits.trim().parse().ok()) == Some(*number)
+                }
+                OLabel::Name(name) => {
+                    let inner = typed.split_once('<').and_then(|(_, rest)| rest.split_once('>'));
+                    inner.is_some_and(|(inner, _)| parameter_key(inner) == parameter_key(name))
+                }
+                OLabel::Computed => false,
+            };
+            if !is_same {
+                continue;
+            }
+            opened = match word.keyword {
+                // After `do` it ends the loop.
+                OKeyword::While if opened == Some(OKeyword::Do) => None,
+                OKeyword::Sub | OKeyword::If | OKeyword::While | OKeyword::Do | OKeyword::Repeat => {
+                    Some(word.keyword)
+                }
+                OKeyword::EndSub | OKeyword::EndIf | OKeyword::EndWhile | OKeyword::EndRepeat => None,
+                _ => opened,
+            };
+        }
+        for (rank, (keyword, kind)) in keywords::after_label(opened).into_iter().enumerate() {
+            let name = self.in_hand(keyword.name());
+            let does = keywords::does(kind, keyword.name(), true).unwrap_or_default();
+            self.add(CompletionKind::Keyword, &name, does, rank as u32);
+        }
+    }
+
+    /// A keyword in small letters, where what the line has so far is in small letters.
+    fn in_hand(&self, keyword: &str) -> String {
+        let typed = &self.typing.before;
+        let is_lower = typed.contains(|c: char| c.is_ascii_lowercase())
+            && !typed.contains(|c: char| c.is_ascii_uppercase());
+        if is_lower { keyword.to_ascii_lowercase() } else { keyword.to_owned() }
     }
 
     fn keywords(&mut self) {
@@ -947,9 +1082,9 @@ mod tests {
             "O1\n#101=$0\n",
             3,
             &expect![[r#"
-                Variable #0 | null: never has a value; a word given #0 is dropped from the block | #101=#0
-                Variable #1 | local variables, filled by the words of G65 (to #33) | #101=#1
-                Variable #100 | common variables (to #149) | #101=#100
+                Function ABS | absolute value | #101=ABS[$0]
+                Function ACOS | arc cosine, in degrees | #101=ACOS[$0]
+                Function ASIN | arc sine, in degrees | #101=ASIN[$0]
             "#]],
         );
     }
@@ -977,9 +1112,8 @@ mod tests {
             "//- a.nc\nO1\nM98 P$0\nM30\n//- b.nc\nO2 (SLOT)\nM99\n",
             5,
             &expect![[r#"
-            Program 1 | a.nc | M98 P1
-            Program 2 | SLOT, b.nc | M98 P2
-        "#]],
+                Program 2 | SLOT, b.nc | M98 P2
+            "#]],
         );
         check(
             "haas-mill",
@@ -1045,6 +1179,264 @@ mod tests {
                 Keyword IF … GOTO | jump when a condition holds | IF [$1] GOTO $0
                 Keyword IF … THEN | one statement when a condition holds | IF [$1] THEN $0
             "#]],
+        );
+    }
+
+    #[test]
+    fn after_a_condition_comes_what_it_decides() {
+        check(
+            "haas-mill",
+            "O1\nIF [#1 EQ 1] $0\n",
+            3,
+            &expect![[r#"
+            Keyword GOTO | jump to a sequence number when the condition holds | IF [#1 EQ 1] GOTO $0
+            Keyword THEN | one statement when the condition holds | IF [#1 EQ 1] THEN $0
+            Word X | X target (optional, length) | IF [#1 EQ 1] X
+        "#]],
+        );
+        check(
+            "haas-mill",
+            "O1\nIF [#1 EQ 1] GO$0\n",
+            3,
+            &expect![[r#"
+            Keyword GOTO | jump to a sequence number when the condition holds | IF [#1 EQ 1] GOTO $0
+        "#]],
+        );
+        check(
+            "haas-mill",
+            "O1\nIF [#1 EQ 1] T$0\n",
+            3,
+            &expect![[r#"
+            Keyword THEN | one statement when the condition holds | IF [#1 EQ 1] THEN $0
+        "#]],
+        );
+        check(
+            "fanuc-mill",
+            "O1\nWHILE [#1 LT 1] $0\n",
+            3,
+            &expect![[r#"
+            Keyword DO | the loop begins here | WHILE [#1 LT 1] DO${1:1}
+            Keyword DO … END | the loop with its end | WHILE [#1 LT 1] DO${1:1}⏎$0⏎END${1:1}
+            Word X | end point in X (optional, length) | WHILE [#1 LT 1] X
+        "#]],
+        );
+        check(
+            "fanuc-mill",
+            "O1\nWHILE [#1 LT 1] D$0\n",
+            3,
+            &expect![[r#"
+            Keyword DO | the loop begins here | WHILE [#1 LT 1] DO${1:1}
+            Keyword DO … END | the loop with its end | WHILE [#1 LT 1] DO${1:1}⏎$0⏎END${1:1}
+        "#]],
+        );
+    }
+
+    #[test]
+    fn after_an_operand_come_operators() {
+        check(
+            "haas-mill",
+            "O1\nIF [#1 $0\n",
+            20,
+            &expect![[r#"
+            Keyword EQ | is true when both sides are equal | IF [#1 EQ
+            Keyword NE | is true when the sides differ | IF [#1 NE
+            Keyword GT | is true when the left side is greater than the right side | IF [#1 GT
+            Keyword LT | is true when the left side is less than the right side | IF [#1 LT
+            Keyword GE | is true when the left side is greater than the right side, or equal | IF [#1 GE
+            Keyword LE | is true when the left side is less than the right side, or equal | IF [#1 LE
+            Keyword AND | is true when both sides are true; of numbers, the bits that both have | IF [#1 AND
+            Keyword OR | is true when one side is true, or both; of numbers, the bits that either has | IF [#1 OR
+            Keyword XOR | is true when exactly one side is true; of numbers, the bits that one of them has | IF [#1 XOR
+            Keyword MOD | gives the remainder of a division | IF [#1 MOD
+        "#]],
+        );
+        check(
+            "haas-mill",
+            "O1\nIF [#1 EQ 1 A$0]\n",
+            20,
+            &expect![[r#"
+            Keyword AND | is true when both sides are true; of numbers, the bits that both have | IF [#1 EQ 1 AND
+        "#]],
+        );
+        check(
+            "haas-mill",
+            "O1\n#1=[#2 $0]\n",
+            20,
+            &expect![[r#"
+            Keyword AND | is true when both sides are true; of numbers, the bits that both have | #1=[#2 AND
+            Keyword OR | is true when one side is true, or both; of numbers, the bits that either has | #1=[#2 OR
+            Keyword XOR | is true when exactly one side is true; of numbers, the bits that one of them has | #1=[#2 XOR
+            Keyword MOD | gives the remainder of a division | #1=[#2 MOD
+        "#]],
+        );
+        check(
+            "linuxcnc",
+            "o1 while [#1 g$0]\n",
+            20,
+            &expect![[r#"
+            Keyword gt | is true when the left side is greater than the right side | o1 while [#1 gt
+            Keyword ge | is true when the left side is greater than the right side, or equal | o1 while [#1 ge
+        "#]],
+        );
+    }
+
+    #[test]
+    fn after_the_label_of_an_o_word_come_its_keywords() {
+        check(
+            "linuxcnc",
+            "o100 $0\nm2\n",
+            20,
+            &expect![[r#"
+            Keyword sub | begins a subroutine, which is executed when it is called | o100 sub
+            Keyword call | calls a subroutine with arguments, which it reads as `#1`, `#2` and so on | o100 call
+            Keyword if | executes the blocks up to `else`, `elseif` or `endif` when the condition holds | o100 if
+            Keyword while | repeats the blocks up to `endwhile` as long as the condition holds | o100 while
+            Keyword do | repeats the blocks up to `while`, whose condition is looked at after them | o100 do
+            Keyword repeat | repeats the blocks up to `endrepeat` as often as the number says | o100 repeat
+            Keyword endsub | ends a subroutine: goes back to the caller | o100 endsub
+            Keyword return | goes back to the caller at once | o100 return
+            Keyword else | begins the blocks that are executed when no condition above holds | o100 else
+            Keyword elseif | begins the blocks that are executed when no condition above holds, and this one does | o100 elseif
+            Keyword endif | ends the blocks of `if` | o100 endif
+            Keyword endwhile | ends the loop: the condition is looked at again | o100 endwhile
+            Keyword endrepeat | ends the blocks of `repeat` | o100 endrepeat
+            Keyword break | leaves the loop | o100 break
+            Keyword continue | goes on with the next turn of the loop | o100 continue
+        "#]],
+        );
+        check(
+            "linuxcnc",
+            "o<foo> $0\nm2\n",
+            3,
+            &expect![[r#"
+            Keyword sub | begins a subroutine, which is executed when it is called | o<foo> sub
+            Keyword call | calls a subroutine with arguments, which it reads as `#1`, `#2` and so on | o<foo> call
+            Keyword if | executes the blocks up to `else`, `elseif` or `endif` when the condition holds | o<foo> if
+        "#]],
+        );
+        check(
+            "linuxcnc",
+            "O<foo> C$0\nm2\n",
+            3,
+            &expect![[r#"
+            Keyword CALL | calls a subroutine with arguments, which it reads as `#1`, `#2` and so on | O<foo> CALL
+            Keyword CONTINUE | goes on with the next turn of the loop | O<foo> CONTINUE
+        "#]],
+        );
+        check(
+            "linuxcnc",
+            "o100 if [#1 GT 0]\no100 $0\nm2\n",
+            3,
+            &expect![[r#"
+            Keyword endif | ends the blocks of `if` | o100 endif
+            Keyword else | begins the blocks that are executed when no condition above holds | o100 else
+            Keyword elseif | begins the blocks that are executed when no condition above holds, and this one does | o100 elseif
+        "#]],
+        );
+        check(
+            "linuxcnc",
+            "o100 sub\no100 e$0\nm2\n",
+            3,
+            &expect![[r#"
+            Keyword endsub | ends a subroutine: goes back to the caller | o100 endsub
+            Keyword else | begins the blocks that are executed when no condition above holds | o100 else
+            Keyword elseif | begins the blocks that are executed when no condition above holds, and this one does | o100 elseif
+        "#]],
+        );
+    }
+
+    #[test]
+    fn functions_are_offered_before_a_letter_is_typed() {
+        check(
+            "haas-mill",
+            "O1\nG0 X[$0\n",
+            3,
+            &expect![[r#"
+            Function ABS | absolute value | G0 X[ABS[$0]
+            Function ACOS | arc cosine, in degrees | G0 X[ACOS[$0]
+            Function ASIN | arc sine, in degrees | G0 X[ASIN[$0]
+        "#]],
+        );
+        check(
+            "haas-mill",
+            "O1\nG0 X[$0]\n",
+            3,
+            &expect![[r#"
+            Function ABS | absolute value | G0 X[ABS[$0]
+            Function ACOS | arc cosine, in degrees | G0 X[ACOS[$0]
+            Function ASIN | arc sine, in degrees | G0 X[ASIN[$0]
+        "#]],
+        );
+    }
+
+    #[test]
+    fn a_leading_zero_matches_the_codes() {
+        check(
+            "haas-mill",
+            "O1\nG1 X1.\nG2 X1.\nG0$0\n",
+            4,
+            &expect![[r#"
+            Code G0 | rapid positioning | G0
+            Code G01 | straight cut at feed | G01
+            Code G02 | clockwise arc at feed | G02
+            Code G03 | counter-clockwise arc at feed | G03
+        "#]],
+        );
+        check(
+            "haas-mill",
+            "O1\nG1 X1.\nM3\nM0$0\n",
+            4,
+            &expect![[r#"
+            Code M0 | program stop | M0
+            Code M03 | spindle clockwise | M03
+            Code M01 | optional stop | M01
+            Code M02 | program end | M02
+        "#]],
+        );
+        check(
+            "linuxcnc",
+            "g1 x1\ng0$0\n",
+            4,
+            &expect![[r#"
+            Code g0 | rapid move | g0
+            Code g01 | straight feed move | g01
+            Code g02 | clockwise arc | g02
+            Code g03 | counter-clockwise arc | g03
+        "#]],
+        );
+    }
+
+    #[test]
+    fn a_tap_gets_no_lead_from_an_example() {
+        check(
+            "fanuc-lathe",
+            "O1\nG21\nG84$0\n",
+            2,
+            &expect![[r#"
+            Code G84 | face tapping with a live tool | G84
+            Snippet G84 … | face tapping with a live tool with its words | G84 Z${1:-20.} C${2:0.} R${3:-3.} P${4:200} F$5
+        "#]],
+        );
+        check(
+            "haas-mill",
+            "O1\nG21\nG84$0\n",
+            2,
+            &expect![[r#"
+            Code G84 | tapping | G84
+            Snippet G84 … | tapping with its words | G84 X${1:1.} Y${2:1.} Z${3:-0.5} R${4:0.2} F$5 S${6:600}
+        "#]],
+        );
+    }
+
+    #[test]
+    fn a_program_is_offered_by_its_title() {
+        check(
+            "haas-mill",
+            "O1\nM98 P$0\nM30\nO2 (gcheck: off) (SLOT)\nM99\n",
+            3,
+            &expect![[r#"
+            Program 2 | SLOT, main.nc | M98 P2
+        "#]],
         );
     }
 }

@@ -4,11 +4,10 @@
 
 use std::ops::Range;
 
-use gcheck_controls::WordKind;
 use gcheck_db::{DocumentId, Snapshot};
 
 use crate::symbols::{
-    Symbol, callee, definition_of, is_elsewhere, occurrences, program_around, subs, symbol_at,
+    Symbol, definition_of, occurrences, occurrences_in, program_around, returned_to, subs, symbol_at,
 };
 use crate::{Place, ReferenceKind, Workspace, WorkspaceFile};
 
@@ -30,7 +29,7 @@ pub struct Target {
 pub fn definition(workspace: &Workspace, document: DocumentId, offset: u32) -> Vec<Target> {
     let Some(file) = workspace.file(document) else { return Vec::new() };
     let Some(occurrence) = symbol_at(&file.snapshot, offset) else {
-        return returned_to(workspace, file, offset);
+        return blocks_of_callers(workspace, file, offset);
     };
     let from = occurrence.range;
     match &occurrence.symbol {
@@ -51,36 +50,14 @@ pub fn definition(workspace: &Workspace, document: DocumentId, offset: u32) -> V
 }
 
 /// The blocks of callers that a return names (`M99 P100`).
-fn returned_to(workspace: &Workspace, file: &WorkspaceFile, offset: u32) -> Vec<Target> {
-    let snapshot = &file.snapshot;
-    let returns = |jump: &&gcheck_program::Jump| {
-        crate::lexemes::touches(&jump.range, offset)
-            && is_elsewhere(snapshot.control(), jump.code, WordKind::Label)
-    };
-    let Some(jump) = snapshot.file_index().jumps.iter().find(returns) else { return Vec::new() };
-    let Some(number) = jump.target else { return Vec::new() };
-    let called = program_around(snapshot, jump.range.start);
-    let calls_here = |caller: &WorkspaceFile, call: &gcheck_program::Call| {
-        callee(&caller.snapshot, call)
-            .and_then(|symbol| definition_of(workspace, caller.id, &symbol))
-            .is_some_and(|place| place.file == file.id && called.contains(&place.range.start))
-    };
+fn blocks_of_callers(workspace: &Workspace, file: &WorkspaceFile, offset: u32) -> Vec<Target> {
     let mut targets = Vec::new();
-    for caller in &workspace.files {
-        let file_index = caller.snapshot.file_index();
-        for call in file_index.calls.iter().filter(|call| calls_here(caller, call)) {
-            let program = program_around(&caller.snapshot, call.range.start);
-            let label = file_index
-                .labels
-                .iter()
-                .find(|label| label.number == number && program.contains(&label.range.start));
-            if let Some(label) = label {
-                let place = Place { file: caller.id, range: label.range.clone() };
-                let found = target(workspace, place, &Symbol::Label { number, program }, jump.range.clone());
-                if !targets.contains(&found) {
-                    targets.push(found);
-                }
-            }
+    for (caller, occurrence) in returned_to(workspace, file, offset) {
+        let Some(caller) = workspace.file(caller) else { continue };
+        let labels = occurrences_in(&caller.snapshot, &occurrence.symbol).into_iter();
+        for label in labels.filter(|label| label.kind == ReferenceKind::Write) {
+            let place = Place { file: caller.id, range: label.range };
+            targets.push(target(workspace, place, &occurrence.symbol, occurrence.range.clone()));
         }
     }
     targets
@@ -218,7 +195,18 @@ mod tests {
             "fanuc-mill",
             files,
             &expect![[r#"
-            main.nc:3: N50 in main.nc:3: N50 G0 X0.
+                main.nc:3: 50 in main.nc:3: N50 G0 X0.
+            "#]],
+        );
+    }
+
+    #[test]
+    fn on_some_controls_what_a_return_names_is_in_its_own_program() {
+        check(
+            "haas-mill",
+            "O1\nM98 P2\nN20 G0 X0.\nM30\nO2\nM99 P2$00\nN20 M99\n",
+            &expect![[r#"
+            7: 20 in 7: N20 M99
         "#]],
         );
     }

@@ -81,6 +81,23 @@ pub(crate) fn needs(word: &WordEntry) -> String {
     format!("{}, {}", word.need_in_words(), word.values_in_words())
 }
 
+/// The meaning of a word, followed by more of it, without what the meaning says already: `spindle speed, optional`, not
+/// `spindle speed, optional, spindle speed`.
+pub(crate) fn meaning(is: &str, more: &str) -> String {
+    let mut text = is.to_owned();
+    for part in more.split(", ").filter(|part| !says(is, part)) {
+        text.push_str(", ");
+        text.push_str(part);
+    }
+    text
+}
+
+/// Does a text begin with some words?
+fn says(text: &str, words: &str) -> bool {
+    let Some((head, rest)) = text.split_at_checked(words.len()) else { return false };
+    head.eq_ignore_ascii_case(words) && !rest.starts_with(|c: char| c.is_alphanumeric() || c == '-')
+}
+
 /// What a variable is to the control, in one line.
 pub(crate) fn variable(entry: &VariableEntry) -> String {
     let kind = match entry.kind {

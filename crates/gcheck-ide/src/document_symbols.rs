@@ -7,8 +7,9 @@ use std::ops::Range;
 
 use gcheck_controls::{Effect, Ends};
 use gcheck_db::Snapshot;
-use gcheck_program::{OLabel, remark};
+use gcheck_program::OLabel;
 
+use crate::remarks::title;
 use crate::sections::sections;
 use crate::symbols::{code_end, program_around, subs};
 
@@ -100,7 +101,7 @@ fn programs(snapshot: &Snapshot, all: &mut Vec<Symbol>) {
         // What is in front of the first number is not part of its name.
         let range = program.range.start..around.end.min(end);
         let line = snapshot.line_text(snapshot.line_at(program.range.start)).into_owned();
-        let detail = remark(&line).unwrap_or_default().to_owned();
+        let detail = title(&line).unwrap_or_default().to_owned();
         let name = snapshot.slice(program.range.clone()).trim().to_owned();
         all.push(symbol(name, detail, SymbolKind::Program, range, program.range.clone()));
     }
@@ -282,5 +283,18 @@ mod tests {
     fn nothing() {
         check("haas-mill", "", &expect![[""]]);
         check("haas-mill", "%\n", &expect![[""]]);
+    }
+
+    #[test]
+    fn a_directive_is_no_title() {
+        check(
+            "haas-mill",
+            "O1 (gcheck: control=haas-mill)\n(gcheck: off)\nT1 M6 (gcheck: ignore-file feed-missing)\nG0 X1.\nO2 (gcheck: off) (SLOT)\nM99\n",
+            &expect![[r#"
+                Program O1 [] 1-5 @1: O1
+                  Tool T1 [] 2-5 @3: T1
+                Program O2 [SLOT] 5-7 @5: O2
+            "#]],
+        );
     }
 }

@@ -7,17 +7,19 @@
 use std::fmt::Write as _;
 use std::ops::Range;
 
-use gcheck_controls::{Code, CodeIx, Control, Letter, Need, Variable, WordEntry, WordKind};
+use gcheck_controls::{Code, CodeIx, Control, Effect, Letter, Need, Variable, WordEntry, WordKind};
 use gcheck_db::{BlockPlace, Cancelled, Database, DocumentId, Snapshot, StateAt};
-use gcheck_engine::{Abstract, AbstractValue, At, Axis, Look, Position, Role, State};
-use gcheck_program::{Value, Word, remark};
+use gcheck_engine::{Abstract, AbstractValue, At, Axis, Domain as _, Look, Position, Role, State, Truth};
+use gcheck_program::{ExprIx, StatementKind, Value, Word};
 use gcheck_syntax::SyntaxKind;
 
 use crate::ReferenceKind;
 use crate::describe;
 use crate::foreign::Foreign;
+use crate::keywords;
 use crate::lexemes::{lexemes_of_line, touches};
 use crate::number_text::{coordinate, plain, unit, value};
+use crate::remarks::title;
 use crate::state_at::look_at;
 use crate::state_reader::{Item, StateReader};
 use crate::symbols::{Symbol, occurrences_in, symbol_at};
@@ -56,7 +58,7 @@ pub fn hover(
     let with_state = parts_with_state(database, document, &snapshot, &place, &subject, stop);
     let is_without_state = with_state.is_err();
     let mut parts = with_state.ok().flatten().unwrap_or_else(|| {
-        let cx = Cx { snapshot: &snapshot, place: &place, state: None, is_without_state, returned: None };
+        let cx = Cx { snapshot: &snapshot, place: &place, state: None, is_without_state };
         cx.parts(&subject, None)
     });
     parts.retain(|part| !part.trim().is_empty());
@@ -82,14 +84,9 @@ fn parts_with_state(
     stop: &dyn Fn() -> bool,
 ) -> Result<Option<Vec<String>>, Cancelled> {
     let mut parts = None;
-    let returned = if calls_program(snapshot, place) {
-        state_behind(database, document, place.number, stop)?
-    } else {
-        None
-    };
     let looked = look_at(database, document, place.number, stop, &mut |state, look| {
         let state = Some(state);
-        let cx = Cx { snapshot, place, state, is_without_state: false, returned: returned.clone() };
+        let cx = Cx { snapshot, place, state, is_without_state: false };
         parts = Some(cx.parts(subject, Some(look)));
     });
     // Time may be over just after the state was shown.
@@ -109,6 +106,8 @@ enum Subject {
     Symbol(Range<u32>, Symbol),
     /// A function of expressions.
     Function(Range<u32>, String),
+    /// A keyword of a statement or an expression, and what the statement names.
+    Keyword(Range<u32>, SyntaxKind, Option<Symbol>),
     /// Nothing that can be told of.
     Nothing(Range<u32>),
 }
@@ -120,6 +119,7 @@ impl Subject {
             | Self::Word(range, _)
             | Self::Symbol(range, _)
             | Self::Function(range, _)
+            | Self::Keyword(range, ..)
             | Self::Nothing(range) => range.clone(),
         }
     }
@@ -144,6 +144,10 @@ fn subject(snapshot: &Snapshot, place: &BlockPlace, offset: u32) -> Subject {
         SyntaxKind::FUNCTION => {
             let name = snapshot.slice(at.range.clone()).to_ascii_uppercase();
             return Subject::Function(at.range.clone(), name);
+        }
+        kind if keywords::does(kind, "", false).is_some() || kind == SyntaxKind::COMPARISON => {
+            let named = symbol_at(snapshot, offset).filter(|_| kind.is_keyword());
+            return Subject::Keyword(at.range.clone(), kind, named.map(|occurrence| occurrence.symbol));
         }
         SyntaxKind::VARIABLE | SyntaxKind::NAMED_VARIABLE => {
             if let Some(occurrence) = symbol_at(snapshot, at.range.start + 1) {
@@ -175,30 +179,6 @@ struct Cx<'a> {
     state: Option<&'a StateAt>,
     /// Nobody waits for it.
     is_without_state: bool,
-    /// What may be the state at the next block, after a call.
-    returned: Option<State<Abstract>>,
-}
-
-/// Has the block a code that may call a program?
-fn calls_program(snapshot: &Snapshot, place: &BlockPlace) -> bool {
-    let words = place.table.words(place.block()).iter();
-    let mut codes = words.filter_map(|word| snapshot.control().code_at(word.code));
-    let is_open = codes.clone().any(Code::is_user);
-    is_open || codes.any(|code| code.entry().words.iter().any(|word| word.kind == WordKind::Program))
-}
-
-/// What may be the state at the block after this one.
-fn state_behind(
-    database: &mut Database,
-    document: DocumentId,
-    block: u32,
-    stop: &dyn Fn() -> bool,
-) -> Result<Option<State<Abstract>>, Cancelled> {
-    let mut found = None;
-    look_at(database, document, block.saturating_add(1), stop, &mut |state, _| {
-        found = Some(state.before.clone());
-    })?;
-    Ok(found)
 }
 
 impl Cx<'_> {
@@ -226,9 +206,58 @@ impl Cx<'_> {
                     format!("**{name}** {}\n\n*{}{unsure}*", function.title, function.source)
                 }));
             }
+            Subject::Keyword(range, kind, named) => {
+                parts.push(self.keyword(range, *kind, look));
+                parts.extend(named.as_ref().map(|symbol| self.symbol(symbol, None)));
+            }
             Subject::Nothing(_) => {}
         }
         parts
+    }
+
+    /// What a keyword does, and whether its condition holds here.
+    fn keyword(&self, range: &Range<u32>, kind: SyntaxKind, look: Option<&mut Look<'_, '_>>) -> String {
+        let written = self.snapshot.slice(range.clone());
+        let statement = self.place.table.statements(self.place.ix).find(|statement| {
+            let of = self.place.in_file(statement.range.clone());
+            of.start <= range.start && range.end <= of.end
+        });
+        let is_o_word =
+            statement.is_some_and(|statement| matches!(statement.kind, StatementKind::OWord { .. }));
+        let Some(does) = keywords::does(kind, &written.to_ascii_uppercase(), is_o_word) else {
+            return String::new();
+        };
+        let mut text = format!("**{written}** {does}");
+        let condition = match statement.map(|statement| &statement.kind) {
+            Some(StatementKind::If { condition } | StatementKind::Do { condition, .. }) => *condition,
+            Some(kind @ StatementKind::OWord { .. }) => kind.expressions().next(),
+            _ => None,
+        };
+        let is_condition = matches!(kind, SyntaxKind::IF_KW | SyntaxKind::ELSEIF_KW | SyntaxKind::WHILE_KW);
+        let held = condition.zip(look).and_then(|(condition, look)| self.held(condition, look));
+        match held {
+            Some(held) if is_condition => {
+                let verdict = match Abstract::truth(&held) {
+                    Truth::True => "the condition holds here",
+                    Truth::False => "the condition does not hold here",
+                    Truth::Unknown => "whether the condition holds here is not known",
+                };
+                let _ = write!(text, "\n\n{verdict}");
+            }
+            Some(held) if kind == SyntaxKind::REPEAT_KW => {
+                let _ = write!(text, "\n\nhere: {} times", value(&held));
+            }
+            _ => {}
+        }
+        text
+    }
+
+    /// What an expression of the block comes to before the block.
+    fn held(&self, expr: ExprIx, look: &mut Look<'_, '_>) -> Option<AbstractValue> {
+        let range = self.place.in_file(self.place.table.expr(expr).range.clone());
+        let at = At { file: 0, block: self.place.number };
+        let values = look.expressions(at, &self.state?.before);
+        values.into_iter().find(|(of, _)| *of == range).map(|(_, held)| held)
     }
 
     /// How the program comes to the block, where not every path does once.
@@ -266,14 +295,9 @@ impl Cx<'_> {
         let reader = StateReader::new(self.snapshot, look.model());
         let from = reader.point(&state.before, state.before.actual());
         let mut lines: Vec<String> = Vec::new();
-        let depth = state.before.frames().len();
-        // A call leaves the state at the beginning of what it calls; people ask for the one when it is back.
-        let calls = state.after.as_ref().is_some_and(|after| after.frames().len() > depth);
-        let after = match &self.returned {
-            Some(returned) if calls && returned.frames().len() == depth => Some(returned),
-            _ => state.after.as_ref(),
-        };
-        let is_inside = after.is_some_and(|after| after.frames().len() > depth);
+        let after = state.settled().map(|(after, _)| after).or(state.after.as_ref());
+        // Nothing comes back: people see what the call begins with.
+        let is_inside = state.calls() && state.returned.is_none();
         let in_effect: Vec<String> = match after {
             Some(inside) if is_inside => {
                 lines.push("calls a program: what it leaves in effect is not known here".to_owned());
@@ -360,13 +384,8 @@ impl Cx<'_> {
             .find_map(|word| control.code_at(word.code).filter(|code| code.entry().any_words));
         let mut text = match (&reader, calls, general) {
             (Some((code, entry)), _, _) => {
-                format!(
-                    "**{}** {} (`{}`), {}",
-                    word.letter,
-                    entry.is,
-                    code.entry().code,
-                    describe::needs(entry)
-                )
+                let is = format!("{} (`{}`)", self.meaning(*code, entry), code.entry().code);
+                format!("**{}** {}", word.letter, describe::meaning(&is, &describe::needs(entry)))
             }
             (None, Some(code), _) if argument(control, word.letter).is_some() => {
                 let number = argument(control, word.letter).unwrap_or_default();
@@ -377,13 +396,15 @@ impl Cx<'_> {
                 )
             }
             (None, _, Some(entry)) => {
-                format!("**{}** {}, {}", word.letter, entry.is, entry.kind.in_words())
+                format!("**{}** {}", word.letter, describe::meaning(&entry.is, entry.kind.in_words()))
             }
             (None, _, None) => format!("**{}** no address of {}", word.letter, control.title()),
         };
         let kind = reader.as_ref().map(|(_, entry)| entry.kind).or(general.map(|entry| entry.kind));
+        let moved = self.moved(word, reader);
         // What an argument counts is for the macro to say.
-        let counted = if calls.is_some() { None } else { self.counted(word, kind, look.as_deref_mut()) };
+        let counted =
+            if calls.is_some() { None } else { self.counted(word, kind, &moved, look.as_deref_mut()) };
         if let Some(counted) = counted {
             let _ = write!(text, "\n\n{counted}");
         }
@@ -396,10 +417,56 @@ impl Cx<'_> {
         if let Some(occurrence) = target {
             let _ = write!(text, "\n\n{}", self.symbol(&occurrence.symbol, None));
         }
-        if let (Some(look), Some(axis), None) = (look, self.axis(word.letter), calls) {
+        if let (Some(look), Some(axis), None) = (look, moved.axis.filter(|_| moved.is_target), calls) {
             text.push_str(&self.coordinate(axis, look));
         }
         text
+    }
+
+    /// What a word means to a code. Of a code of two blocks, what it means in this one.
+    fn meaning<'e>(&self, code: Code<'_>, entry: &'e WordEntry) -> &'e str {
+        let Some(parts) = entry.is.strip_prefix("first block: ") else { return &entry.is };
+        let Some((first, second)) = parts.split_once("; second block: ") else { return &entry.is };
+        if self.is_second_block(code) { second } else { first }
+    }
+
+    /// Of a code of two blocks, is this one the second? It has the words that only the second one needs.
+    fn is_second_block(&self, code: Code<'_>) -> bool {
+        let letters = self.place.block().letters;
+        let has = |letter: &str| Letter::parse(letter).is_some_and(|letter| letters.contains(letter));
+        code.entry().words.iter().any(|word| {
+            let is_of_second = word.when.as_deref() == Some("in the second block");
+            let is_of_both = word.is.starts_with("first block: ");
+            is_of_second && !is_of_both && has(&word.letter)
+                || word.packed_without.chars().any(|letter| has(&letter.to_string()))
+        })
+    }
+
+    /// Which axis a word speaks of, and how.
+    fn moved(&self, word: &Word, reader: Option<(Code<'_>, &WordEntry)>) -> Moved {
+        let axis = self.axis(word.letter);
+        let Some((code, entry)) = reader else { return Moved { axis, is_target: true, counts: None } };
+        let meaning = self.meaning(code, entry);
+        let counts = match (meaning.contains("radius"), meaning.contains("diameter")) {
+            (true, _) => Some(Counts::Radius),
+            (_, true) => Some(Counts::Diameter),
+            _ => None,
+        };
+        // Words of these are depths, stock and shifts of a profile, values of tables, factors and angles.
+        let is_amount = matches!(
+            code.effect(),
+            Effect::RoughAlongZ
+                | Effect::RoughAlongX
+                | Effect::RepeatPattern
+                | Effect::FinishProfile
+                | Effect::WriteOffsets
+                | Effect::Dwell
+                | Effect::ScalingOn
+                | Effect::RotationOn
+                | Effect::GeneralPocket
+        );
+        let is_place = matches!(entry.kind, WordKind::Length | WordKind::Angle);
+        Moved { axis, is_target: is_place && !is_amount && counts != Some(Counts::Radius), counts }
     }
 
     /// The axis that an address moves.
@@ -415,6 +482,7 @@ impl Cx<'_> {
         &self,
         word: &Word,
         kind: Option<WordKind>,
+        moved: &Moved,
         look: Option<&mut Look<'_, '_>>,
     ) -> Option<String> {
         let (look, state) = look.zip(self.state)?;
@@ -439,6 +507,15 @@ impl Cx<'_> {
             }
             _ => return None,
         };
+        let is_diameter = moved.axis == Some(Axis::X)
+            && kind == Some(WordKind::Length)
+            && reader.diameter(&state.before)
+            && match moved.counts {
+                Some(Counts::Radius) => false,
+                Some(Counts::Diameter) => true,
+                None => moved.is_target,
+            };
+        let diameter = if is_diameter { ", a diameter" } else { "" };
         match word.value {
             Value::Number(number) => {
                 let is_scaled = !word.shape.point
@@ -449,20 +526,11 @@ impl Cx<'_> {
                 } else {
                     ""
                 };
-                let diameter = match self.axis(word.letter) {
-                    Some(Axis::X) if reader.diameter(&state.before) && kind == Some(WordKind::Length) => {
-                        ", a diameter"
-                    }
-                    _ => "",
-                };
                 Some(format!("{written} is {} {unit}{diameter}{why}", plain(counts, 6)))
             }
             Value::Expr(expr) => {
-                let range = self.place.in_file(self.place.table.expr(expr).range.clone());
-                let at = At { file: 0, block: self.place.number };
-                let values = look.expressions(at, &state.before);
-                let (_, held) = values.into_iter().find(|(of, _)| *of == range)?;
-                Some(format!("{written} is {} {unit}", value(&held)))
+                let held = self.held(expr, look)?;
+                Some(format!("{written} is {} {unit}{diameter}", value(&held)))
             }
             Value::Missing => None,
         }
@@ -599,7 +667,7 @@ impl Cx<'_> {
                 let line = self.snapshot.line_at(head.range.start);
                 let text = self.snapshot.line_text(line).into_owned();
                 let comment =
-                    remark(&text).map(|remark| format!(" ({})", Foreign::Prose(remark))).unwrap_or_default();
+                    title(&text).map(|title| format!(" ({})", Foreign::Prose(title))).unwrap_or_default();
                 format!(", line {}{comment}: {}", line + 1, Foreign::Code(text.trim()))
             }
             None => ", not in this file".to_owned(),
@@ -624,6 +692,22 @@ fn argument(control: &Control, letter: Letter) -> Option<u8> {
 /// Items as code, in one line.
 fn list(items: &[String]) -> String {
     items.iter().map(|item| format!("`{item}`")).collect::<Vec<_>>().join(" ")
+}
+
+/// Which axis a word speaks of, and how.
+struct Moved {
+    axis: Option<Axis>,
+    /// The word says where the axis goes.
+    is_target: bool,
+    /// What the control's own words say of its number.
+    counts: Option<Counts>,
+}
+
+/// Across the work, a number is a radius or a diameter.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Counts {
+    Radius,
+    Diameter,
 }
 
 /// What a variable holds around a block, where it can be said.
@@ -751,9 +835,9 @@ mod tests {
                 [M97]
                 **M97** local subprogram call
 
-                calls a program: what it leaves in effect is not known here
+                `S500 rpm` → `S300 rpm`, `spindle clockwise` → `spindle counter-clockwise`
 
-                in effect: `G18` `G390` `G99` `G21` `G54` `G64` `G97` `G170` `S500 rpm` `spindle clockwise`
+                in effect: `G18` `G390` `G99` `G21` `G54` `G64` `G97` `G170`
 
                 ---
 
@@ -1131,6 +1215,264 @@ mod tests {
             "G0 X1.\n\n$0\n",
             &expect![[r#"
             nothing
+        "#]],
+        );
+    }
+
+    #[test]
+    fn a_local_call_shows_the_state_after_its_return() {
+        check(
+            "haas-mill",
+            "O1\nG20 G90 G54 G0 X1.\nM9$07 P10\nG0 Z1.\nM30\nN10 G1 X5. F5.\nM99\n",
+            &expect![[r#"
+                [M97]
+                **M97** local subprogram call
+
+                `X1` → `X5`
+
+                `G0` → `G1`, `F5 inch/min`
+
+                in effect: `G17` `G90` `G94` `G20` `G98` `G54` `G64` `spindle stopped`
+
+                ---
+
+                Calls the lines from N P of this program up to M99, L times. *(calls and jumps, for its own block)*
+
+                needs `P`, may have `L`
+            "#]],
+        );
+    }
+
+    #[test]
+    fn a_depth_of_cut_is_a_radius_and_no_target() {
+        check(
+            "fanuc-lathe",
+            "O1\nG21 G99 G54\nG0 X50. Z2.\nG71 U$02. R.5\nG71 P10 Q20 U.4 W.1 F.2\nN10 G0 X10.\nN20 G1 X50.\nM30\n",
+            &expect![[r#"
+                [U2.]
+                **U** depth of cut, a radius (`G71`), optional, length
+
+                `U2.` is 2 mm
+            "#]],
+        );
+        check(
+            "fanuc-lathe",
+            "O1\nG21 G99 G54\nG0 X50. Z2.\nG71 U2. R.5\nG71 P10 Q20 U$0.4 W.1 F.2\nN10 G0 X10.\nN20 G1 X50.\nM30\n",
+            &expect![[r#"
+                [U.4]
+                **U** stock in X, a diameter (`G71`), optional, length
+
+                `U.4` is 0.4 mm, a diameter
+            "#]],
+        );
+        check(
+            "fanuc-lathe",
+            "O1\nG21 G99 G54\nG0 X50. Z2.\nG73 U$08. W2. R4\nG73 P10 Q20 U.4 W.1 F.2\nN10 G0 X10.\nN20 G1 X50.\nM30\n",
+            &expect![[r#"
+                [U8.]
+                **U** shift in X, a radius (`G73`), optional, length
+
+                `U8.` is 8 mm
+            "#]],
+        );
+    }
+
+    #[test]
+    fn a_computed_diameter_is_a_diameter() {
+        check(
+            "fanuc-lathe",
+            "O1\n#1=10.\nG21 G54\nG0 $0X#1\nM30\n",
+            &expect![[r#"
+                [X#1]
+                **X** end point in X, a diameter (`G0`), optional, length
+
+                `X#1` is 10 mm, a diameter
+
+                | X | before | after |
+                |---|---|---|
+                | work | not known | 10 |
+            "#]],
+        );
+        check(
+            "fanuc-lathe",
+            "O1\n#1=10.\nG21 G54\nG0 $0X[#1+5.]\nM30\n",
+            &expect![[r#"
+            [X[#1+5.]]
+            **X** end point in X, a diameter (`G0`), optional, length
+
+            `X[#1+5.]` is 15 mm, a diameter
+
+            | X | before | after |
+            |---|---|---|
+            | work | not known | 15 |
+        "#]],
+        );
+        check(
+            "fanuc-lathe",
+            "O1\n#1=10.\nG21 G54 G0 X1.\nG0 $0U#1\nM30\n",
+            &expect![[r#"
+                [U#1]
+                **U** increment of X, a diameter (`G0`), optional, length
+
+                `U#1` is 10 mm, a diameter
+
+                | X | before | after |
+                |---|---|---|
+                | work | 1 | 11 |
+            "#]],
+        );
+    }
+
+    #[test]
+    fn a_directive_is_not_the_title_of_a_program() {
+        check(
+            "haas-mill",
+            "O1$0 (gcheck: control=haas-mill) (SLOT)\nM30\n",
+            &expect![[r#"
+            [O1]
+            **O** program number
+
+            **O1** program, line 1 (SLOT): `O1 (gcheck: control=haas-mill) (SLOT)`
+
+            nothing in this file names it
+        "#]],
+        );
+    }
+
+    #[test]
+    fn a_word_says_nothing_twice() {
+        check(
+            "haas-mill",
+            "O1\nS$0500 M3\nM30\n",
+            &expect![[r#"
+            [S500]
+            **S** speed in rev/min (`M3`), here or earlier, spindle speed
+        "#]],
+        );
+        check(
+            "haas-mill",
+            "O1\nN$010 G0 X1.\nM30\n",
+            &expect![[r#"
+            [N10]
+            **N** sequence number, target of M97, M99 P and GOTO
+
+            **N10** sequence number, line 2: `N10 G0 X1.`
+
+            nothing in this file names it
+        "#]],
+        );
+        check(
+            "fanuc-mill",
+            "O1\nM98 P$02\nM30\nO2\nM99\n",
+            &expect![[r#"
+            [P2]
+            **P** program to call, with repeats in the digits before the last four (`M98`), unless a block of the same program is called by Q, program number, from 0
+
+            **O2** program, line 4: `O2`
+
+            named in 1 place
+        "#]],
+        );
+    }
+
+    #[test]
+    fn keywords_say_what_they_do_and_whether_their_condition_holds() {
+        check(
+            "haas-mill",
+            "O1\n#1=1.\nI$0F [#1 EQ 1] GOTO 10\nN10 M30\n",
+            &expect![[r#"
+            [IF]
+            **IF** executes the rest of the block when the condition holds
+
+            the condition holds here
+        "#]],
+        );
+        check(
+            "haas-mill",
+            "O1\n#1=2.\nI$0F [#1 EQ 1] GOTO 10\nN10 M30\n",
+            &expect![[r#"
+            [IF]
+            **IF** executes the rest of the block when the condition holds
+
+            the condition does not hold here
+        "#]],
+        );
+        check(
+            "haas-mill",
+            "O1\nIF [#500 E$0Q 1] GOTO 10\nN10 M30\n",
+            &expect![[r#"
+            [EQ]
+            **EQ** is true when both sides are equal
+        "#]],
+        );
+        check(
+            "haas-mill",
+            "O1\nIF [#500 EQ 1] GO$0TO 10\nN10 M30\n",
+            &expect![[r#"
+            [GOTO]
+            **GOTO** goes on at the block with this sequence number
+
+            ---
+
+            **N10** sequence number, line 3: `N10 M30`
+
+            named in 1 place
+        "#]],
+        );
+        check(
+            "fanuc-mill",
+            "O1\n#1=0\nWH$0ILE [#1 LT 3] DO1\n#1=#1+1\nEND1\nM30\n",
+            &expect![[r#"
+            [WHILE]
+            **WHILE** repeats the blocks from `DO` to its `END` as long as the condition holds
+
+            whether the condition holds here is not known
+        "#]],
+        );
+        check(
+            "linuxcnc",
+            "o1 sub\no1 endsub\no1 ca$0ll [1]\no2 repeat [3]\no2 endrepeat\nm2\n",
+            &expect![[r#"
+                [call]
+                **call** calls a subroutine with arguments, which it reads as `#1`, `#2` and so on
+
+                ---
+
+                **O1** subroutine, line 1: `o1 sub`
+
+                named in 2 places
+            "#]],
+        );
+        check(
+            "linuxcnc",
+            "o2 rep$0eat [3]\no2 endrepeat\nm2\n",
+            &expect![[r#"
+            [repeat]
+            **repeat** repeats the blocks up to `endrepeat` as often as the number says
+
+            here: 3 times
+
+            ---
+
+            **O2** label, line 1: `o2 repeat [3]`
+
+            named in 1 place
+        "#]],
+        );
+        check(
+            "linuxcnc",
+            "#1=1\no2 i$0f [#1 GT 2]\no2 endif\nm2\n",
+            &expect![[r#"
+            [if]
+            **if** executes the blocks up to `else`, `elseif` or `endif` when the condition holds
+
+            the condition does not hold here
+
+            ---
+
+            **O2** label, line 2: `o2 if [#1 GT 2]`
+
+            named in 1 place
         "#]],
         );
     }

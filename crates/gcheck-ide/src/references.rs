@@ -2,9 +2,11 @@
 //!
 //! Knows: which places count as references. Must not know: how symbols are found in the text.
 
+use std::ops::Range;
+
 use gcheck_db::DocumentId;
 
-use crate::symbols::{ReferenceKind, occurrences, symbol_at};
+use crate::symbols::{Occurrence, ReferenceKind, occurrences, returned_to, symbol_at};
 use crate::{Place, Workspace};
 
 /// A place that names a symbol.
@@ -27,9 +29,21 @@ pub fn references(
     declarations: bool,
 ) -> Vec<Reference> {
     let Some(file) = workspace.file(document) else { return Vec::new() };
-    let Some(occurrence) = symbol_at(&file.snapshot, offset) else { return Vec::new() };
-    occurrences(workspace, document, &occurrence.symbol)
-        .into_iter()
+    let named = match symbol_at(&file.snapshot, offset) {
+        Some(occurrence) => vec![(document, occurrence)],
+        None => returned_to(workspace, file, offset),
+    };
+    let all = named.iter().flat_map(|(owner, named)| occurrences(workspace, *owner, &named.symbol));
+    let mut seen: Vec<(DocumentId, Range<u32>)> = Vec::new();
+    let is_new = |(file, occurrence): &(DocumentId, Occurrence)| {
+        let place = (*file, occurrence.range.clone());
+        let is_new = named.len() < 2 || !seen.contains(&place);
+        if named.len() > 1 && is_new {
+            seen.push(place);
+        }
+        is_new
+    };
+    all.filter(is_new)
         .filter(|(_, occurrence)| declarations || occurrence.kind == ReferenceKind::Read)
         .map(|(file, occurrence)| Reference {
             place: Place { file, range: occurrence.range },
@@ -118,6 +132,34 @@ mod tests {
             3: 110
             4: 110
         "#]],
+        );
+    }
+
+    #[test]
+    fn what_a_return_names_is_where_the_control_looks_for_it() {
+        check(
+            "haas-mill",
+            "O1\nM98 P2\nN20 G0 X0.\nM30\nO2\nM99 P2$00\nN20 M99\n",
+            &expect![[r#"
+            6: 20
+            7: 20 (set)
+        "#]],
+        );
+        check(
+            "fanuc-mill",
+            "//- a.nc\nO1\nM98 P2\nN10 G0 X0.\nM30\n//- b.nc\nO2\nM99 P1$00\n",
+            &expect![[r#"
+                a.nc:3: 10 (set)
+                b.nc:2: 10
+            "#]],
+        );
+        check(
+            "fanuc-mill",
+            "//- a.nc\nO1\nM98 P2\nN1$00 G0 X0.\nM30\n//- b.nc\nO2\nM99 P10\n",
+            &expect![[r#"
+                a.nc:3: 10 (set)
+                b.nc:2: 10
+            "#]],
         );
     }
 }

@@ -10,8 +10,8 @@ use gcheck_diagnostics::Edit;
 use gcheck_program::OLabel;
 
 use crate::symbols::{
-    Occurrence, Symbol, computed_call, files_of, has_indirect_variables, is_elsewhere, kind_of, occurrences,
-    parameter_key, stem_matches, subs, symbol_at,
+    Occurrence, Symbol, callers, computed_call, files_of, has_indirect_variables, is_elsewhere, kind_of,
+    leaves, occurrences, parameter_key, returned_to, stem_matches, subs, symbol_at,
 };
 use crate::{FileEdits, ReferenceKind, Workspace, WorkspaceFile};
 
@@ -39,10 +39,10 @@ fn refuse<T>(reason: impl Into<String>) -> Checked<T> {
 /// # Errors
 /// [`RenameRefused`] when there is nothing with a name, or renaming it cannot be safe.
 pub fn prepare_rename(workspace: &Workspace, document: DocumentId, offset: u32) -> Checked<RenameTarget> {
-    let (file, occurrence) = find(workspace, document, offset)?;
+    let (asked, file, occurrence) = find(workspace, document, offset)?;
     check_symbol(workspace, file, &occurrence.symbol)?;
     Ok(RenameTarget {
-        name: file.snapshot.slice(occurrence.range.clone()).into_owned(),
+        name: asked.snapshot.slice(occurrence.range.clone()).into_owned(),
         range: occurrence.range,
     })
 }
@@ -58,12 +58,12 @@ pub fn rename(
     offset: u32,
     new_name: &str,
 ) -> Checked<Vec<FileEdits>> {
-    let (file, occurrence) = find(workspace, document, offset)?;
+    let (_, file, occurrence) = find(workspace, document, offset)?;
     check_symbol(workspace, file, &occurrence.symbol)?;
     let new = NewName::read(&occurrence.symbol, new_name)?;
     check_new(workspace, file, &occurrence.symbol, &new)?;
     let mut all: Vec<FileEdits> = Vec::new();
-    for (id, place) in occurrences(workspace, document, &occurrence.symbol) {
+    for (id, place) in occurrences(workspace, file.id, &occurrence.symbol) {
         let Some(file) = workspace.file(id) else { continue };
         let text = new.written(&file.snapshot.slice(place.range.clone()), &file.snapshot, &place);
         let edit = Edit { range: place.range, text };
@@ -75,11 +75,23 @@ pub fn rename(
     Ok(all)
 }
 
-fn find(workspace: &Workspace, document: DocumentId, offset: u32) -> Checked<(&WorkspaceFile, Occurrence)> {
+/// The file that was asked about, the file that the symbol belongs to, and what is named there.
+fn find(
+    workspace: &Workspace,
+    document: DocumentId,
+    offset: u32,
+) -> Checked<(&WorkspaceFile, &WorkspaceFile, Occurrence)> {
     let nothing = || RenameRefused("there is nothing here that has a name".to_owned());
     let file = workspace.file(document).ok_or_else(nothing)?;
-    let occurrence = symbol_at(&file.snapshot, offset).ok_or_else(nothing)?;
-    Ok((file, occurrence))
+    if let Some(occurrence) = symbol_at(&file.snapshot, offset) {
+        return Ok((file, file, occurrence));
+    }
+    let mut returned = returned_to(workspace, file, offset);
+    if returned.len() > 1 {
+        return refuse("this return names a block of each program that calls its own: rename that block");
+    }
+    let (owner, occurrence) = returned.pop().ok_or_else(nothing)?;
+    Ok((file, workspace.file(owner).ok_or_else(nothing)?, occurrence))
 }
 
 /// A name that can be written.
@@ -110,9 +122,11 @@ impl NewName {
         }
         let bare = text.strip_prefix(sigil).filter(|rest| rest.trim_start().starts_with('<')).unwrap_or(text);
         let bare = bare.trim().trim_start_matches('<').trim_end_matches('>').trim();
-        let is_name = |c: char| c.is_ascii_alphanumeric() || matches!(c, '_' | '-' | '.' | ' ');
+        let is_name = |c: char| c.is_ascii_alphanumeric() || matches!(c, '_' | '-' | '.');
         if bare.is_empty() || !bare.chars().all(is_name) {
-            return refuse(format!("`{text}` is not a name: use letters, digits, `_`, `-` and `.`"));
+            return refuse(format!(
+                "`{text}` is not a name: use letters, digits, `_`, `-` and `.`, without blanks"
+            ));
         }
         Ok(Self::Name(bare.to_owned()))
     }
@@ -191,10 +205,19 @@ fn check_label(workspace: &Workspace, file: &WorkspaceFile, number: u32, program
     let returns_to_caller = file.snapshot.control().semantics().return_to == ReturnTo::Caller;
     for other in workspace.files.iter().filter(|_| returns_to_caller) {
         let file_index = other.snapshot.file_index();
+        // A return into this program alone is renamed with the label.
+        let is_certain = |jump: &gcheck_program::Jump| {
+            let own = (file.id, program.clone());
+            jump.target.is_some()
+                && leaves(&other.snapshot, jump)
+                && callers(workspace, other, jump) == [own]
+                && check_calls(workspace).is_ok()
+        };
         let names_it = |jump: &&gcheck_program::Jump| {
             is_elsewhere(other.snapshot.control(), jump.code, WordKind::Label)
                 && jump.target.is_none_or(|target| target == number)
                 && (other.id != file.id || !inside(&jump.range))
+                && !is_certain(jump)
         };
         if let Some(jump) = file_index.jumps.iter().find(names_it) {
             let text = other.snapshot.slice(jump.range.clone());
@@ -462,8 +485,15 @@ mod tests {
             files,
             "20",
             &expect![[r#"
-            refused: a return in b.nc names a block of its caller (`P10`): that may be this one
-        "#]],
+                //- a.nc
+                O1
+                M98 P2
+                N20 G0 X0.
+                M30
+                //- b.nc
+                O2
+                M99 P20
+            "#]],
         );
     }
 
@@ -656,6 +686,67 @@ mod tests {
             &expect![[r#"
             refused: there is nothing here that has a name
         "#]],
+        );
+    }
+
+    #[test]
+    fn a_name_with_a_blank_is_refused() {
+        check(
+            "linuxcnc",
+            "#<dep$0th> = 1\nm2\n",
+            "two words",
+            &expect![[r#"
+            refused: `two words` is not a name: use letters, digits, `_`, `-` and `.`, without blanks
+        "#]],
+        );
+        check(
+            "linuxcnc",
+            "o<pro$0be> sub\no<probe> endsub\nm2\n",
+            "two words",
+            &expect![[r#"
+            refused: `two words` is not a name: use letters, digits, `_`, `-` and `.`, without blanks
+        "#]],
+        );
+    }
+
+    #[test]
+    fn what_a_return_names_is_renamed_where_the_control_looks_for_it() {
+        check(
+            "haas-mill",
+            "O1\nM98 P2\nN20 G0 X0.\nM30\nO2\nM99 P2$00\nN20 M99\n",
+            "30",
+            &expect![[r#"
+            O1
+            M98 P2
+            N20 G0 X0.
+            M30
+            O2
+            M99 P30
+            N30 M99
+        "#]],
+        );
+        check(
+            "fanuc-mill",
+            "//- a.nc\nO1\nM98 P2\nN10 G0 X0.\nM30\n//- b.nc\nO2\nM99 P1$00\n",
+            "30",
+            &expect![[r#"
+                //- a.nc
+                O1
+                M98 P2
+                N30 G0 X0.
+                M30
+                //- b.nc
+                O2
+                M99 P30
+            "#]],
+        );
+        check(
+            "fanuc-mill",
+            "//- a.nc\nO1\nM98 P2\nN10$0 G0 X0.\nM30\n//- c.nc\nO3\nM98 P2\nN10 M30\n//- b.nc\nO2\nM99 P10\n",
+            "30",
+            &expect![[r#"
+                refused: a return in b.nc names a block of its caller (`P10`): that may be this one
+            "#]],
         );
     }
 }

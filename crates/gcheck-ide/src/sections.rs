@@ -10,6 +10,7 @@ use gcheck_program::{
     Block, BlockFlags, BlockTable, Heading, Headings, ToolNames, Word, is_comment_alone, is_name, remark,
 };
 
+use crate::remarks::is_directive;
 use crate::symbols::{code_end, program_around};
 
 /// Operations of a file that are kept: a program with a comment at every line has none that matters.
@@ -56,7 +57,7 @@ pub(crate) fn sections(snapshot: &Snapshot) -> Sections {
     let mut sections = find(snapshot, 0..snapshot.chunks().len(), end, Some(&mut names));
     close(snapshot, &mut sections, end);
     for part in &mut sections.tools {
-        if let Some(name) = part.tool.and_then(|tool| names.get(tool)) {
+        if let Some(name) = part.tool.and_then(|tool| names.get(tool)).filter(|name| !is_directive(name)) {
             name.clone_into(&mut part.name);
         }
     }

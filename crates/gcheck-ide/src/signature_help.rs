@@ -4,6 +4,7 @@
 //!
 //! Help that stays covers the lines around, so it is there only while the block needs a word that is not yet typed.
 
+use std::fmt::Write as _;
 use std::ops::Range;
 
 use gcheck_controls::{Code, Control, Effect, Letter, Need, WordEntry};
@@ -11,7 +12,7 @@ use gcheck_db::{Database, DocumentId};
 use gcheck_engine::{Abstract, Domain as _, Look, State};
 use gcheck_syntax::SyntaxKind;
 
-use crate::arguments::{Argument, arguments};
+use crate::arguments::{Argument, arguments, arguments_of_sub};
 use crate::completion::{Knowledge, with_state};
 use crate::typing::Typing;
 use crate::{Workspace, describe};
@@ -58,6 +59,9 @@ pub fn signature_help(
     if typing.comment().is_some() {
         return Vec::new();
     }
+    if let Some(shown) = call_of_sub(workspace, &typing, is_asked) {
+        return vec![shown];
+    }
     let mut codes: Vec<Code<'_>> = typing
         .codes()
         .into_iter()
@@ -73,8 +77,8 @@ pub fn signature_help(
         .line
         .iter()
         .rfind(|lexeme| lexeme.range.start < typing.offset && !lexeme.kind.is_trivia())
-        // After a blank the next word is to come.
-        .filter(|lexeme| lexeme.range.end == typing.offset)
+        // After a blank the next word is to come; a cursor inside a word is at the word.
+        .filter(|lexeme| lexeme.range.end >= typing.offset)
         .filter(|lexeme| matches!(lexeme.kind, SyntaxKind::WORD | SyntaxKind::LETTER))
         .and_then(|lexeme| typing.letter(lexeme));
     let block = Block { typing: &typing, present: typing.letters(), at };
@@ -100,10 +104,53 @@ pub fn signature_help(
         let missing: Vec<Letter> =
             missing.into_iter().chain(needed.filter(|l| !block.present.contains(l))).collect();
         if is_asked || !missing.is_empty() {
-            shown.push(signature(typing.control(), code, &taken, at.or_else(|| missing.first().copied())));
+            let next = at.or_else(|| missing.first().copied()).or_else(|| block.next(code));
+            shown.push(signature(typing.control(), code, &taken, next));
         }
     }
     shown
+}
+
+/// The call of a subroutine of O-words that is being typed: `o<probe> call [1] [2]`.
+fn call_of_sub(workspace: &Workspace, typing: &Typing<'_>, is_asked: bool) -> Option<Signature> {
+    let before = || typing.line.iter().filter(|lexeme| lexeme.range.end <= typing.offset);
+    let call = before().find(|lexeme| lexeme.kind == SyntaxKind::CALL_KW)?;
+    let written = typing.snapshot.slice(typing.start..call.range.start);
+    let mut words = typing.snapshot.file_index().o_words.iter();
+    let label =
+        words.find(|word| word.range.start <= call.range.start && call.range.end <= word.range.end)?;
+    let taken = arguments_of_sub(workspace, &label.label)?;
+    // The bracket that the cursor is in, else the one to come.
+    let (mut depth, mut begun) = (0_u32, 0_usize);
+    for lexeme in before().filter(|lexeme| lexeme.range.start >= call.range.end) {
+        match lexeme.kind {
+            SyntaxKind::L_BRACKET => {
+                begun += usize::from(depth == 0);
+                depth += 1;
+            }
+            SyntaxKind::R_BRACKET => depth = depth.saturating_sub(1),
+            _ => {}
+        }
+    }
+    let active = if depth > 0 { begun.saturating_sub(1) } else { begun };
+    if taken.is_empty() || !is_asked && active >= taken.len() {
+        return None;
+    }
+    let mut text = format!("{} {}", written.trim(), typing.snapshot.slice(call.range.clone()));
+    let mut parameters = Vec::new();
+    for argument in &taken {
+        text.push(' ');
+        let start = text.len() as u32;
+        // Writing to a string cannot fail.
+        let _ = write!(text, "[#{}]", argument.variable);
+        let says = argument.says.as_ref().map(|says| format!(": {says}")).unwrap_or_default();
+        let documentation = format!("becomes `#{}` in the subroutine{says}", argument.variable);
+        parameters.push(Parameter { label: start..text.len() as u32, documentation });
+    }
+    let active = (active < taken.len()).then_some(active as u32);
+    let documentation = "calls the subroutine; an argument that is left out is 0".to_owned();
+    // Editors count in other units than bytes.
+    text.is_ascii().then_some(Signature { label: text, documentation, parameters, active })
 }
 
 fn is_call(code: Code<'_>) -> bool {
@@ -183,6 +230,17 @@ impl Block<'_, '_> {
         missing
     }
 
+    /// What may follow in a block that needs nothing more: in the order in which the code lists its words, the first that is not
+    /// there after the last that is.
+    fn next(&self, code: Code<'_>) -> Option<Letter> {
+        let letters = || code.entry().words.iter().filter_map(|word| Letter::parse(&word.letter));
+        let last = self.typing.line.iter().filter(|lexeme| lexeme.range.end < self.typing.offset);
+        let last = last.filter(|lexeme| lexeme.kind == SyntaxKind::WORD);
+        let last = last.filter_map(|lexeme| self.typing.letter(lexeme)).next_back()?;
+        let place = letters().position(|letter| letter == last)?;
+        letters().skip(place + 1).find(|letter| !self.present.contains(letter))
+    }
+
     /// Does the block have a word with its value: `L2`?
     fn has_word(&self, word: &str) -> bool {
         let plain = |text: &str| {
@@ -222,7 +280,11 @@ fn signature(control: &Control, code: Code<'_>, taken: &[Argument], at: Option<L
         }
         let text = optional(&word.letter, matches!(word.need, Need::Required | Need::Modal));
         let letter = Letter::parse(&word.letter);
-        add(text, letter, format!("**{}** {}, {}", word.letter, word.is, describe::needs(word)));
+        add(
+            text,
+            letter,
+            format!("**{}** {}", word.letter, describe::meaning(&word.is, &describe::needs(word))),
+        );
     }
     for argument in taken {
         let name = format!("{}=#{}", argument.letter, argument.variable);
@@ -296,17 +358,17 @@ mod tests {
             "haas-mill",
             "G83 Z-1. R.1 Q.1 $0\n",
             &expect![[r#"
-            G83 [X] [Y] [A] [B] [C] Z R F [L] Q [I] [J] [K] [P] [E]
-              F: **F** feed rate, here or earlier, feed rate
-        "#]],
+                G83 [X] [Y] [A] [B] [C] Z R F [L] Q [I] [J] [K] [P] [E]
+                  F: **F** feed rate, here or earlier
+            "#]],
         );
         check(
             "haas-mill",
             "G83 Z-1. R.1 Q.1 F8$0\n",
             &expect![[r#"
-            G83 [X] [Y] [A] [B] [C] Z R F [L] Q [I] [J] [K] [P] [E]
-              F: **F** feed rate, here or earlier, feed rate
-        "#]],
+                G83 [X] [Y] [A] [B] [C] Z R F [L] Q [I] [J] [K] [P] [E]
+                  F: **F** feed rate, here or earlier
+            "#]],
         );
         check("haas-mill", "G83 Z-1. R.1 Q.1 F8. $0\n", &expect![[""]]);
         check("haas-mill", "F8.\nG83 Z-1. R.1 Q.1 $0\n", &expect![[""]]);
@@ -316,9 +378,9 @@ mod tests {
             "G83 Z-1. R.1 Q.1 F8. $0\n",
             true,
             &expect![[r#"
-            G83 [X] [Y] [A] [B] [C] Z R F [L] Q [I] [J] [K] [P] [E]
-              no word
-        "#]],
+                G83 [X] [Y] [A] [B] [C] Z R F [L] Q [I] [J] [K] [P] [E]
+                  [L]: **L** number of repeats; 0 only stores the cycle, optional, else 1, whole number, from 0
+            "#]],
         );
     }
 
@@ -330,7 +392,7 @@ mod tests {
             "G1 X1. $0\n",
             &expect![[r#"
                 G1 [X] [Y] [Z] [A] [B] [C] [U] [V] [W] F [L] [,C] [,R]
-                  F: **F** feed rate, here or earlier, feed rate
+                  F: **F** feed rate, here or earlier
             "#]],
         );
         check("haas-mill", "F10.\nG1 X1. $0\n", &expect![[""]]);
@@ -369,9 +431,9 @@ mod tests {
             "fanuc-mill",
             "G65 $0\n",
             &expect![[r#"
-            G65 P [L] [A] [B] [C] [D] [E] [F] [H] [I] [J] [K] [M] [Q] [R] [S] [T] [U] [V] [W] [X] [Y] [Z]
-              P: **P** program number, required, program number, from 1
-        "#]],
+                G65 P [L] [A] [B] [C] [D] [E] [F] [H] [I] [J] [K] [M] [Q] [R] [S] [T] [U] [V] [W] [X] [Y] [Z]
+                  P: **P** program number, required, from 1
+            "#]],
         );
     }
 
@@ -405,5 +467,74 @@ mod tests {
         "#]],
         );
         check_call("G65 P9010 A1. Z2. $0", &expect![[""]]);
+    }
+
+    #[test]
+    fn the_word_of_a_cursor_inside_it_is_active() {
+        check_asked(
+            "haas-mill",
+            "G43 H$01 Z1.\n",
+            true,
+            &expect![[r#"
+            G43 H [X] [Y] [Z] [A] [B] [C]
+              H: **H** length offset, normally that of the tool in the spindle; H0 cancels, here or earlier, whole number, 0 to 2999, but not 201 to 999
+        "#]],
+        );
+        check_asked(
+            "haas-mill",
+            "G43 H1$0\n",
+            true,
+            &expect![[r#"
+            G43 H [X] [Y] [Z] [A] [B] [C]
+              H: **H** length offset, normally that of the tool in the spindle; H0 cancels, here or earlier, whole number, 0 to 2999, but not 201 to 999
+        "#]],
+        );
+    }
+
+    #[test]
+    fn what_may_follow_is_active_when_nothing_is_missing() {
+        check_asked(
+            "haas-mill",
+            "O1\nM98 P2000 $0\n",
+            true,
+            &expect![[r#"
+            M98 [P] [L]
+              [L]: **L** number of calls, optional, else 1, whole number, 1 to 99
+        "#]],
+        );
+    }
+
+    #[test]
+    fn arguments_of_a_subroutine_of_o_words() {
+        check(
+            "linuxcnc",
+            "o<foo> sub\n(#1 - depth)\ng1 z[#1] f#3 (feed)\no<foo> endsub\no<foo> call $0\nm2\n",
+            &expect![[r#"
+                o<foo> call [#1] [#2] [#3]
+                  [#1]: becomes `#1` in the subroutine: depth
+            "#]],
+        );
+        check(
+            "linuxcnc",
+            "o<foo> sub\n(#1 - depth)\ng1 z[#1] f#3 (feed)\no<foo> endsub\no<foo> call [1] [$0\nm2\n",
+            &expect![[r#"
+                o<foo> call [#1] [#2] [#3]
+                  [#2]: becomes `#2` in the subroutine
+            "#]],
+        );
+        check(
+            "linuxcnc",
+            "o<foo> sub\n(#1 - depth)\ng1 z[#1] f#3 (feed)\no<foo> endsub\no<foo> call [1] [2] $0\nm2\n",
+            &expect![[r#"
+                o<foo> call [#1] [#2] [#3]
+                  [#3]: becomes `#3` in the subroutine: feed
+            "#]],
+        );
+        check(
+            "linuxcnc",
+            "o<foo> sub\n(#1 - depth)\ng1 z[#1] f#3 (feed)\no<foo> endsub\no<foo> call [1] [2] [3] $0\nm2\n",
+            &expect![[""]],
+        );
+        check("linuxcnc", "o<foo> call [$0\nm2\n", &expect![[""]]);
     }
 }

@@ -30,7 +30,7 @@ pub struct StateView {
     pub visits: u32,
     /// Before the block.
     pub before: StateSide,
-    /// After it; `None` when the program does not go on from here.
+    /// After it; of a call, when the program is back. `None` when the program does not go on from here.
     pub after: Option<StateSide>,
 }
 
@@ -115,21 +115,40 @@ pub fn state_at(
 ) -> Result<Option<StateView>, Cancelled> {
     let snapshot = database.indexed(document).ok_or(Cancelled)?;
     let Some(place) = snapshot.block_at(offset) else { return Ok(None) };
+    let range = place.range();
     let mut view = None;
-    database.look(document, place.number..place.number + 1, stop, &mut |state, look| {
+    database.look(document, place.number..place.number.saturating_add(1), stop, &mut |state, look| {
         let reader = StateReader::new(&snapshot, look.model());
-        let range = place.range();
+        let before = side(&reader, look, &state.before, &state.definitions);
+        let after = state.settled().map(|(after, definitions)| {
+            let mut after = side(&reader, look, after, definitions);
+            if !state.calls() {
+                set_here(&before, &mut after, range.start);
+            }
+            after
+        });
         view = Some(StateView {
             line: snapshot.line_at(range.start),
             start: range.start,
             end: range.end,
             on_every_path: state.on_every_path,
             visits: state.visits,
-            before: side(&reader, look, &state.before, &state.definitions),
-            after: state.after.as_ref().map(|after| side(&reader, look, after, &state.definitions_after)),
+            before,
+            after,
         });
     })?;
     Ok(view)
+}
+
+/// A mode that is another one after the block was set by the block, also where no code of the block names it: the end of a program
+/// sets what holds at power-on.
+fn set_here(before: &StateSide, after: &mut StateSide, block: u32) {
+    for mode in &mut after.modes {
+        let was = before.modes.iter().find(|was| was.group == mode.group);
+        if was.is_some_and(|was| was.codes != mode.codes && was.set_at == mode.set_at) {
+            mode.set_at = Some(block);
+        }
+    }
 }
 
 fn side(
@@ -1089,5 +1108,48 @@ mod tests {
             None
         "#]],
         );
+    }
+
+    /// What `of` shows of the state after the block.
+    fn after(control: &str, text: &str, of: impl Fn(&super::StateSide) -> String) -> Option<String> {
+        let mut fixture = Fixture::new(control, text);
+        let view = state_at(&mut fixture.database, fixture.document, fixture.offset, &|| false).unwrap();
+        view.and_then(|view| view.after).map(|after| of(&after))
+    }
+
+    fn x(side: &super::StateSide) -> String {
+        format!("{:?} {:?}", side.work.get(&'X'), side.feed)
+    }
+
+    #[test]
+    fn after_a_call_is_where_it_is_back() {
+        for call in ["M98 P2", "M98 P2 L3", "G65 P2", "G65 P2 L3"] {
+            let text =
+                format!("O1\nG20 G90 G54 G0 X1.\n$0{call}\nG0 Z1.\nM30\nO2\nG91 G1 X1. F5.\nG90\nM99\n");
+            let expected = if call.ends_with("L3") {
+                "Some(Some(4.0)) Some(\"F5 inch/min\")"
+            } else {
+                "Some(Some(2.0)) Some(\"F5 inch/min\")"
+            };
+            assert_eq!(after("haas-mill", &text, x).as_deref(), Some(expected), "{call}");
+        }
+        let text = "O1\nG20 G90 G54 G0 X1.\n$0M97 P10 L2\nG0 Z1.\nM30\nN10 G91 G1 X1. F5.\nG90 M99\n";
+        assert_eq!(after("haas-mill", text, x).as_deref(), Some("Some(Some(3.0)) Some(\"F5 inch/min\")"));
+        let text = "o1 sub\ng1 x[#1] f5\no1 endsub\ng21 g90 g54 g0 x1\n$0o1 call [7]\ng0 z1\nm2\n";
+        assert_eq!(after("linuxcnc", text, x).as_deref(), Some("Some(Some(7.0)) Some(\"F5 mm/min\")"));
+        // What never comes back has no state after it.
+        assert_eq!(after("haas-mill", "O1\nG0 X1.\n$0M98 P2\nG0 Z1.\nM30\nO2\nM30\n", x), None);
+    }
+
+    #[test]
+    fn the_end_of_the_program_sets_the_modes_of_power_on() {
+        let distance = |side: &super::StateSide| {
+            let mode = side.modes.iter().find(|mode| mode.group == "absolute or incremental").unwrap();
+            format!("{:?} {:?}", mode.codes, mode.set_at)
+        };
+        for end in ["M30", "M2"] {
+            let text = format!("G20 G90\nG91 G0 X1.\n$0{end}\n");
+            assert_eq!(after("haas-mill", &text, distance).as_deref(), Some("[\"G90\"] Some(19)"), "{end}");
+        }
     }
 }

@@ -4,7 +4,7 @@
 
 use std::ops::Range;
 
-use gcheck_controls::{CodeIx, Control, Effect, Variable, VariableKind, WordKind};
+use gcheck_controls::{CodeIx, Control, Effect, ReturnTo, Variable, VariableKind, WordKind};
 use gcheck_db::{DocumentId, Snapshot};
 use gcheck_program::{Call, CallKind, FileIndex, Jump, OKeyword, OLabel, OWord, profile};
 use gcheck_syntax::SyntaxKind;
@@ -127,12 +127,89 @@ pub(crate) fn occurrences(
     document: DocumentId,
     symbol: &Symbol,
 ) -> Vec<(DocumentId, Occurrence)> {
-    files_of(workspace, document, symbol)
+    let mut all: Vec<(DocumentId, Occurrence)> = files_of(workspace, document, symbol)
         .into_iter()
         .flat_map(|file| {
             occurrences_in(&file.snapshot, symbol).into_iter().map(|occurrence| (file.id, occurrence))
         })
-        .collect()
+        .collect();
+    if let Symbol::Label { number, program } = symbol {
+        let place = |id: DocumentId| workspace.files.iter().position(|file| file.id == id);
+        all.extend(returns_to(workspace, document, *number, program));
+        all.sort_by_key(|(id, occurrence)| (place(*id), occurrence.range.start));
+    }
+    all
+}
+
+/// The returns of called programs that name a label of the program that calls them (`M99 P100`).
+fn returns_to(
+    workspace: &Workspace,
+    document: DocumentId,
+    number: u32,
+    program: &Range<u32>,
+) -> Vec<(DocumentId, Occurrence)> {
+    let mut found = Vec::new();
+    for file in &workspace.files {
+        let returns = file.snapshot.file_index().jumps.iter().filter(|jump| jump.target == Some(number));
+        for jump in returns.filter(|jump| leaves(&file.snapshot, jump)) {
+            let is_called = callers(workspace, file, jump).contains(&(document, program.clone()));
+            let range = digits(&file.snapshot, &jump.range, number).filter(|_| is_called);
+            found.extend(range.map(|range| {
+                let symbol = Symbol::Label { number, program: program.clone() };
+                (file.id, Occurrence { symbol, range, kind: ReferenceKind::Read })
+            }));
+        }
+    }
+    found
+}
+
+/// What a return at `offset` names in the programs that call its own: the label of each, with its file.
+pub(crate) fn returned_to(
+    workspace: &Workspace,
+    file: &WorkspaceFile,
+    offset: u32,
+) -> Vec<(DocumentId, Occurrence)> {
+    let returns = |jump: &&Jump| touches(&jump.range, offset) && leaves(&file.snapshot, jump);
+    let Some(jump) = file.snapshot.file_index().jumps.iter().find(returns) else { return Vec::new() };
+    let Some(number) = jump.target else { return Vec::new() };
+    let Some(range) = digits(&file.snapshot, &jump.range, number) else { return Vec::new() };
+    let named = |(caller, program): (DocumentId, Range<u32>)| {
+        let labels = &workspace.file(caller)?.snapshot.file_index().labels;
+        let is_it =
+            |label: &gcheck_program::Label| label.number == number && program.contains(&label.range.start);
+        labels.iter().any(is_it).then(|| {
+            let symbol = Symbol::Label { number, program: program.clone() };
+            (caller, Occurrence { symbol, range: range.clone(), kind: ReferenceKind::Read })
+        })
+    };
+    callers(workspace, file, jump).into_iter().filter_map(named).collect()
+}
+
+/// Does a jump name a block of the program that calls its own?
+pub(crate) fn leaves(snapshot: &Snapshot, jump: &Jump) -> bool {
+    is_elsewhere(snapshot.control(), jump.code, WordKind::Label) && !is_in_main(snapshot, jump.range.start)
+}
+
+/// The programs that call the one that a jump is in, each once.
+pub(crate) fn callers(
+    workspace: &Workspace,
+    file: &WorkspaceFile,
+    jump: &Jump,
+) -> Vec<(DocumentId, Range<u32>)> {
+    let called = program_around(&file.snapshot, jump.range.start);
+    let mut found = Vec::new();
+    for caller in &workspace.files {
+        for call in &caller.snapshot.file_index().calls {
+            let place = callee(&caller.snapshot, call)
+                .and_then(|symbol| definition_of(workspace, caller.id, &symbol))
+                .filter(|place| place.file == file.id && called.contains(&place.range.start));
+            let from = (caller.id, program_around(&caller.snapshot, call.range.start));
+            if place.is_some() && !found.contains(&from) {
+                found.push(from);
+            }
+        }
+    }
+    found
 }
 
 /// The files that may name a symbol which is named in `document`.
@@ -361,8 +438,7 @@ fn naming_of_program(
 /// does not, or there is no such label but here.
 fn jump_occurrence(snapshot: &Snapshot, jump: &Jump) -> Option<Occurrence> {
     let number = jump.target?;
-    if is_elsewhere(snapshot.control(), jump.code, WordKind::Label) && !is_in_main(snapshot, jump.range.start)
-    {
+    if leaves(snapshot, jump) {
         return None;
     }
     naming_of_label(snapshot, number, &jump.range, ReferenceKind::Read)
@@ -379,10 +455,11 @@ pub(crate) fn is_in_main(snapshot: &Snapshot, offset: u32) -> bool {
         && file_index.ends.iter().any(|end| end.ends == gcheck_controls::Ends::Program)
 }
 
-/// May the target of a word of this kind be in another program?
+/// May the target of a word of this kind be in another program? What a return names is where the control says: in the caller, or
+/// in the program that has the return.
 pub(crate) fn is_elsewhere(control: &Control, code: CodeIx, kind: WordKind) -> bool {
     control.code_at(code).is_some_and(|code| {
-        code.effect() == Effect::Return
+        code.effect() == Effect::Return && control.semantics().return_to == ReturnTo::Caller
             || code.entry().words.iter().any(|word| word.kind == kind && word.elsewhere)
     })
 }

@@ -11,6 +11,22 @@ use gcheck_syntax::SyntaxKind;
 use crate::describe;
 use crate::lexemes::{Lexeme, lexemes};
 
+/// What the tokens before a place ask for next.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Expected {
+    /// A condition is complete; the keyword in front of it is `IF` or `WHILE`.
+    AfterCondition(SyntaxKind),
+    /// An expression has an operand and may go on with an operator.
+    Operator {
+        /// The expression is a condition.
+        in_condition: bool,
+    },
+    /// The keyword of an O-word, whose label the line begins with.
+    OKeyword,
+    /// Nothing in particular.
+    Anything,
+}
+
 /// A block that is being typed.
 pub(crate) struct Typing<'s> {
     pub(crate) snapshot: &'s Snapshot,
@@ -91,6 +107,62 @@ impl<'s> Typing<'s> {
             _ => depth,
         });
         depth > 0
+    }
+
+    /// What the tokens before `from` ask for.
+    pub(crate) fn expected(&self, from: u32) -> Expected {
+        let before: Vec<&Lexeme> =
+            self.line.iter().filter(|lexeme| lexeme.range.end <= from && !lexeme.kind.is_trivia()).collect();
+        let Some(last) = before.last() else { return Expected::Anything };
+        let syntax = self.control().syntax();
+        if syntax.o_words && before.iter().any(|lexeme| self.is_label(lexeme)) {
+            let is_alone = self.is_label(last) && last.range.end < self.offset;
+            return if is_alone { Expected::OKeyword } else { self.expected_in_brackets(&before) };
+        }
+        // The bracket that the last token closes, if it closes one.
+        let mut depth = 0;
+        let open = before.iter().rposition(|lexeme| {
+            match lexeme.kind {
+                SyntaxKind::R_BRACKET => depth += 1,
+                SyntaxKind::L_BRACKET => depth -= 1,
+                _ => {}
+            }
+            depth == 0
+        });
+        let keyword = open.and_then(|open| before.get(open.checked_sub(1)?)).map(|lexeme| lexeme.kind);
+        match keyword {
+            Some(keyword @ (SyntaxKind::IF_KW | SyntaxKind::WHILE_KW))
+                if last.kind == SyntaxKind::R_BRACKET && syntax.macro_statements =>
+            {
+                Expected::AfterCondition(keyword)
+            }
+            _ => self.expected_in_brackets(&before),
+        }
+    }
+
+    fn expected_in_brackets(&self, before: &[&Lexeme]) -> Expected {
+        let ends_operand = before.last().is_some_and(|last| {
+            matches!(
+                last.kind,
+                SyntaxKind::VARIABLE
+                    | SyntaxKind::NAMED_VARIABLE
+                    | SyntaxKind::NUMBER
+                    | SyntaxKind::R_BRACKET
+            )
+        });
+        if !ends_operand || !self.in_brackets() {
+            return Expected::Anything;
+        }
+        let is_condition = |lexeme: &&Lexeme| {
+            matches!(lexeme.kind, SyntaxKind::IF_KW | SyntaxKind::ELSEIF_KW | SyntaxKind::WHILE_KW)
+        };
+        Expected::Operator { in_condition: before.iter().any(is_condition) }
+    }
+
+    /// Is a token the label of an O-word?
+    fn is_label(&self, lexeme: &Lexeme) -> bool {
+        lexeme.kind == SyntaxKind::O_NAME
+            || lexeme.kind == SyntaxKind::WORD && self.letter(lexeme) == Some(Letter::of('O'))
     }
 
     /// The last token before the cursor and what is typed there, blanks left out.

@@ -8,10 +8,15 @@ use crate::{Memory, PathCx};
 
 /// What several rules of the path tier remember together.
 ///
-/// The memory sees every move once, after the rules: during a move, a rule asks for what was before that move.
+/// The memory sees every event once, after the rules: during a move, a rule asks for what was before that move.
 pub trait SharedMemory: Memory {
     /// The axes moved, and every rule has seen it.
     fn moved(&mut self, cx: &PathCx<'_>, event: &Event);
+
+    /// An event that is not a move, and every rule has seen it.
+    fn changed(&mut self, cx: &PathCx<'_>, event: &Event) {
+        let _ = (cx, event);
+    }
 }
 
 /// Makes an empty one.
@@ -29,6 +34,11 @@ impl SharedMemories {
         if self.0.iter().all(|(_, own)| type_of(&**own) != type_of(&*new)) {
             self.0.push((make, new));
         }
+    }
+
+    /// Is there none?
+    pub(crate) fn is_empty(&self) -> bool {
+        self.0.is_empty()
     }
 
     /// All of them forget.

@@ -19,7 +19,7 @@ use crate::block_delete::{self, Key};
 use crate::containment;
 use crate::evaluated::Evaluated;
 use crate::path_context::ReadBlock;
-use crate::shared_memory::SharedMemories;
+use crate::shared_memory::{SharedMemories, SharedMemory};
 use crate::{Environment, FinishCx, FollowedCx, PathCx, PathRule, Remembers, Report, RuleEntry, Uses, Watch};
 
 /// A rule that watches.
@@ -372,6 +372,21 @@ impl<'a, 'c> Watchers<'a, 'c> {
         self.current = read;
         self.shared = shared;
     }
+
+    /// What rules remember together goes on with what they were shown.
+    fn remember(&mut self, flow: &FlowCx<'_>, mut call: impl FnMut(&mut dyn SharedMemory, &PathCx<'_>)) {
+        if flow.origin.at.file != 0 || self.shared.is_empty() {
+            return;
+        }
+        let mut shared = std::mem::take(&mut self.shared);
+        let (none, had_enough, evaluated) =
+            (SharedMemories::default(), Cell::new(false), Evaluated::default());
+        let cx = self.context(flow, self.current.as_deref(), &had_enough, &none, &evaluated);
+        for memory in shared.iter_mut() {
+            call(memory, &cx);
+        }
+        self.shared = shared;
+    }
 }
 
 /// Blocks that [`PathRule::block`] may be called for.
@@ -463,6 +478,7 @@ impl FlowObserver for Watchers<'_, '_> {
         if !moves {
             self.changed = true;
             self.show(Watch::CHANGES, cx, |rule, cx, report| rule.changed(cx, event, report));
+            self.remember(cx, |memory, cx| memory.changed(cx, event));
             return;
         }
         // Blocks of other files are judged when those files are checked.

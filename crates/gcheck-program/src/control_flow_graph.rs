@@ -18,7 +18,7 @@ mod tests;
 use std::ops::Range;
 
 use crate::block::BlockTable;
-use crate::statement::OLabel;
+use crate::statement::{OKeyword, OLabel};
 use block_set::BlockSet;
 pub use builder::ControlFlowGraphBuilder;
 pub use chunk::{ChunkFlow, Skeleton};
@@ -270,6 +270,17 @@ impl ControlFlowGraph {
     /// `continue` outside their loop, `return` outside subroutines, a computed label, a second O-word in its block.
     pub fn unmatched_o_words(&self) -> &[u32] {
         self.o_words.unmatched()
+    }
+
+    /// Does a computed label (`O[#1]`) open, go on with or close a structure? Which O-words belong together only a run knows
+    /// then.
+    pub fn has_computed_o_labels(&self) -> bool {
+        self.o_words.has_computed()
+    }
+
+    /// Blocks of a range with an O-word, in text order.
+    pub fn o_words_in(&self, blocks: Range<u32>) -> impl DoubleEndedIterator<Item = (u32, OKeyword)> {
+        self.o_words.within(blocks)
     }
 
     /// Blocks that open a structure whose label has opened another before, in the same subroutine or main part; and

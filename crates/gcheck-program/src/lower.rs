@@ -36,6 +36,8 @@ pub struct Dialect<'c> {
     /// Quiet addresses that say where to, and nothing that the file as a whole is asked about.
     points: LetterSet,
     max_digits: u32,
+    /// `P2.` is `P2`, and `G1.00` is `G1`.
+    integers_take_point: bool,
     line_length: u32,
     line_counts: LineCounts,
     lower_case: bool,
@@ -131,6 +133,7 @@ impl<'c> Dialect<'c> {
             bound: (0..=u8::MAX).filter_map(Letter::new).filter(is_bound).collect(),
             points: quiet.and(control.axes().or(LetterSet::of("IJKR"))),
             letters,
+            integers_take_point: control.numbers().integers_take_point,
             max_digits: control.numbers().max_digits.map_or(u32::MAX, u32::from),
             line_length: control.limits().line_length.unwrap_or(u32::MAX),
             line_counts: control.limits().line_counts,
@@ -200,10 +203,14 @@ impl<'c> Dialect<'c> {
         if letter != Letter::of('G') && letter != Letter::of('M') {
             return CodeIx::NONE;
         }
-        let number = match (shape.decimals, shape.minus) {
-            (0 | 1, false) => CodeNumber::from_value(letter.ascii(), number),
-            _ => None,
+        let is_written = match shape.decimals {
+            _ if shape.minus => false,
+            0 | 1 => true,
+            // `G59.10`: a control that reads counts as numbers reads codes so, too, whatever zeros are at their end.
+            #[expect(clippy::float_cmp, reason = "asks whether the number is that of one decimal exactly")]
+            _ => self.integers_take_point && (number * 10.0).round() / 10.0 == number,
         };
+        let number = is_written.then(|| CodeNumber::from_value(letter.ascii(), number)).flatten();
         number.map_or(CodeIx::NONE, |n| self.control.code_ix(n))
     }
 
@@ -329,6 +336,7 @@ pub fn profile(control: &Control) -> SyntaxProfile {
     SyntaxProfile {
         semicolon_comment: syntax.semicolon == Semicolon::Comment,
         blanks_in_numbers: syntax.blanks_in_numbers,
+        colon_program: syntax.colon_program,
         o_words: syntax.o_words,
         macro_statements: syntax.macro_statements,
         variables: syntax.variables,
@@ -411,10 +419,9 @@ impl Quiet {
     }
 }
 
-/// Lowers a chunk from its tree. Equal to [`lower`] on the same text (law 2).
-pub fn lower_tree(parse: &Parse, dialect: &Dialect<'_>) -> BlockTable {
-    let text = parse.syntax().text().to_string();
-    let mut sink = LowerSink::new(&text, dialect);
+/// Lowers a chunk from its tree and the text that the tree was made from. Equal to [`lower`] on the same text (law 2).
+pub fn lower_tree(parse: &Parse, text: &str, dialect: &Dialect<'_>) -> BlockTable {
+    let mut sink = LowerSink::new(text, dialect);
     replay(parse, &mut sink);
     sink.place_late_errors();
     sink.table
@@ -604,7 +611,6 @@ impl<'t, 'd> LowerSink<'t, 'd> {
 
     /// The keyword of an O-word: the word before it is the label, not a word of the block.
     fn o_keyword(&mut self, keyword: OKeyword) {
-        let from_word = |word: &Word| word.integer().map_or(OLabel::Computed, OLabel::Number);
         let Some(open) = self.open.last() else { return };
         if open.keyword.is_some() {
             return;
@@ -615,12 +621,26 @@ impl<'t, 'd> LowerSink<'t, 'd> {
         let label = match named {
             Some(Target::Named(range)) => OLabel::Name(name_key(self.slice(&range))),
             _ => match self.table.words.pop() {
-                Some(word) => {
-                    if let Value::Expr(ix) = word.value {
+                Some(Word { value: Value::Expr(ix), .. }) => {
+                    // `O[100*2]` is `O200`; its expression is not an argument then.
+                    let number = constant_label(self.table.ops(self.table.expr(ix)));
+                    if number.is_none() {
                         first_argument = ix.0;
                     }
-                    from_word(&word)
+                    number.map_or(OLabel::Computed, OLabel::Number)
                 }
+                Some(word) => word.integer().map_or_else(
+                    || {
+                        // `O-1` is computed as `O[-1]` is.
+                        let ops = self.table.ops.len();
+                        self.table.ops.push(Op::Number(word.number().unwrap_or(f64::NAN)));
+                        if let Some(ix) = self.take_expr(ops, word.start) {
+                            first_argument = ix.0;
+                        }
+                        OLabel::Computed
+                    },
+                    OLabel::Number,
+                ),
                 None => OLabel::Computed,
             },
         };
@@ -770,6 +790,39 @@ const fn is_blank(byte: u8) -> bool {
 pub(crate) fn name_key(text: &[u8]) -> String {
     let text = String::from_utf8_lossy(text);
     text.chars().filter(|c| !c.is_whitespace()).flat_map(char::to_lowercase).collect()
+}
+
+/// The number of a label that is computed from numbers alone.
+fn constant_label(ops: &[Op]) -> Option<u32> {
+    // Labels are short; what is longer is left to the run.
+    let mut stack = [0.0; 8];
+    let mut depth = 0_usize;
+    for op in ops {
+        let value = match op {
+            Op::Number(number) => *number,
+            Op::Negate => {
+                depth = depth.checked_sub(1)?;
+                -stack.get(depth)?
+            }
+            Op::Binary(operator) => {
+                depth = depth.checked_sub(2)?;
+                let (left, right) = (stack.get(depth)?, stack.get(depth + 1)?);
+                match operator {
+                    BinaryOp::Add => left + right,
+                    BinaryOp::Subtract => left - right,
+                    BinaryOp::Multiply => left * right,
+                    _ => return None,
+                }
+            }
+            _ => return None,
+        };
+        *stack.get_mut(depth)? = value;
+        depth += 1;
+    }
+    let [value, ..] = stack;
+    let is_label = depth == 1 && value.fract() == 0.0 && (0.0..=f64::from(u32::MAX)).contains(&value);
+    #[expect(clippy::cast_sign_loss, reason = "the range is checked")]
+    is_label.then_some(value as u32)
 }
 
 /// The bytes between `<` and `>` of a fused named token.

@@ -2,6 +2,7 @@
 //!
 //! Knows: their parts by index. Must not know: which blocks they join (see [`crate::file index`]).
 
+use std::borrow::Cow;
 use std::ops::Range;
 
 use crate::expression::ExprIx;
@@ -111,6 +112,19 @@ pub enum OLabel {
     Name(String),
     /// `O[#1]`.
     Computed,
+}
+
+impl OLabel {
+    /// The label as the control compares it with others: `O<100>` is `O100`, `O<0100>` is not.
+    pub fn compared(&self) -> Cow<'_, Self> {
+        match self {
+            Self::Name(name) => match name.parse::<u32>() {
+                Ok(number) if number.to_string() == *name => Cow::Owned(Self::Number(number)),
+                _ => Cow::Borrowed(self),
+            },
+            _ => Cow::Borrowed(self),
+        }
+    }
 }
 
 /// The keyword of an O-word.

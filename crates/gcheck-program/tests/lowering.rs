@@ -340,11 +340,10 @@ fn mistakes_leave_the_rest_of_the_block_readable() {
               Y = 2 (0 decimals)
               ! AddressWithoutValue "X"
               ! UnclosedComment "(open"
-            "X1.2.3 Z#1+2 [1 Y5." BlockFlags(ERROR | STATEMENT | EXPRESSION)
+            "X1.2.3 Z#1+2 [1 Y5." BlockFlags(ERROR | EXPRESSION)
               X = 1.2 (1 decimals)
               Z = #1
               Y = 5 (0 decimals)
-              "[1": guard 1
               ! MalformedNumber ".3"
               ! NeedsBrackets "+2"
               ! UnclosedBracket "["
@@ -487,7 +486,7 @@ proptest! {
             let control = gcheck_controls::load(name).unwrap();
             let dialect = Dialect::new(&control);
             let flat = lower(&text, &dialect);
-            let tree = lower_tree(&parse(&text, dialect.profile()), &dialect);
+            let tree = lower_tree(&parse(&text, dialect.profile()), &text, &dialect);
             prop_assert_eq!(&flat, &tree, "{} on {:?}", name, text);
         }
     }
@@ -500,7 +499,7 @@ proptest! {
         let control = gcheck_controls::load("fanuc-mill").unwrap();
         let dialect = Dialect::new(&control);
         let flat = lower(&text, &dialect);
-        let tree = lower_tree(&parse(&text, dialect.profile()), &dialect);
+        let tree = lower_tree(&parse(&text, dialect.profile()), &text, &dialect);
         prop_assert_eq!(&flat, &tree, "{:?}", text);
     }
 }
@@ -512,9 +511,25 @@ fn signs_of_the_serial_line_are_passed_over() {
     for (text, mistakes) in
         [("\0\0\0", 0), ("G0 X1.\u{11}\n\u{13}\nM30\n\u{1A}\n", 0), ("\u{1A}G0\n", 1), ("G0 X1.~\n", 1)]
     {
-        for table in [lower(text, &dialect), lower_tree(&parse(text, dialect.profile()), &dialect)] {
+        for table in [lower(text, &dialect), lower_tree(&parse(text, dialect.profile()), text, &dialect)] {
             let found: usize = table.blocks().map(|(ix, _)| table.errors(ix).count()).sum();
             assert_eq!(found, mistakes, "{text:?}");
         }
     }
+}
+
+#[test]
+fn labels_of_numbers_alone_are_no_arguments() {
+    check(
+        "linuxcnc",
+        "o[100*2] call [1]\no[200] if [#1]\no[#1] if [#2]\n",
+        &expect![[r##"
+            "o[100*2] call [1]" BlockFlags(STATEMENT)
+              "o[100*2] call [1]": Number(200) CALL ["1"]
+            "o[200] if [#1]" BlockFlags(STATEMENT)
+              "o[200] if [#1]": Number(200) IF ["#1"]
+            "o[#1] if [#2]" BlockFlags(STATEMENT)
+              "o[#1] if [#2]": Computed IF ["#1", "#2"]
+        "##]],
+    );
 }

@@ -22,6 +22,8 @@ pub(crate) struct Document {
     pub(crate) number: u64,
     /// Where it is on disk, or would be.
     pub(crate) path: PathBuf,
+    /// It is a program, not a configuration that some editors open with us as well.
+    pub(crate) is_program: bool,
     pub(crate) version: i32,
     /// What is in force, as the host said last.
     pub(crate) in_force: InForce,
@@ -110,6 +112,12 @@ impl Document {
         self.stale = self.stale.max(stale);
         self.clock.tick();
     }
+}
+
+/// Is a document a program? A text in TOML is a configuration: ours, or nothing that concerns us.
+pub(crate) fn is_program(language: &str, path: &Path) -> bool {
+    let is_toml = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml"));
+    !is_toml && !language.eq_ignore_ascii_case("toml")
 }
 
 /// A file's name without folders.

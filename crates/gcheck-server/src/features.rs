@@ -45,7 +45,11 @@ impl Owner {
         self.look_ahead(uri, &|| false);
         let snapshot = self.snapshot(uri)?;
         let offset = self.places(&snapshot).offset(params.position);
-        Ok((self.document(uri)?.id, offset))
+        let document = self.document(uri)?;
+        if !document.is_program {
+            return Err(refused(format!("{} is a configuration, not a program", document.name())));
+        }
+        Ok((document.id, offset))
     }
 
     /// Answers on another thread where a document is large. What an edit has made stale meanwhile is not sent.

@@ -15,6 +15,13 @@ pub trait Host: Send + Sync + 'static {
     /// What is in force for a program.
     fn in_force(&self, program: &ProgramQuery<'_>) -> InForce;
 
+    /// What is wrong with a configuration that is open in the editor, by its text there; `None` when the host does not look into
+    /// files of this name.
+    fn configuration_problems(&self, path: &Path, text: &str) -> Option<Vec<ConfigurationProblem>> {
+        let _ = (path, text);
+        None
+    }
+
     /// The programs that are in a folder itself, by path. A folder that cannot be read has none.
     fn programs_in(&self, folder: &Path) -> Vec<ProgramFile>;
 

@@ -395,6 +395,11 @@ fn block<S: Sink>(p: &mut Parser<'_, S>) {
 fn item<S: Sink>(p: &mut Parser<'_, S>) {
     let Some(token) = p.current() else { return };
     match token {
+        Token::Percent if !is_tape_mark(p) => p.bump_as_error(SyntaxErrorKind::Unexpected),
+        // A control whose `O` opens programs alone takes it for one, or says nothing of it.
+        Token::ColonNumber if p.profile.o_words && !p.profile.colon_program => {
+            p.bump_as_error(SyntaxErrorKind::Unexpected);
+        }
         Token::Whitespace | Token::Bom | Token::Percent | Token::ColonNumber | Token::Semicolon(_) => {
             p.bump();
         }
@@ -405,7 +410,8 @@ fn item<S: Sink>(p: &mut Parser<'_, S>) {
         Token::Comma if starts_parted_corner_word(p) => parted_corner_word(p),
         Token::OName => o_statement(p),
         Token::Variable | Token::NamedVariable | Token::Hash => assignment(p),
-        Token::LBracket => condition(p),
+        Token::LBracket if !p.profile.o_words && (opens_block(p) || !p.touches_previous()) => condition(p),
+        Token::LBracket => stray_group(p),
         Token::Slash => block_delete(p),
         Token::Number => p.bump_as_error(if p.touches_previous() && p.at > 0 {
             SyntaxErrorKind::MalformedNumber
@@ -624,6 +630,10 @@ fn address<S: Sink>(p: &mut Parser<'_, S>) {
         return;
     }
     if is_o && p.peek_past_blanks(0).is_some_and(is_o_keyword) {
+        let label = start..p.end_of_previous();
+        if !is_whole_label(p.text.get(label.start as usize..label.end as usize).unwrap_or_default()) {
+            p.error(SyntaxErrorKind::MalformedNumber, label);
+        }
         p.sink.start_node_at(statement, SyntaxKind::O_STATEMENT);
         o_tail(p, start);
         p.sink.finish_node();
@@ -756,6 +766,53 @@ fn assignment<S: Sink>(p: &mut Parser<'_, S>) {
         p.error(SyntaxErrorKind::MissingEquals, target);
     }
     p.sink.finish_node();
+}
+
+/// Is the `%` here a mark of the tape? Where O-words are read, the mark has its line to itself, and is a stray character
+/// elsewhere; other controls end the tape wherever they find it.
+fn is_tape_mark<S: Sink>(p: &Parser<'_, S>) -> bool {
+    let is_blank = |l: &Lexeme| matches!(l.token, Token::Whitespace | Token::Bom);
+    let is_idle = |l: &Lexeme| {
+        is_blank(l) || matches!(l.token, Token::Comment(_) | Token::Semicolon(_) | Token::Newline)
+    };
+    let (before, behind) = (p.tokens.get(..p.at), p.tokens.get(p.at + 1..));
+    !p.profile.o_words
+        || before.unwrap_or_default().iter().all(is_blank) && behind.unwrap_or_default().iter().all(is_idle)
+}
+
+/// Is there nothing in front of the current token in its block but its number and its `/`?
+fn opens_block<S: Sink>(p: &Parser<'_, S>) -> bool {
+    let before = p.tokens.get(..p.at).unwrap_or_default();
+    let is_number = |l: &Lexeme| matches!(p.text.get(l.start as usize), Some(b'N' | b'n'));
+    let mut before =
+        before.iter().rev().skip_while(|l| matches!(l.token, Token::Whitespace | Token::Comment(_)));
+    match before.next() {
+        None => true,
+        Some(l) => match l.token {
+            Token::Semicolon(_) | Token::Bom | Token::Slash => true,
+            Token::Word => is_number(l),
+            // `/3`, `N 10`
+            Token::Number => before
+                .find(|l| l.token != Token::Whitespace)
+                .is_some_and(|l| l.token == Token::Slash || l.token == Token::Letter && is_number(l)),
+            _ => false,
+        },
+    }
+}
+
+/// `X5[2]`: a bracket after a complete word or value. No control reads it.
+fn stray_group<S: Sink>(p: &mut Parser<'_, S>) {
+    let start = p.offset();
+    p.sink.start_node(SyntaxKind::ERROR);
+    group(p);
+    p.sink.finish_node();
+    // A control without expressions has been told of the bracket, and so has one that misses its end.
+    let is_closed =
+        p.at.checked_sub(1).and_then(|at| p.tokens.get(at)).is_some_and(|l| l.token == Token::RBracket);
+    if p.profile.variables && is_closed {
+        let end = p.end_of_previous();
+        p.error(SyntaxErrorKind::Unexpected, start..end);
+    }
 }
 
 /// `[#1 LT 10]` in front of words.
@@ -927,8 +984,14 @@ fn command_statement<S: Sink>(p: &mut Parser<'_, S>) {
 /// `O100 SUB`, `O<name> CALL [1] [2]` with a fused label.
 fn o_statement<S: Sink>(p: &mut Parser<'_, S>) {
     let start = p.offset();
+    let is_whole = p.current() != Some(Token::Word) || is_whole_label(p.current_text());
     p.sink.start_node(SyntaxKind::O_STATEMENT);
     p.bump();
+    if !is_whole {
+        // `O1.5 IF`
+        let end = p.end_of_previous();
+        p.error(SyntaxErrorKind::MalformedNumber, start..end);
+    }
     if p.peek_past_blanks(0).is_some_and(is_o_keyword) {
         o_tail(p, start);
     } else {
@@ -936,6 +999,17 @@ fn o_statement<S: Sink>(p: &mut Parser<'_, S>) {
         p.error(SyntaxErrorKind::OWordWithoutKeyword, start..end);
     }
     p.sink.finish_node();
+}
+
+/// Is a label that is written as one number (`O1.0`, `O[2]`) a whole number? True for labels of other forms.
+fn is_whole_label(label: &[u8]) -> bool {
+    let is_of_number = |byte: &u8| byte.is_ascii_digit() || matches!(byte, b'.' | b'[' | b']' | b' ' | b'\t');
+    let mut rest = label.iter().skip(1);
+    if !rest.clone().all(is_of_number) {
+        return true;
+    }
+    rest.find(|byte| **byte == b'.');
+    rest.all(|byte| !matches!(byte, b'1'..=b'9'))
 }
 
 /// The keyword of an O-word statement and what follows it.
@@ -1185,16 +1259,36 @@ fn close_group<S: Sink>(p: &mut Parser<'_, S>, open: u32) {
     }
 }
 
+/// Is there one parameter and nothing else in the bracket here: `EXISTS[#<name>]`?
+fn holds_a_parameter<S: Sink>(p: &Parser<'_, S>) -> bool {
+    let first = p.index_past_blanks(1);
+    let token = |at: usize| p.tokens.get(at).map(|l| l.token);
+    match token(first) {
+        Some(Token::Variable | Token::NamedVariable) => {
+            let blanks = p.tokens.get(first + 1..).unwrap_or_default();
+            let blanks = blanks.iter().take_while(|l| l.token == Token::Whitespace).count();
+            token(first + 1 + blanks) == Some(Token::RBracket)
+        }
+        Some(Token::Hash) => true,
+        _ => false,
+    }
+}
+
 /// `SIN[a]`, `ATAN[a]/[b]`.
 fn function_call<S: Sink>(p: &mut Parser<'_, S>) {
     let start = p.offset();
     let is_atan = p.current_text().eq_ignore_ascii_case(b"ATAN");
+    let asks = p.current_text().eq_ignore_ascii_case(b"EXISTS");
     p.sink.start_node(SyntaxKind::FUNCTION_CALL);
     p.bump();
     let name = start..p.end_of_previous();
     p.skip_blanks();
     if p.current() == Some(Token::LBracket) {
+        let is_of_parameter = !asks || holds_a_parameter(p);
         group(p);
+        if !is_of_parameter {
+            p.error(SyntaxErrorKind::MissingOperand, name);
+        }
         if is_atan && p.peek_past_blanks(0) == Some(Token::Slash) {
             let slash = p
                 .tokens

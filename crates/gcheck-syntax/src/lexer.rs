@@ -25,10 +25,10 @@ pub(crate) enum Token {
     Bom,
     #[token("%")]
     Percent,
-    /// `X-1.5`, `,R.5`, `@2.`: an address and its number, fused.
-    #[regex(r"(,?[A-Za-z]|[@^$])[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)")]
+    /// `X-1.5`, `,R.5`, `@2.`: an address and its number, fused. Only `,A`, `,C` and `,R` are addresses with a comma.
+    #[regex(r"(,[ACRacr]|[A-Za-z@^$])[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)")]
     Word,
-    #[regex(r",?[A-Za-z]|[@^$]")]
+    #[regex(r",[ACRacr]|[A-Za-z@^$]")]
     Letter,
     #[regex(r"[0-9]+\.?[0-9]*|\.[0-9]+")]
     Number,

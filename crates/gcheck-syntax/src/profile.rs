@@ -13,6 +13,8 @@ pub struct SyntaxProfile {
     pub semicolon_comment: bool,
     /// `X 1. 5` is `X1.5`.
     pub blanks_in_numbers: bool,
+    /// `:1234` is `O1234`.
+    pub colon_program: bool,
     /// `O100 SUB`, `O<name> CALL [1]`.
     pub o_words: bool,
     /// `IF […] GOTO`, `WHILE […] DO1`, `DPRNT[…]`.
@@ -38,6 +40,7 @@ impl SyntaxProfile {
     pub const MACRO_B: Self = Self {
         semicolon_comment: false,
         blanks_in_numbers: false,
+        colon_program: true,
         o_words: false,
         macro_statements: true,
         variables: true,
@@ -53,6 +56,7 @@ impl SyntaxProfile {
     pub const NGC: Self = Self {
         semicolon_comment: true,
         blanks_in_numbers: true,
+        colon_program: false,
         o_words: true,
         macro_statements: false,
         variables: true,

@@ -4,7 +4,7 @@
 
 use std::ops::Range;
 
-use rowan::{GreenNode, GreenNodeBuilder, Language};
+use rowan::{GreenNode, GreenNodeBuilder, Language, NodeOrToken};
 
 use crate::{Sink, SyntaxError, SyntaxKind, SyntaxProfile, parse_into};
 
@@ -105,19 +105,27 @@ impl Sink for TreeSink<'_> {
 /// Nodes that the grammar opens late (binary operations) come at their place in the tree; a sink must not depend on when a
 /// node was opened, only on when it ends.
 pub fn replay<S: Sink>(parse: &Parse, sink: &mut S) {
-    for event in parse.syntax().preorder_with_tokens() {
-        match event {
-            rowan::WalkEvent::Enter(SyntaxElement::Node(node)) if node.kind() != SyntaxKind::CHUNK => {
-                sink.start_node(node.kind());
+    // The green tree, as the red one allocates each node and token that it shows.
+    let mut open = vec![parse.green.children()];
+    let mut offset = 0;
+    while let Some(children) = open.last_mut() {
+        match children.next() {
+            Some(NodeOrToken::Node(node)) => {
+                sink.start_node(PartProgram::kind_from_raw(node.kind()));
+                open.push(node.children());
             }
-            rowan::WalkEvent::Leave(SyntaxElement::Node(node)) if node.kind() != SyntaxKind::CHUNK => {
-                sink.finish_node();
+            Some(NodeOrToken::Token(token)) => {
+                let start = offset;
+                offset += u32::from(token.text_len());
+                sink.token(PartProgram::kind_from_raw(token.kind()), start..offset);
             }
-            rowan::WalkEvent::Enter(SyntaxElement::Token(token)) => {
-                let range = token.text_range();
-                sink.token(token.kind(), range.start().into()..range.end().into());
+            None => {
+                open.pop();
+                // The root, a CHUNK, is not an event.
+                if !open.is_empty() {
+                    sink.finish_node();
+                }
             }
-            _ => {}
         }
     }
     for error in parse.errors() {

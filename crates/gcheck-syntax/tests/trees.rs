@@ -147,27 +147,27 @@ fn what_cannot_be_used_stands_in_error_nodes() {
         SyntaxProfile::MACRO_B,
         "G1 ) X& [1",
         &expect![[r#"
-        CHUNK
-          BLOCK
-            WORD "G1"
-            WHITESPACE " "
-            ERROR
-              R_PAREN ")"
-            WHITESPACE " "
-            ADDRESS
-              LETTER "X"
-            ERROR
-              UNKNOWN "&"
-            WHITESPACE " "
-            CONDITION
-              GROUP
-                L_BRACKET "["
-                NUMBER "1"
-        ! StrayParenthesis ")"
-        ! AddressWithoutValue "X"
-        ! Unexpected "&"
-        ! UnclosedBracket "["
-    "#]],
+            CHUNK
+              BLOCK
+                WORD "G1"
+                WHITESPACE " "
+                ERROR
+                  R_PAREN ")"
+                WHITESPACE " "
+                ADDRESS
+                  LETTER "X"
+                ERROR
+                  UNKNOWN "&"
+                WHITESPACE " "
+                CONDITION
+                  GROUP
+                    L_BRACKET "["
+                    NUMBER "1"
+            ! StrayParenthesis ")"
+            ! AddressWithoutValue "X"
+            ! Unexpected "&"
+            ! UnclosedBracket "["
+        "#]],
     );
 }
 

@@ -17,11 +17,11 @@ use std::sync::Arc as Shared;
 
 use gcheck_engine::{Axis, Position};
 
-use crate::trail::{Act, Doing, Driven, Feed, Setting, Stand};
+use crate::trail::{Act, Doing, Driven, Feed, Move, Setting, Stand};
 use corner::{Leaving, Off};
 use curve::Curve;
 
-pub use difference::{Aspect, Corner, Difference, Differences, Parting, Place, Value};
+pub use difference::{Again, Aspect, Corner, Difference, Differences, Parting, Place, Value};
 use same::{corners_differ, known_differ, rate_differs, table_differs};
 
 /// Acts that are given together and are matched with each other at most.
@@ -63,6 +63,10 @@ struct Cursor<I: Iterator<Item = Act>> {
     at: Position,
     /// An axis has moved. Before that, a move that goes nowhere may be the other side's way from an unknown place.
     started: bool,
+    /// The next move is the first one that is compared after a place where the paths parted.
+    is_afresh: bool,
+    /// The tool change that was passed since the last move that was done.
+    passed: Option<(u32, Place)>,
     /// The last move that was done.
     last: Option<Place>,
 }
@@ -78,7 +82,15 @@ struct Piece {
 
 impl<I: Iterator<Item = Act>> Cursor<I> {
     fn new(acts: I) -> Self {
-        Self { acts: acts.peekable(), piece: None, at: Position::UNKNOWN, started: false, last: None }
+        Self {
+            acts: acts.peekable(),
+            piece: None,
+            at: Position::UNKNOWN,
+            started: false,
+            is_afresh: false,
+            passed: None,
+            last: None,
+        }
     }
 
     /// Collects what happens before the next move, and takes up that move.
@@ -87,9 +99,18 @@ impl<I: Iterator<Item = Act>> Cursor<I> {
         while self.piece.is_none() && stands.len() < MAX_STANDS {
             let Some(act) = self.acts.next() else { break };
             match &act.doing {
-                Doing::Stand(_) => stands.push(act),
+                Doing::Stand(stand) => {
+                    if let Stand::ToolChange(tool) = stand {
+                        self.passed = tool.map(|tool| (tool, act.place()));
+                    }
+                    stands.push(act);
+                }
                 Doing::Move(made) => {
-                    let curve = Curve::new(made);
+                    let curve = if std::mem::take(&mut self.is_afresh) {
+                        from_anywhere(made)
+                    } else {
+                        Curve::new(made)
+                    };
                     let driven = made.driven;
                     found.unknown |= driven != Driven::Rapid && curve.is_unknown();
                     if curve.is_nothing() && self.started {
@@ -109,7 +130,27 @@ impl<I: Iterator<Item = Act>> Cursor<I> {
         if let Some(piece) = self.piece.take() {
             self.at = piece.curve.end();
             self.last = Some(piece.place());
+            self.passed = None;
         }
+    }
+
+    /// Passes over what is before the next tool change, and over that; the tool, and where it comes. `None` when no tool comes
+    /// whose number is known.
+    fn next_tool(&mut self) -> Option<(u32, Place)> {
+        if let Some(passed) = self.passed.take() {
+            if let Some(piece) = &mut self.piece
+                && let Doing::Move(made) = &piece.act.doing
+            {
+                (piece.curve, piece.done) = (from_anywhere(made), 0.0);
+            }
+            (self.at, self.started) = (Position::UNKNOWN, false);
+            return Some(passed);
+        }
+        self.piece = None;
+        let change = self.acts.find(|act| matches!(act.doing, Doing::Stand(Stand::ToolChange(_))))?;
+        (self.at, self.started, self.is_afresh) = (Position::UNKNOWN, false, true);
+        let Doing::Stand(Stand::ToolChange(tool)) = change.doing else { return None };
+        Some((tool?, change.place()))
     }
 
     /// Is there no further move?
@@ -123,9 +164,20 @@ impl<I: Iterator<Item = Act>> Cursor<I> {
     }
 }
 
+/// The move, from wherever the run comes: where the paths had parted, both may come from different places.
+fn from_anywhere(made: &Move) -> Curve {
+    Curve::new(&Move { from: Position::UNKNOWN, ..made.clone() })
+}
+
+impl Act {
+    fn place(&self) -> Place {
+        Place { file: Shared::clone(&self.file), line: self.line }
+    }
+}
+
 impl Piece {
     fn place(&self) -> Place {
-        Place { file: Shared::clone(&self.act.file), line: self.act.line }
+        self.act.place()
     }
 
     fn left(&self) -> f64 {
@@ -145,6 +197,10 @@ impl<A: Iterator<Item = Act>, B: Iterator<Item = Act>> Comparison<A, B> {
                     stands.retain(|act| act.doing != Doing::Stand(Stand::End));
                 }
             }
+            let is_change = |act: &Act| matches!(act.doing, Doing::Stand(Stand::ToolChange(_)));
+            // One of them may have come to its next tool because the other one goes on where it does not.
+            let is_one_sided = before_a.iter().any(is_change) != before_b.iter().any(is_change);
+            let before = is_one_sided.then(|| self.found.clone());
             if !before_a.is_empty() || !before_b.is_empty() {
                 self.stands(&before_a, &before_b);
                 if self.a.stands_next() || self.b.stands_next() {
@@ -155,8 +211,15 @@ impl<A: Iterator<Item = Act>, B: Iterator<Item = Act>> Comparison<A, B> {
                 (None, None) => return,
                 (Some(_), Some(_)) => {
                     if let Some(parting) = self.pieces() {
-                        self.found.parting = Some(parting);
-                        return;
+                        let again = self.go_on();
+                        let is_over = again.is_none();
+                        if let Some(before) = before.filter(|_| !is_over) {
+                            self.found = before;
+                        }
+                        self.found.part(Parting { again, ..parting });
+                        if is_over {
+                            return;
+                        }
                     }
                 }
                 (Some(piece), None) => {
@@ -166,8 +229,9 @@ impl<A: Iterator<Item = Act>, B: Iterator<Item = Act>> Comparison<A, B> {
                         at: self.b.at,
                         to: [Some(piece.curve.end()), None],
                         apart: f64::NAN,
+                        again: None,
                     };
-                    self.found.parting = Some(parting);
+                    self.found.part(parting);
                     return;
                 }
                 (None, Some(piece)) => {
@@ -177,12 +241,21 @@ impl<A: Iterator<Item = Act>, B: Iterator<Item = Act>> Comparison<A, B> {
                         at: self.a.at,
                         to: [None, Some(piece.curve.end())],
                         apart: f64::NAN,
+                        again: None,
                     };
-                    self.found.parting = Some(parting);
+                    self.found.part(parting);
                     return;
                 }
             }
         }
+    }
+
+    /// Passes over what is before the next tool change of both runs, if they change to the same tool there.
+    fn go_on(&mut self) -> Option<Again> {
+        let (tool, a) = self.a.next_tool()?;
+        let (other, b) = self.b.next_tool()?;
+        self.leaving = None;
+        (tool == other).then_some(Again { tool, a, b })
     }
 
     /// Goes on along both moves by the shorter one of them; tells when they part.
@@ -207,6 +280,7 @@ impl<A: Iterator<Item = Act>, B: Iterator<Item = Act>> Comparison<A, B> {
             at,
             to: [Some(a.curve.end()), Some(b.curve.end())],
             apart,
+            again: None,
         };
         let parted = if a.curve.is_open() || b.curve.is_open() {
             // From an unknown place only the end is known, and everything before it may be a part of the way there.

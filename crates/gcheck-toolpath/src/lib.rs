@@ -31,7 +31,7 @@ mod values;
 
 pub use bar::BarFigures;
 pub use canonical::{Canonical, Ending, Start};
-pub use compare::{Aspect, Corner, Difference, Differences, Parting, Place, Value, compare};
+pub use compare::{Again, Aspect, Corner, Difference, Differences, Parting, Place, Value, compare};
 pub use corner_mode::{Contour, CornerMode};
 pub use csv::Csv;
 pub use jsonl::JsonLines;

@@ -136,12 +136,15 @@ pub(crate) fn refuse_names_among_options(arguments: &[OsString]) -> Result<(), P
 }
 
 /// Options of `gcheck check`.
-#[derive(Debug, Args)]
+#[derive(Debug, Clone, Args)]
 #[expect(clippy::struct_excessive_bools, reason = "each is a flag of the command line")]
 pub struct CheckOptions {
-    /// Files and folders; `-` reads standard input
+    /// Files, folders and patterns (`'parts/**/*.nc'`); `-` reads standard input
     #[arg(default_value = ".", value_name = "PATHS")]
     pub paths: Vec<PathBuf>,
+    /// A file that lists what to check in place of PATHS, a path a line; `-` reads the list from standard input
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["paths", "watch"])]
+    pub files_from: Option<PathBuf>,
     /// What standard input is called
     #[arg(long, value_name = "PATH")]
     pub stdin_filename: Option<PathBuf>,
@@ -341,12 +344,27 @@ pub enum RunFormat {
 /// Options of `gcheck stats`.
 #[derive(Debug, Args)]
 pub struct StatsOptions {
-    /// What is executed, and how.
-    #[command(flatten)]
-    pub execution: ExecutionOptions,
+    /// Programs and folders; `-` reads standard input. More than one program gives a table
+    #[arg(value_name = "FILE|FOLDER", required = true)]
+    pub files: Vec<PathBuf>,
+    /// What standard input is called
+    #[arg(long, value_name = "PATH")]
+    pub stdin_filename: Option<PathBuf>,
+    /// A variable's value before each program starts: `--set '#100=2.5'`, `--set '#<name>=1'` (may be repeated)
+    #[arg(long, value_name = "VARIABLE=VALUE", value_parser = assignment)]
+    pub set: Vec<Assignment>,
+    /// The block delete switch: whether blocks with `/` are skipped; a list such as `1,3` switches those levels on
+    #[arg(long, value_name = "on|off|LEVELS", value_parser = block_skip, default_value = "off")]
+    pub block_skip: BlockSkip,
+    /// The optional stop switch: whether `M1` stops
+    #[arg(long, value_enum, value_name = "on|off", default_value_t)]
+    pub optional_stop: Switch,
+    /// Blocks of each program that may be executed
+    #[arg(long, value_name = "BLOCKS", default_value_t = FUEL)]
+    pub fuel: u64,
     /// How the figures are printed
     #[arg(long, value_enum, default_value_t, value_name = "FORMAT")]
-    pub output_format: ListFormat,
+    pub output_format: StatsFormat,
     /// Write to this file instead of standard output
     #[arg(long, short, value_name = "FILE")]
     pub output_file: Option<PathBuf>,
@@ -355,10 +373,10 @@ pub struct StatsOptions {
 /// Options of `gcheck diff`.
 #[derive(Debug, Args)]
 pub struct DiffOptions {
-    /// A program; `-` reads standard input
+    /// A program or a folder; `-` reads standard input
     #[arg(value_name = "A")]
     pub a: PathBuf,
-    /// The program that it is compared with
+    /// The program or folder that it is compared with
     #[arg(value_name = "B")]
     pub b: PathBuf,
     /// Paths are the same while they stay this close on every axis: millimetres, or degrees on rotary axes
@@ -384,7 +402,10 @@ pub struct DiffOptions {
     pub fuel: u64,
     /// How differences are printed
     #[arg(long, value_enum, default_value_t, value_name = "FORMAT")]
-    pub output_format: ListFormat,
+    pub output_format: DiffFormat,
+    /// Differences that are accepted, each with its reason: a TOML file
+    #[arg(long, value_name = "FILE")]
+    pub accepted: Option<PathBuf>,
     /// Write to this file instead of standard output
     #[arg(long, short, value_name = "FILE")]
     pub output_file: Option<PathBuf>,
@@ -506,6 +527,48 @@ pub struct ListOptions {
     /// How the list is printed
     #[arg(long, value_enum, default_value_t, value_name = "FORMAT")]
     pub output_format: ListFormat,
+}
+
+impl StatsOptions {
+    /// How one of the programs is executed.
+    pub(crate) fn of(&self, file: &Path) -> ExecutionOptions {
+        ExecutionOptions {
+            file: file.to_owned(),
+            stdin_filename: self.stdin_filename.clone(),
+            set: self.set.clone(),
+            block_skip: self.block_skip,
+            optional_stop: self.optional_stop,
+            fuel: self.fuel,
+        }
+    }
+}
+
+/// How figures are printed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+pub enum StatsFormat {
+    /// Columns.
+    #[default]
+    Text,
+    /// Comma-separated values, a row a program.
+    Csv,
+    /// One JSON object.
+    Json,
+}
+
+/// How differences are printed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+pub enum DiffFormat {
+    /// For people.
+    #[default]
+    Text,
+    /// One JSON object.
+    Json,
+    /// Test results, a suite a program.
+    Junit,
+    /// Annotations of GitHub Actions.
+    Github,
+    /// A page with both paths over each other.
+    Html,
 }
 
 /// How a list is printed.

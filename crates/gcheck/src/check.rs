@@ -7,13 +7,12 @@ mod fixed;
 mod job;
 mod known;
 mod next_steps;
-mod progress;
 mod round;
 mod settings_page;
 mod watch;
 
-use crate::Problem;
 use crate::args::{CheckOptions, Global};
+use crate::{Problem, discovery};
 use round::{Check, Looked};
 
 /// Are these bytes what the cache stores, without its heading and check sum?
@@ -23,6 +22,14 @@ pub(crate) fn is_stored_result(bytes: &[u8]) -> bool {
 
 /// Runs the command; the exit code is its result.
 pub(crate) fn run(global: &Global, options: &CheckOptions) -> Result<u8, Problem> {
+    let listed;
+    let options = match &options.files_from {
+        Some(list) => {
+            listed = CheckOptions { paths: discovery::listed(list)?, ..options.clone() };
+            &listed
+        }
+        None => options,
+    };
     let command = Check::new(global, options)?;
     if options.watch { watch::run(&command) } else { command.round(&mut Looked::default()) }
 }

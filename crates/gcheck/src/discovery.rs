@@ -3,12 +3,12 @@
 //! Knows: file names of programs, ignore files, the `[files]` table. Must not know: what is in a file.
 
 use std::collections::BTreeSet;
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 
 use ignore::WalkBuilder;
 
-use crate::config::Configs;
-use crate::{Problem, paths};
+use crate::config::{Configs, PathPattern};
+use crate::{Problem, paths, reading};
 
 /// Extensions of part programs, lower case.
 pub(crate) const EXTENSIONS: [&str; 13] =
@@ -45,11 +45,69 @@ pub(crate) fn find(given: &[PathBuf], configs: &mut Configs) -> Found {
             walk(path, configs, &mut found, &mut seen);
         } else if path.exists() {
             add(path.clone(), &mut found, &mut seen);
+        } else if is_pattern(path) {
+            fit(path, &mut found, &mut seen);
         } else {
             found.problems.push(Problem::with_file(path, "no such file or folder"));
         }
     }
     found
+}
+
+/// The paths that a file lists, a line each, or each up to a NUL where there is one; `-` is standard input.
+///
+/// # Errors
+/// The list cannot be read, or lists nothing.
+pub(crate) fn listed(list: &Path) -> Result<Vec<PathBuf>, Problem> {
+    let source = if list.as_os_str() == "-" {
+        reading::standard_input(Path::new("stdin"))?
+    } else {
+        reading::file(list)?
+    };
+    let text = source.text();
+    let ends: &[char] = if text.contains('\0') { &['\0'] } else { &['\n', '\r'] };
+    let paths: Vec<PathBuf> =
+        text.split(ends).map(str::trim).filter(|line| !line.is_empty()).map(PathBuf::from).collect();
+    if paths.is_empty() {
+        return Err(Problem::with_file(list, "lists no files"));
+    }
+    Ok(paths)
+}
+
+/// Does the path hold a character of patterns? Shells expand patterns where they fit; some shells, and quotes, leave them.
+fn is_pattern(path: &Path) -> bool {
+    path.to_string_lossy().contains(['*', '?', '[', '{'])
+}
+
+/// Takes the files that fit a pattern, whatever their names, as a shell would.
+fn fit(pattern: &Path, found: &mut Found, seen: &mut BTreeSet<PathBuf>) {
+    let is_plain = |part: &Component<'_>| !is_pattern(Path::new(part));
+    let base: PathBuf = pattern.components().take_while(is_plain).collect();
+    let rest: PathBuf = pattern.components().skip_while(is_plain).collect();
+    let folder = if base.as_os_str().is_empty() { Path::new(".") } else { &base };
+    // From the root of the pattern, so that `*.nc` does not fit in every folder.
+    let glob = format!("/{}", paths::shown(&rest));
+    let matcher = match PathPattern::new(&paths::absolute(folder), &glob) {
+        Ok(matcher) => matcher,
+        Err(reason) => {
+            let message = format!("there is no such file, and as a pattern it cannot be read: {reason}");
+            found.problems.push(Problem::with_file(pattern, message));
+            return;
+        }
+    };
+    let mut builder = WalkBuilder::new(folder);
+    builder.follow_links(false).require_git(false).add_custom_ignore_filename(".gcheckignore");
+    let files = builder.build().flatten().map(ignore::DirEntry::into_path);
+    let mut fitting: Vec<PathBuf> =
+        files.filter(|path| path.is_file() && matcher.fits(&paths::absolute(path))).collect();
+    if fitting.is_empty() {
+        found.problems.push(Problem::with_file(pattern, "no file fits this pattern"));
+    }
+    fitting.sort();
+    for path in fitting {
+        let path = path.strip_prefix(".").map_or_else(|_| path.clone(), Path::to_owned);
+        add(path, found, seen);
+    }
 }
 
 /// Refuses to write to a link that leads out of what was given: the folders, and those in which the files are.

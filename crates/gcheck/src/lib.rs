@@ -11,6 +11,7 @@ mod check;
 mod commands;
 pub mod config;
 mod console;
+mod containment;
 mod control_choice;
 mod detection;
 mod discovery;
@@ -26,6 +27,7 @@ mod output;
 mod paths;
 mod problem;
 mod programs;
+mod progress;
 mod quoting;
 mod reading;
 mod rewriting;
@@ -34,7 +36,7 @@ mod writing;
 
 use std::ffi::OsString;
 use std::panic::{self, AssertUnwindSafe};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::{env, thread};
 
@@ -43,6 +45,7 @@ use clap::Parser as _;
 pub use problem::Problem;
 
 use args::{Arguments, Command, MachineCommand};
+use containment::guarded;
 
 /// Runs the program with the arguments of the process.
 pub fn main() -> ExitCode {
@@ -85,7 +88,7 @@ fn run(arguments: &Arguments) -> Result<u8, Problem> {
             guarded(&options.execution.file, || commands::run::run(&arguments.global, options))
         }
         Command::Stats(options) => {
-            guarded(&options.execution.file, || commands::stats::run(&arguments.global, options))
+            guarded(first(&options.files), || commands::stats::run(&arguments.global, options))
         }
         Command::Diff(options) => guarded(&options.a, || commands::diff::run(&arguments.global, options)),
         Command::Plot(options) => {
@@ -107,8 +110,7 @@ fn run(arguments: &Arguments) -> Result<u8, Problem> {
     }
 }
 
-/// Whatever happens in the work, the program ends in words.
-fn guarded(file: &Path, work: impl FnOnce() -> Result<u8, Problem>) -> Result<u8, Problem> {
-    panic::catch_unwind(AssertUnwindSafe(work))
-        .unwrap_or_else(|payload| Err(Problem::own_mistake(payload.as_ref()).in_file(file)))
+/// The program that a message about all of them names.
+fn first(files: &[PathBuf]) -> &Path {
+    files.first().map_or(Path::new("-"), |file| file)
 }

@@ -29,6 +29,9 @@ use crate::{Problem, paths, reading};
 /// Files of one folder that are told of.
 const MOST_FILES: usize = 5_000;
 
+/// Mistakes of one configuration that are shown.
+const MOST_PROBLEMS: usize = 20;
+
 /// Runs the server until the client ends it, or is gone.
 pub(crate) fn run(global: &Global) -> Result<u8, Problem> {
     if let Some(name) = &global.control {
@@ -141,6 +144,34 @@ impl Host for Surroundings {
             in_force.problems.push(shown(&problem));
         }
         in_force
+    }
+
+    fn configuration_problems(&self, path: &Path, text: &str) -> Option<Vec<ConfigurationProblem>> {
+        let name = path.file_name()?.to_str()?;
+        if !FILE_NAMES.contains(&name) {
+            return None;
+        }
+        // Each mistake is blanked with its line, so that the next one is found at its own place.
+        let mut lines: Vec<String> = text.split_inclusive('\n').map(str::to_owned).collect();
+        let mut problems = Vec::new();
+        while problems.len() < MOST_PROBLEMS {
+            let rest = lines.concat();
+            let Err(problem) = crate::config::check_text(path, &rest) else { break };
+            let found = shown(&problem);
+            let Some(line) = lines.get_mut(found.line as usize) else { break };
+            let is_table = line.trim_start().starts_with('[');
+            problems.push(ConfigurationProblem { path: Some(path.to_owned()), ..found });
+            let ends = if line.ends_with('\n') { "\n" } else { "" };
+            if line.trim().is_empty() || is_table {
+                break;
+            }
+            *line = format!("{}{ends}", " ".repeat(line.trim_end_matches(['\r', '\n']).len()));
+            // The rest of a value over several lines is not a mistake of its own.
+            if toml::from_str::<toml::Table>(&lines.concat()).is_err() {
+                break;
+            }
+        }
+        Some(problems)
     }
 
     fn programs_in(&self, folder: &Path) -> Vec<ProgramFile> {

@@ -10,6 +10,7 @@ use std::{env, fmt};
 use gcheck_report::Colour;
 
 use crate::args::When;
+use crate::config::FILE_NAMES;
 use crate::problem::io_reason;
 use crate::writing::{self, Failure};
 use crate::{Problem, paths};
@@ -44,6 +45,37 @@ pub(crate) fn to_stdout(write: impl FnOnce(&mut dyn Write) -> io::Result<()>) ->
         }
         _ => Ok(()),
     }
+}
+
+/// Writes a text to the file, or to standard output without one.
+pub(crate) fn to(file: Option<&Path>, text: &str) -> Result<(), Problem> {
+    match file {
+        Some(file) => to_file(file, |out| out.write_all(text.as_bytes())),
+        None => to_stdout(|out: &mut dyn Write| out.write_all(text.as_bytes())),
+    }
+}
+
+/// Refuses an output that would replace what the run reads.
+///
+/// # Errors
+/// The problem that says so.
+pub(crate) fn refuse_to_replace<'p>(
+    file: Option<&Path>,
+    read: impl IntoIterator<Item = &'p Path>,
+) -> Result<(), Problem> {
+    let Some(file) = file else { return Ok(()) };
+    let place = |path: &Path| fs::canonicalize(path).unwrap_or_else(|_| paths::absolute(path));
+    let target = place(file);
+    let is_configuration = FILE_NAMES.iter().any(|name| file.file_name() == Some(name.as_ref()));
+    if is_configuration && file.exists() {
+        let message = "is a configuration, and the output would replace it";
+        return Err(Problem::with_file(file, message).help("name another file after `-o`"));
+    }
+    if read.into_iter().any(|path| path.is_file() && place(path) == target) {
+        let message = "is read in this run, and the output would replace it";
+        return Err(Problem::with_file(file, message).help("name another file after `-o`"));
+    }
+    Ok(())
 }
 
 /// Writes a file whole or not at all.

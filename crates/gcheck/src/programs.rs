@@ -264,6 +264,11 @@ fn numbers_in(content: &[u8]) -> Vec<u32> {
     read.split(['\n', '\r']).filter_map(number_at_head).collect()
 }
 
+/// The first program number in the part of the file that a control reads.
+pub(crate) fn first_number(content: &[u8]) -> Option<u32> {
+    numbers_in(content).first().copied()
+}
+
 fn number_at_head(line: &str) -> Option<u32> {
     let digits = line.trim_ascii_start().strip_prefix(['O', 'o', ':'])?;
     let end = digits.find(|c: char| !c.is_ascii_digit()).unwrap_or(digits.len());

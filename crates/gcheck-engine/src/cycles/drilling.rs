@@ -242,9 +242,10 @@ impl Tool<'_, '_> {
     fn approach(&mut self, effect: Effect) -> Result<(), CycleError> {
         let [_, _, mut level] = self.hole.plane.to_local(self.sink.at);
         if self.rules.rise_to_r {
-            // The way over the plane climbs to the level that the hole will be left at.
+            // The way over the plane climbs to the level that the hole will be left at, unless the tool is above `R`.
             let clear = self.clear();
-            if level < clear {
+            let is_above = level > self.r();
+            if level < clear && !is_above {
                 level = clear;
             }
             self.rapid_to(level)?;

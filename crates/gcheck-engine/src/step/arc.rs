@@ -185,16 +185,11 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// The centre in the plane's axes, programmed coordinates.
     fn centre(&self, state: &State<D>, axes: [Axis; 2], letters: [Letter; 2]) -> Step<(Mm, Mm)> {
         let absolute = state.effect(Role::ArcCentre, self.model) == Some(Effect::ArcCentreAbsolute);
-        let half = match state.words_are_diameters(self.model) {
-            Some(true) => 2.0,
-            Some(false) => 1.0,
-            None => f64::NAN,
-        };
         let mut centre = [Mm(0.0); 2];
         for ((slot, axis), letter) in centre.iter_mut().zip(axes).zip(letters) {
             let from = state.position().raw(axis);
             *slot = Mm(match (self.length(letter, state), absolute) {
-                (Some(value), true) if axis == Axis::X => value / half,
+                // A radius where words of X are diameters, too (observed).
                 (Some(value), true) => value,
                 (Some(value), false) => from + value,
                 (None, true) => return Err(Fault::MissingWord(letter)),

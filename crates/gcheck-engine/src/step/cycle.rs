@@ -640,10 +640,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     /// The path mode that an operation changed is brought back.
     pub(super) fn end_exact_path(&mut self, state: &mut State<D>) {
-        if std::mem::take(&mut self.passes_exactly)
-            && let Some(mode) = self.current_path_mode(state)
-        {
-            self.path_mode(mode, state);
+        if std::mem::take(&mut self.passes_exactly) {
+            self.announce_path_mode(state);
         }
     }
 
@@ -692,7 +690,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                     self.emit(state, Event::OrientSpindle { angle: 0.0, way });
                 }
                 Stroke::ExactPath => {
-                    if !self.passes_exactly && self.current_path_mode(state) != Some(PathMode::ExactPath) {
+                    if !self.passes_exactly && state.path_mode(self.model) != Some(PathMode::ExactPath) {
                         self.passes_exactly = true;
                         self.path_mode(PathMode::ExactPath, state);
                     }

@@ -5,7 +5,7 @@
 use std::fmt::Write;
 use std::rc::Rc;
 
-use gcheck_controls::MessageComment;
+use gcheck_controls::{MessageComment, Semicolon};
 use gcheck_program::{Place, Statement};
 
 use super::Executor;
@@ -21,7 +21,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if shown.is_empty() {
             return false;
         }
+        let starts_remark = self.model.control().syntax().semicolon == Semicolon::Comment;
         let Some(comment) = self.comment_in(|text| {
+            // What comes after a `;` is a remark, whatever parentheses are in it.
+            let text = if starts_remark { before_remark(text) } else { text };
             let (_, last) = text.rsplit_once('(')?;
             Some(Rc::from(last.split(')').next()?))
         }) else {
@@ -168,6 +171,20 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         }
         self.emit(state, Event::Message(Rc::from(printed)));
     }
+}
+
+/// The text in front of the first `;` that is in no parentheses.
+fn before_remark(text: &str) -> &str {
+    let mut is_open = false;
+    let end = text.find(|c| {
+        match c {
+            '(' => is_open = true,
+            ')' => is_open = false,
+            _ => {}
+        }
+        c == ';' && !is_open
+    });
+    end.and_then(|end| text.get(..end)).unwrap_or(text)
 }
 
 /// The decimals of a format behind its `%`, and what stands behind it.

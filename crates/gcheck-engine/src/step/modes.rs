@@ -371,8 +371,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let not_below_zero = |number: f64| if number < 0.0 { 0.0 } else { number };
         let tolerance = self.words.number(Letter::of('P')).map_or(0.0, not_below_zero);
         let naive = self.words.number(Letter::of('Q')).filter(|q| *q >= 0.0 || q.is_nan());
-        state.blending = Blending { tolerance, naive };
-        let mode = state.blending_mode(self.unit(state));
+        state.blending = Blending { tolerance, naive, unit: self.unit(state) };
+        let mode = state.blending_mode();
         self.path_mode(mode, state);
     }
 
@@ -397,9 +397,12 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         self.words.number(letter).filter(|level| (0.0..=99.0).contains(level)).map(|level| level as u8)
     }
 
-    /// The path mode in effect, as it is announced; `None` when it is not known.
-    pub(super) fn current_path_mode(&self, state: &State<D>) -> Option<PathMode> {
-        state.path_mode(self.model)
+    /// The path mode is announced again, where it is known: its numbers count in the program's present units from then on.
+    pub(super) fn announce_path_mode(&mut self, state: &mut State<D>) {
+        state.blending.unit = self.unit(state);
+        if let Some(mode) = state.path_mode(self.model) {
+            self.path_mode(mode, state);
+        }
     }
 
     fn switch_override(&mut self, effect: Effect, state: &mut State<D>) {

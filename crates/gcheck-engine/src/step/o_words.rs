@@ -5,6 +5,7 @@
 
 use std::ops::Range;
 
+use gcheck_controls::Letter;
 use gcheck_program::{BlockTable, ExprIx, OKeyword, OLabel, OWordLinks, Place, StatementKind};
 
 use super::flow_control::Callee;
@@ -48,9 +49,15 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     ) -> Step<Outcome<D>> {
         let at = self.origin.at;
         let links = self.file(at.file).and_then(|file| file.loaded.flow_graph().o_word(at.block));
-        let Some(links) = links else { return Err(Fault::LoopMismatch) };
-        let first = StatementKind::arguments(&arguments).next();
+        let Some(mut links) = links else { return Err(Fault::LoopMismatch) };
+        if self.is_paired_by_value(at, label, &links) {
+            self.pair_by_value(at, place, label, &arguments, &mut links, state)?;
+        }
+        // The first expression of a computed label is the label's.
+        let first = StatementKind::arguments(&arguments).nth(usize::from(*label == OLabel::Computed));
         let word = OWordBlock { place, table, at, links, first };
+        let is_called = state.calls.last().is_some_and(|f| f.entry == at && f.kind == FrameKind::OWord);
+        self.define_label(label, &word, is_called)?;
         match keyword {
             OKeyword::Sub => self.begin_subroutine(word, state),
             OKeyword::EndSub | OKeyword::Return => self.return_from_subroutine(word, state),
@@ -105,6 +112,161 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         }
     }
 
+    /// Does the text alone not say which O-words belong to this one?
+    fn is_paired_by_value(&self, at: At, label: &OLabel, links: &OWordLinks) -> bool {
+        let is_alone = match links.keyword {
+            OKeyword::Call | OKeyword::Return | OKeyword::EndSub => false,
+            OKeyword::Sub | OKeyword::If | OKeyword::Do | OKeyword::Repeat => links.end.is_none(),
+            OKeyword::While => links.head.is_none() && links.end.is_none(),
+            _ => links.head.is_none(),
+        };
+        is_alone
+            && (*label == OLabel::Computed
+                || self.file(at.file).is_some_and(|file| file.loaded.flow_graph().has_computed_o_labels()))
+    }
+
+    /// Joins an O-word to those whose labels have its value, as the control does when it comes to it.
+    fn pair_by_value(
+        &mut self,
+        at: At,
+        place: &Place,
+        label: &OLabel,
+        arguments: &Range<u32>,
+        links: &mut OWordLinks,
+        state: &State<D>,
+    ) -> Step {
+        use OKeyword as K;
+        let own = self.label_value(place, label, arguments, state)?;
+        let (above, below) =
+            (self.equal_labels(at, &own, true, state), self.equal_labels(at, &own, false, state));
+        let first = |found: &[(u32, K)], keywords: &[K]| {
+            found.iter().find(|(_, keyword)| keywords.contains(keyword)).map(|(block, _)| *block)
+        };
+        match links.keyword {
+            K::Sub => links.end = first(&below?, &[K::EndSub]),
+            K::If | K::ElseIf | K::Else => {
+                let below = below?;
+                links.next = first(&below, &[K::ElseIf, K::Else, K::EndIf]);
+                links.end = first(&below, &[K::EndIf]);
+                if links.keyword != K::If {
+                    links.head = first(&above?, &[K::If]);
+                }
+            }
+            K::EndIf => links.head = first(&above?, &[K::If]),
+            K::EndWhile => links.head = first(&above?, &[K::While]),
+            K::EndRepeat => links.head = first(&above?, &[K::Repeat]),
+            K::Do => links.end = first(&below?, &[K::While]),
+            K::Repeat => links.end = first(&below?, &[K::EndRepeat]),
+            K::While => {
+                let opener = above?.into_iter().find(|(_, keyword)| matches!(keyword, K::Do | K::While));
+                match opener {
+                    Some((head, K::Do)) => links.head = Some(head),
+                    _ => links.end = first(&below?, &[K::EndWhile]),
+                }
+            }
+            K::Break | K::Continue => {
+                let opener = above?.into_iter().find(|(_, keyword)| matches!(keyword, K::Do | K::While));
+                let Some((head, keyword)) = opener else { return Ok(()) };
+                let closer = if keyword == K::Do { K::While } else { K::EndWhile };
+                (links.head, links.end) = (Some(head), first(&below?, &[closer]));
+                let decides_at_head = links.keyword == K::Continue && keyword == K::While;
+                links.leads_to = if decides_at_head { Some(head) } else { links.end };
+            }
+            K::Call | K::Return | K::EndSub => {}
+        }
+        Ok(())
+    }
+
+    /// O-words of the same label in the same subroutine, the nearest first, above the block or below it.
+    fn equal_labels(
+        &mut self,
+        at: At,
+        own: &OLabel,
+        above: bool,
+        state: &State<D>,
+    ) -> Step<Vec<(u32, OKeyword)>> {
+        let Some(file) = self.file(at.file) else { return Err(Fault::Undecidable) };
+        let graph = file.loaded.flow_graph();
+        let part = graph.part_of(at.block);
+        let own_links = graph.o_word(at.block);
+        let begins = own_links.is_some_and(|links| links.keyword == OKeyword::Sub);
+        let inside = if begins { Some(at.block) } else { own_links.and_then(|links| links.inside) };
+        let blocks = if above { part.start..at.block } else { at.block + 1..part.end };
+        let words = graph.o_words_in(blocks).filter(|(block, keyword)| {
+            !matches!(keyword, OKeyword::Call | OKeyword::Return)
+                && graph.o_word(*block).is_some_and(|links| links.inside == inside)
+        });
+        let words: Vec<(u32, OKeyword)> = if above {
+            words.rev().take(MOST_LABELS + 1).collect()
+        } else {
+            words.take(MOST_LABELS + 1).collect()
+        };
+        if words.len() > MOST_LABELS {
+            return Err(Fault::Undecidable);
+        }
+        let mut equal = Vec::new();
+        for (block, keyword) in words {
+            let Some(place) = file.loaded.place(block, self.program.dialect()) else { continue };
+            let table = std::rc::Rc::clone(&place.table);
+            let label = table.statements(place.ix).find_map(|statement| match &statement.kind {
+                StatementKind::OWord { label, arguments, .. } => Some((label, arguments)),
+                _ => None,
+            });
+            let Some((label, arguments)) = label else { continue };
+            if self.label_value(&place, label, arguments, state)? == *own {
+                equal.push((block, keyword));
+            }
+        }
+        Ok(equal)
+    }
+
+    /// A label, with its number where it is computed.
+    fn label_value(
+        &mut self,
+        place: &Place,
+        label: &OLabel,
+        arguments: &Range<u32>,
+        state: &State<D>,
+    ) -> Step<OLabel> {
+        match label {
+            OLabel::Computed => {
+                let Some(expr) = StatementKind::arguments(arguments).next() else {
+                    return Err(Fault::Malformed);
+                };
+                let value = self.value_of(place, &place.table, place.table.expr(expr), state)?;
+                let number = D::known(&value).ok_or(Fault::Undecidable)?;
+                whole_label(number)
+            }
+            _ => Ok(label.compared().into_owned()),
+        }
+    }
+
+    /// A control keeps one place for a label of a subroutine: it refuses the second block that opens a structure with it. An
+    /// analysis of all paths leaves that to a rule of the text. A call of a subroutine does not define it again.
+    fn define_label(&mut self, label: &OLabel, word: &OWordBlock<'_>, is_called: bool) -> Step {
+        let opens = match word.links.keyword {
+            OKeyword::If | OKeyword::Repeat | OKeyword::Sub => true,
+            OKeyword::While => word.links.head.is_none(),
+            _ => false,
+        };
+        let at = word.at;
+        if !opens || self.leaves_to_rules() || !self.refuses_incomplete() || *label == OLabel::Computed {
+            return Ok(());
+        }
+        let has_reused =
+            self.file(at.file).is_some_and(|file| !file.loaded.flow_graph().reused_o_labels().is_empty());
+        if !has_reused {
+            return Ok(());
+        }
+        let scope = if word.links.keyword == OKeyword::Sub { None } else { Some(word.links.inside) };
+        if scope.is_none() && is_called {
+            return Ok(());
+        }
+        let first =
+            *self.labels_defined.entry((at.file, scope, label.compared().into_owned())).or_insert(at.block);
+        if first == at.block { Ok(()) } else { self.refuse(Fault::LoopMismatch) }
+    }
+
     /// The body runs only when it is called.
     fn begin_subroutine(&mut self, word: OWordBlock<'_>, state: &State<D>) -> Step<Outcome<D>> {
         let at = word.at;
@@ -153,13 +315,16 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 for (slot, _) in &mut values {
                     *slot -= 1;
                 }
-                #[expect(clippy::cast_sign_loss, reason = "negative numbers are no labels and become 0")]
-                Some(OLabel::Number(number.round() as u32))
+                Some(whole_label(number)?)
             }
             _ => None,
         };
         let label = computed.as_ref().unwrap_or(label);
-        let Some(target) = self.program.find_subroutine(label, word.at.file) else {
+        let target = match self.program.find_subroutine(label, word.at.file) {
+            Some(target) => Some(target),
+            None => self.subroutine_by_value(label, word.at, state)?,
+        };
+        let Some(target) = target else {
             self.assumptions.insert(Assumption::MissingSubroutine(match label {
                 OLabel::Name(name) => name.clone(),
                 OLabel::Number(number) => number.to_string(),
@@ -170,6 +335,28 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             return Ok(Outcome::Next);
         };
         self.enter(Callee::of_subroutine(target, values), state)
+    }
+
+    /// A subroutine of the file whose label is computed: `O[#1] SUB`.
+    fn subroutine_by_value(&mut self, label: &OLabel, at: At, state: &State<D>) -> Step<Option<At>> {
+        let Some(file) = self.file(at.file) else { return Ok(None) };
+        let graph = file.loaded.flow_graph();
+        if !graph.has_computed_o_labels() {
+            return Ok(None);
+        }
+        let subs = graph.o_words_in(0..graph.blocks()).filter(|(_, keyword)| *keyword == OKeyword::Sub);
+        for (block, _) in subs.take(MOST_LABELS) {
+            let Some(place) = file.loaded.place(block, self.program.dialect()) else { continue };
+            let table = std::rc::Rc::clone(&place.table);
+            for statement in table.statements(place.ix) {
+                if let StatementKind::OWord { label: OLabel::Computed, arguments, .. } = &statement.kind
+                    && self.label_value(&place, &OLabel::Computed, arguments, state)? == *label
+                {
+                    return Ok(Some(At { file: at.file, block }));
+                }
+            }
+        }
+        Ok(None)
     }
 
     /// `IF`, or an `ELSEIF` that is wanted.
@@ -279,6 +466,23 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         });
         self.nested.insert(at, holds);
         holds
+    }
+}
+
+/// O-words that are looked at for the partner of one whose label is computed.
+const MOST_LABELS: usize = 4_096;
+
+/// The label of a computed number.
+fn whole_label(number: f64) -> Step<OLabel> {
+    let whole = number.round();
+    if (whole - number).abs() > 1e-4 {
+        return Err(Fault::WordRange(Letter::of('O')));
+    }
+    #[expect(clippy::cast_sign_loss, reason = "the range is checked")]
+    if (0.0..=f64::from(u32::MAX)).contains(&whole) {
+        Ok(OLabel::Number(whole as u32))
+    } else {
+        Ok(OLabel::Name(whole.to_string()))
     }
 }
 

@@ -624,6 +624,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if number == 0 || state.tables().lacks_tool(number) {
             return Err(Fault::NoSuchTool(number));
         }
+        if !self.words.present().intersects(self.model.axis_letters.or(const { LetterSet::of("RIJQ") })) {
+            // Without a value to write it is refused (observed).
+            return Err(Fault::MissingWord(Letter::of('R')));
+        }
         let named = self.named(state);
         let radius = self.length(Letter::of('R'), state);
         let angles = [self.words.number(Letter::of('I')), self.words.number(Letter::of('J'))];

@@ -174,7 +174,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         // The first M code stands in one block with the G codes and acts before them; the others follow in blocks of their
         // own.
         let differs = |role: Role| was.modes.get(role.index()) != saved.modes.get(role.index());
-        let restores_path = differs(Role::PathControl) || was.blending != saved.blending;
+        let restores_path = differs(Role::PathControl) || !was.blending.has_numbers_of(&saved.blending);
         let mut switches = changed_switches(&was, saved).into_iter();
         if was.spindle == saved.spindle
             && let Some(first) = switches.next()
@@ -191,9 +191,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         self.restore_offsets(&was, saved, state);
         if restores_path {
             state.blending = saved.blending;
-            if let Some(mode) = self.current_path_mode(state) {
-                self.path_mode(mode, state);
-            }
+            self.announce_path_mode(state);
         }
         for switch in switches {
             self.restore_switch(switch, None, state);

@@ -11,7 +11,7 @@ pub(crate) fn run(bytes: &[u8]) {
     let case = programs::case(bytes);
     let dialect = Dialect::new(case.control);
     let flat = lower(&case.text, &dialect);
-    let tree = lower_tree(&parse(&case.text, dialect.profile()), &dialect);
+    let tree = lower_tree(&parse(&case.text, dialect.profile()), &case.text, &dialect);
     assert_eq!(flat, tree, "the tree and the tokens give the same blocks");
     let mut tools = ToolNames::new(case.control);
     let loaded = Loaded::new(&case.text, &dialect, |_, table, text| tools.look(table, text));

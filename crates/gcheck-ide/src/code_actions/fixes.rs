@@ -30,9 +30,8 @@ pub(super) fn offer(
     let mut told: Vec<&str> = Vec::new();
     for finding in &here {
         for (index, fix) in finding.fixes.iter().enumerate() {
-            let note = if fix.safe { "" } else { " (may change moves)" };
             let mut action = CodeAction::change(
-                format!("{}{note}", capitalised(&fix.title)),
+                format!("{}{}", capitalised(&fix.title), note(fix.safe)),
                 ActionKind::Fix,
                 fix.edits.clone(),
             );
@@ -43,10 +42,14 @@ pub(super) fn offer(
             continue;
         }
         told.push(finding.rule.id);
-        let of_rule = analysis.findings.iter().filter(|other| other.rule.id == finding.rule.id);
-        let (edits, count) = together(of_rule.filter_map(|other| other.fixes.first()));
+        let of_rule = || {
+            let of_rule = analysis.findings.iter().filter(|other| other.rule.id == finding.rule.id);
+            of_rule.filter_map(|other| other.fixes.first())
+        };
+        let (edits, count) = together(of_rule());
         if count > 1 {
-            let title = format!("Fix all {count} `{}` findings in this file", finding.rule.id);
+            let note = note(of_rule().all(|fix| fix.safe));
+            let title = format!("Fix all {count} `{}` findings in this file{note}", finding.rule.id);
             actions.push(answer(finding, CodeAction::change(title, ActionKind::Fix, edits)));
         }
     }
@@ -65,6 +68,11 @@ pub(super) fn offer(
         let title = format!("Fix all {count} findings whose fixes change no move");
         actions.push(CodeAction::change(title, ActionKind::FixAll, edits));
     }
+}
+
+/// What the title of a fix says of moves.
+fn note(is_safe: bool) -> &'static str {
+    if is_safe { "" } else { " (may change moves)" }
 }
 
 /// With a capital at its start, as editors write what can be done.

@@ -8,6 +8,7 @@
 //! is meant.
 
 use std::collections::HashMap;
+use std::ops::Range;
 
 use super::link::{NONE, known};
 use crate::statement::{OKeyword, OLabel};
@@ -18,7 +19,7 @@ pub struct OWordLinks {
     /// The keyword.
     pub keyword: OKeyword,
     /// The block that opens the structure: `sub` for `endsub` and `return`, `if` for its branches, `while`, `do` or `repeat`
-    /// for the loop's end, `break` and `continue`. `None` for a block that opens one; so a `while` with a head closes a `do`.
+    /// for the loop's end, `while` or `do` for `break` and `continue`. `None` for a block that opens one; so a `while` with a head closes a `do`.
     pub head: Option<u32>,
     /// For `if`, `elseif` and `else`: the next branch or the `endif`.
     pub next: Option<u32>,
@@ -31,7 +32,7 @@ pub struct OWordLinks {
     /// The block that `break`, `continue` or `return` leads to; `None` for other keywords.
     ///
     /// `break`: the block that closes the loop; the program goes on after it. `continue`: the block that decides on the
-    /// next turn (`while`, or the `endrepeat` that counts). `return`: the `endsub`.
+    /// next turn (`while`). `return`: the `endsub`.
     pub leads_to: Option<u32>,
 }
 
@@ -57,6 +58,8 @@ pub(super) struct OWords {
     subs: HashMap<OLabel, u32>,
     unmatched: Vec<u32>,
     reused: Vec<u32>,
+    /// Is a label computed that opens, goes on with or closes a structure?
+    computed: bool,
 }
 
 impl OWords {
@@ -91,11 +94,26 @@ impl OWords {
     pub(super) fn turns(&self) -> impl Iterator<Item = (u32, u32)> {
         let loops = [OKeyword::While, OKeyword::Do, OKeyword::Repeat];
         let begun = self.entries.iter().filter(move |entry| loops.contains(&entry.keyword));
-        begun.filter_map(|entry| Some((entry.block, self.block(entry.end)?)))
+        // Which loops have computed labels only a run knows: any of its O-words may lead back to any.
+        let ends = self.entries.first().zip(self.entries.last()).filter(|_| self.computed);
+        let all = ends.map(|(first, last)| (first.block, last.block));
+        begun.filter_map(|entry| Some((entry.block, self.block(entry.end)?))).chain(all)
+    }
+
+    /// Does a computed label open, go on with or close a structure?
+    pub(super) fn has_computed(&self) -> bool {
+        self.computed
+    }
+
+    /// Blocks of the range with an O-word, in text order.
+    pub(super) fn within(&self, blocks: Range<u32>) -> impl DoubleEndedIterator<Item = (u32, OKeyword)> {
+        let at = |block: u32| self.entries.partition_point(|entry| entry.block < block);
+        let entries = self.entries.get(at(blocks.start)..at(blocks.end)).unwrap_or_default();
+        entries.iter().map(|entry| (entry.block, entry.keyword))
     }
 
     pub(super) fn sub(&self, label: &OLabel) -> Option<u32> {
-        self.subs.get(label).copied()
+        self.subs.get(&*label.compared()).copied()
     }
 
     /// The `sub` whose text holds the block, its own two blocks included; O-words before `first` do not count.
@@ -200,6 +218,7 @@ impl OWordBuilder {
         let scope = self.scopes.last().map_or(NONE, |s| s.sub);
         self.words.entries.push(Entry { block, keyword, head: NONE, next: NONE, end: NONE, scope });
         let label = self.label(label);
+        self.words.computed |= label.is_none() && !matches!(keyword, OKeyword::Call | OKeyword::Return);
         match keyword {
             OKeyword::Sub => self.open_sub(this, label),
             OKeyword::EndSub => self.close_sub(this, label),
@@ -266,11 +285,12 @@ impl OWordBuilder {
         if *label == OLabel::Computed {
             return None;
         }
-        if let Some(number) = self.labels.get(label) {
+        let label = label.compared();
+        if let Some(number) = self.labels.get(&*label) {
             return Some(*number);
         }
         let number = self.labels.len() as u32;
-        self.labels.insert(label.clone(), number);
+        self.labels.insert(label.into_owned(), number);
         Some(number)
     }
 
@@ -341,11 +361,10 @@ impl OWordBuilder {
             (OKeyword::EndWhile, Some(OKeyword::While), _)
             | (OKeyword::EndRepeat, Some(OKeyword::Repeat), _)
             | (OKeyword::While, Some(OKeyword::Do), _) => self.close(this, label),
-            (
-                OKeyword::Break | OKeyword::Continue,
-                Some(OKeyword::While | OKeyword::Do | OKeyword::Repeat),
-                Some(open),
-            ) => self.set(this, |entry| entry.head = open.head),
+            // A `repeat` has neither.
+            (OKeyword::Break | OKeyword::Continue, Some(OKeyword::While | OKeyword::Do), Some(open)) => {
+                self.set(this, |entry| entry.head = open.head);
+            }
             (OKeyword::If | OKeyword::While | OKeyword::Do | OKeyword::Repeat, _, _) => {
                 if self.scope().known.contains_key(&label) {
                     self.reuse(this);

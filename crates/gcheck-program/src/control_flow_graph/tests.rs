@@ -328,7 +328,7 @@ fn loops_of_o_words() {
             9  o2 continue            head 7 end 10 to 10 target flow
             10 o2 while [#1 GT 0]     head 7 target flow
             11 o3 repeat [5]          end 13 target flow
-            12 o3 continue            head 11 end 13 to 13 target flow
+            12 o3 continue            target flow unmatched
             13 o3 endrepeat           head 11 target flow
         "#]],
     );

@@ -14,6 +14,11 @@ pub(crate) fn is_along_tool(effect: Effect) -> bool {
     effect == Effect::LengthFiveAxis
 }
 
+/// Does the path hold for the tip of the tool, however it is tilted?
+pub(crate) fn follows_the_tip(effect: Effect) -> bool {
+    is_along_tool(effect) || effect == Effect::ToolCentrePoint
+}
+
 /// Is the path shifted along the vector of each block?
 pub(crate) fn is_along_vectors(effect: Effect) -> bool {
     effect == Effect::CompensationVector

@@ -60,6 +60,39 @@ pub(crate) fn live_tool(cx: &PathCx<'_>) -> LiveTool {
     if is_live { LiveTool::Stands } else { LiveTool::No }
 }
 
+/// May a live tool work that the state does not know of? The block, or one before it since the tool came, moves the C axis, or has
+/// an M code whose meaning is the machine builder's.
+pub(crate) fn may_be_live(cx: &PathCx<'_>) -> bool {
+    let here = cx.origin().at;
+    let changed =
+        cx.definitions().set_by(Fact::Tool).filter(|at| at.file == here.file && at.block <= here.block);
+    let first = changed.map_or(0, |at| at.block);
+    (first..=here.block).any(|block| {
+        let Some(place) = cx.place_of(At { block, ..here }) else { return true };
+        let words = place.table.words(place.block());
+        // On lathes `M13` may be the start of a live tool as well.
+        let starts_with_coolant = |effect| {
+            matches!(effect, Effect::SpindleClockwiseWithCoolant | Effect::SpindleCounterClockwiseWithCoolant)
+        };
+        place.block().letters.intersects(LetterSet::of("CHY"))
+            || words.iter().any(|word| starts_with_coolant(cx.model.effect(word.code)))
+            || words.iter().any(|word| is_function(cx, word.letter.ascii(), word.code))
+    })
+}
+
+/// Is there an M code whose meaning is the machine builder's in the blocks from this one of the main file up to the one that is
+/// shown? Also where they do not follow each other.
+pub(crate) fn builders_since(cx: &PathCx<'_>, first: u32) -> bool {
+    let here = cx.origin().at;
+    first > here.block
+        || (first..=here.block).any(|block| {
+            cx.place_of(At { block, ..here }).is_none_or(|place| {
+                let words = place.table.words(place.block());
+                words.iter().any(|word| is_function(cx, word.letter.ascii(), word.code))
+            })
+        })
+}
+
 /// Is it an M code that does what the machine builder made of it?
 fn is_function(cx: &PathCx<'_>, letter: u8, code: CodeIx) -> bool {
     letter == b'M' && cx.code_of(code).is_none_or(|code| code.is_user() || code.entry().group == "m-user")

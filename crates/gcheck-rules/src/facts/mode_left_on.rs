@@ -3,6 +3,8 @@
 //! Knows: where the first tool comes, where a mode was set, what the file can switch. Must not know: any rule; each rule gives
 //! its mode and the words for it.
 
+use std::ops::Range;
+
 use crate::{Finding, RuleMeta};
 use crate::{PathCx, PathRule, Remembers, Report, Uses, remembers};
 use gcheck_controls::Effect;
@@ -38,11 +40,17 @@ pub(crate) struct ModeLeftOn {
 struct Carried {
     /// Where the first tool comes.
     first_tool: Option<At>,
+    /// The block that switched the mode on with which a tool change was made.
+    over: Option<At>,
+    /// The last block of the main program itself that switches the mode.
+    own: Option<At>,
+    /// The first cut of the main program with a mode that a subprogram has left on, and the block that switched it on.
+    after_call: Option<(At, Range<u32>)>,
     /// A cut was reported: later cuts and the end of the program are not.
     is_reported: bool,
 }
 
-remembers!(Carried: first_tool);
+remembers!(Carried: first_tool, over, own, after_call);
 
 impl ModeLeftOn {
     pub(crate) fn new(mode: &'static Mode) -> Self {
@@ -59,7 +67,9 @@ impl ModeLeftOn {
         }
         let (set, changed) =
             (cx.definitions().set_by(Fact::Mode(role))?, cx.definitions().set_by(Fact::Tool)?);
-        if !is_before(first_tool, set) || !is_before(set, changed) || cx.file_uses(|effect| effect == off) {
+        let is_carried = is_before(set, changed) || self.carried.over == Some(set);
+        let is_later = is_before(first_tool, set) || first_tool.file != set.file;
+        if !is_later || !is_carried || cx.file_uses(|effect| effect == off) {
             return None;
         }
         let (name, cancel) = (cx.name_of(code), cx.name_of_effect(off).unwrap_or_default());
@@ -78,6 +88,12 @@ impl ModeLeftOn {
         }
         let Some(finding) = left_at_end(cx, rule, role, |effect| effect == on, at_end) else { return };
         let cancel = cx.name_of_effect(off).unwrap_or_default();
+        let set = cx.definitions().set_by(Fact::Mode(role));
+        let after_call = self.carried.after_call.clone().filter(|(at, _)| Some(*at) == set);
+        let finding = match after_call {
+            Some((_, range)) => finding.also(range, "the first cut with it after the subprogram"),
+            None => finding,
+        };
         report.add(
             finding
                 .assuming("the end of the program keeps it, as the control's book leaves to a parameter")
@@ -97,8 +113,16 @@ impl PathRule for ModeLeftOn {
     }
 
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
-        if self.carried.first_tool.is_none() && boundary(cx) == Some(Boundary::ToolChange) {
-            self.carried.first_tool = Some(cx.origin().at);
+        let role = self.mode.role;
+        if cx.depth() == 1 && cx.code_of_role(role).is_some() {
+            self.carried.own = Some(cx.origin().at);
+        }
+        if boundary(cx) == Some(Boundary::ToolChange) {
+            if self.carried.first_tool.is_none() {
+                self.carried.first_tool = Some(cx.origin().at);
+            } else if cx.state().effect(role, cx.model) == Some(self.mode.on) {
+                self.carried.over = cx.definitions().set_by(Fact::Mode(role));
+            }
         }
         if boundary(cx) == Some(Boundary::ProgramEnd) {
             self.check_end(cx, report);
@@ -106,6 +130,13 @@ impl PathRule for ModeLeftOn {
     }
 
     fn cut(&mut self, cx: &PathCx<'_>, _: &Event, report: &mut Report<'_>) {
+        let role = self.mode.role;
+        let set = cx.definitions().set_by(Fact::Mode(role));
+        let is_first = self.carried.after_call.as_ref().is_none_or(|(at, _)| Some(*at) != set);
+        let is_on = cx.state().effect(role, cx.model) == Some(self.mode.on);
+        if is_on && is_first && cx.depth() == 1 && set != self.carried.own {
+            self.carried.after_call = set.map(|at| (at, cx.range()));
+        }
         if let Some(finding) = self.at_cut(cx) {
             self.carried.is_reported = true;
             report.add(finding);

@@ -2,6 +2,7 @@
 //!
 //! Knows: pairs of tool and offset number. Must not know: which offset it is, any rule.
 
+use std::collections::BTreeSet;
 use std::ops::Range;
 
 use crate::remembers;
@@ -142,6 +143,18 @@ impl Pairs {
             }
         }
         found
+    }
+
+    /// The pairs with one of these offsets, where tools have their own number otherwise: each belongs to a tool that works
+    /// nowhere. With each the offset.
+    pub(crate) fn take_of_absent(&mut self, offsets: &BTreeSet<u32>) -> Vec<(Finding, u32)> {
+        let pairs = std::mem::take(&mut self.pairs);
+        let has_scheme = pairs.iter().any(|pair| pair.step() == 0);
+        let (absent, others) = pairs
+            .into_iter()
+            .partition(|pair| has_scheme && pair.step() != 0 && offsets.contains(&pair.offset));
+        self.pairs = others;
+        absent.into_iter().map(|pair: Pair| (pair.finding, pair.offset)).collect()
     }
 
     /// The pairs with the number of another one of these tools, which no scheme explains: the tool never has its own number,

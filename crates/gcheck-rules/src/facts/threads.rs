@@ -8,7 +8,7 @@ use gcheck_program::BlockFlags;
 
 use crate::PathCx;
 use crate::facts::offset_schemes::whole;
-use crate::facts::tool_comment::{HEAD, entries};
+use crate::facts::tool_comment::{HEAD, comments_in, entries};
 
 /// The rounding error of a number with these digits.
 pub(crate) fn rounding(number: f64) -> f64 {
@@ -95,6 +95,41 @@ pub(crate) fn thread_in_list(cx: &PathCx<'_>) -> Option<Thread> {
     found
 }
 
+/// Do the comments of a block name threads of which none can be read: `G3/4`, `NPT`, `TR30X6`, or several?
+pub(crate) fn names_unread_thread(cx: &PathCx<'_>, at: At) -> bool {
+    comments_in(cx, at)
+        .is_some_and(|text| is_thread_of_another_form(&text) && thread_in(&text, Wanted::Written).is_none())
+}
+
+/// Is there a word that looks like a thread?
+fn is_thread_of_another_form(comment: &str) -> bool {
+    let upper = comment.to_ascii_uppercase();
+    let is_size = |piece: &str| {
+        piece.strip_prefix('M').is_some_and(|size| size.starts_with(|c: char| c.is_ascii_digit()))
+    };
+    let is_fraction = |piece: &str| piece.contains('/') && piece.bytes().any(|byte| byte.is_ascii_digit());
+    pieces(&upper).any(|piece| is_size(piece) || is_fraction(piece) || is_unread(piece))
+}
+
+/// Does the word name a thread in a form that is not read: `G3/4`, `TR30X6`, `NPT`, `1/2-14`?
+fn is_unread(piece: &str) -> bool {
+    const NAMES: [&str; 11] =
+        ["NPT", "NPTF", "NPS", "BSP", "BSPT", "BSPP", "TR", "ACME", "RD", "PG", "BUTTRESS"];
+    const LETTERS: [&str; 8] = ["G", "R", "RC", "RP", "TR", "W", "RD", "PG"];
+    let letters = piece.find(|c: char| !c.is_ascii_alphabetic()).unwrap_or(piece.len());
+    let (name, rest) = piece.split_at_checked(letters).unwrap_or((piece, ""));
+    let is_number = rest.starts_with(|c: char| c.is_ascii_digit());
+    let of_inches = is_number && name.is_empty() && rest.contains('/') && rest.contains('-');
+    NAMES.contains(&name) || LETTERS.contains(&name) && is_number || of_inches && inch(piece).is_none()
+}
+
+/// The words of a comment that may be threads.
+fn pieces(upper: &str) -> impl Iterator<Item = &str> {
+    let parts =
+        upper.split(|c: char| !(c.is_ascii_alphanumeric() || matches!(c, '.' | '/' | '-' | '#' | '*')));
+    parts.filter(|piece| !piece.is_empty())
+}
+
 /// The one thread that a comment names, and its pitch in millimetres.
 fn thread_in(comment: &str, wanted: Wanted) -> Option<(String, f64)> {
     let upper = comment.to_ascii_uppercase();
@@ -108,8 +143,11 @@ fn thread_in(comment: &str, wanted: Wanted) -> Option<(String, f64)> {
     let is_thread =
         has(&["THREAD", "THREADS", "THREADING", "THD", "TAP", "TAPS", "TAPPING", "UNC", "UNF", "UNEF"]);
     let mut found: Vec<(String, f64)> = Vec::new();
-    let pieces = upper.split(|c: char| !(is_letter(c) || matches!(c, '.' | '/' | '-' | '#' | '*')));
-    for piece in pieces.filter(|piece| !piece.is_empty()) {
+    // Beside a thread that is not read, nothing tells which one is cut.
+    if wanted == Wanted::Written && pieces(&upper).any(is_unread) {
+        return None;
+    }
+    for piece in pieces(&upper) {
         // A size alone names a hole or a bolt as well, and two numbers name holes, drawings and dates.
         let is_marked = piece.contains(['#', '/', 'M']) || piece.contains("UN") || piece.contains("NP");
         let is_written = wanted == Wanted::Tap || piece.contains(['X', '-', '*']) && (is_marked || is_thread);
@@ -216,7 +254,17 @@ fn number(text: &str) -> Option<f64> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Wanted, thread_in};
+    use super::{Wanted, is_thread_of_another_form, thread_in};
+
+    #[test]
+    fn threads_that_are_not_read() {
+        for comment in ["EXT THREAD G3/4", "1/2-14 NPT", "TR30X6", "M20X1.5 AND M30X2", "THREAD 3/4"] {
+            assert!(is_thread_of_another_form(comment), "{comment}");
+        }
+        for comment in ["THREAD TOOL", "OD THREADING 60 DEG", "16ER AG60", "T4 THREAD"] {
+            assert!(!is_thread_of_another_form(comment), "{comment}");
+        }
+    }
 
     #[test]
     fn threads_as_shops_write_them() {
@@ -250,6 +298,8 @@ mod tests {
             ("(M20X2 DRILL)", None),
             ("(M30X3 2 START)", None),
             ("(M20X1.5 OR M20X2)", None),
+            ("(ADAPTER M20X1.5 - G3/4)", None),
+            ("(1/2-14 NPT AND 3/4-16 UNF)", None),
         ] {
             assert_eq!(thread_in(comment, Wanted::Written).map(|(_, pitch)| pitch), expected, "{comment}");
         }

@@ -35,6 +35,21 @@ impl ToolWords {
         ])
     }
 
+    /// Does the tool form the surface without a chip, or at the pitch of a pattern: a knurl, a burnisher, a roller?
+    pub(crate) fn rolls(&self) -> bool {
+        self.has(&[
+            "KNURL",
+            "KNURLING",
+            "KNURLER",
+            "BURNISH",
+            "BURNISHING",
+            "BURNISHER",
+            "ROLL",
+            "ROLLER",
+            "ROLLING",
+        ])
+    }
+
     /// Does the tool push, hold or touch the work, or cut it while the spindle is stopped: a bar puller, a bar stop, a probe, a
     /// drag knife, a broach?
     pub(crate) fn needs_no_spindle(&self) -> bool {

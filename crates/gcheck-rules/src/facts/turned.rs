@@ -1,6 +1,7 @@
 //! What a lathe program has turned so far, and which of it is the outside of the part or a bore.
 //!
 //! Knows: the cuts of every path up to a move, as long as all of them are known, and how the tool came to each and left it.
+//! A thread leaves the diameters as they were turned.
 //! Must not know: any rule, stock, the shape of tools.
 
 use std::ops::Range;
@@ -10,8 +11,8 @@ use gcheck_engine::{At, Axis, Event, Fact, Position, Role, Travel, TravelKind};
 
 use crate::facts::parting::Parting;
 use crate::facts::tool_words::ToolWords;
-use crate::facts::turning::{is_roughing, turns_the_part};
-use crate::{PathCx, remembers};
+use crate::facts::turning::{is_roughing, turns, turns_the_part};
+use crate::{PathCx, SharedMemory, remembers};
 
 /// X as a radius, and Z: millimetres.
 pub(crate) type Spot = [f64; 2];
@@ -37,8 +38,8 @@ pub(crate) struct Turned {
     chain: Option<Chain>,
     /// Where the tool is; NaN where that is not known.
     last: Option<Spot>,
-    /// The block that moves, and the radius at which it began.
-    block: Option<(At, f64)>,
+    /// The block that moves, and the radius at which it began, where that is known.
+    block: Option<(At, Option<f64>)>,
     tool: Option<At>,
     frame: Option<(u16, [u64; 2])>,
     blind: bool,
@@ -59,7 +60,7 @@ remembers!(Cut: bytes, tool);
 
 /// Which side of the part a cut along Z is on.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Side {
+pub(crate) enum Side {
     Unknown,
     Outside,
     Inside,
@@ -74,26 +75,13 @@ struct Chain {
     first: usize,
 }
 
-impl Turned {
-    /// Is everything known that was cut up to here, and does the part turn under a tool that does not?
-    pub(crate) fn knows(&self, cx: &PathCx<'_>) -> bool {
-        !self.blind && self.frame.is_some() && self.frame == frame(cx) && turns_the_part(cx)
-    }
-
-    /// Nothing can be known any more.
-    pub(crate) fn is_blind(&self) -> bool {
-        self.blind
-    }
-
-    /// Where the tool is before the move that is shown.
-    pub(crate) fn here(&self) -> Option<Spot> {
-        self.last.filter(|spot| spot.iter().all(|coordinate| !coordinate.is_nan()))
-    }
-
-    /// After the move was judged.
-    pub(crate) fn moved(&mut self, cx: &PathCx<'_>, event: &Event) {
+impl SharedMemory for Turned {
+    fn moved(&mut self, cx: &PathCx<'_>, event: &Event) {
+        if self.blind || !turns(cx) {
+            return;
+        }
         let is_known = cx.is_on_every_path() && !cx.is_called_only() && !cx.is_after_unknown_program();
-        if self.blind || !is_known || self.cuts.len() >= MOST {
+        if !is_known || self.cuts.len() >= MOST {
             *self = Self { blind: true, ..Self::default() };
             return;
         }
@@ -106,9 +94,9 @@ impl Turned {
             (self.tool, self.chain, self.last) = (tool, None, None);
         }
         let is_turning = turns_the_part(cx);
-        let (to, is_rapid, is_expanded) = match event {
-            Event::Travel(travel) => (end(cx, travel), travel.kind == TravelKind::Rapid, travel.expanded),
-            Event::Arc(arc) => (spot(&arc.programmed), false, arc.expanded),
+        let (to, kind, is_expanded) = match event {
+            Event::Travel(travel) => (end(cx, travel), travel.kind, travel.expanded),
+            Event::Arc(arc) => (spot(&arc.programmed), TravelKind::Feed, arc.expanded),
             _ => {
                 self.blind |= is_turning;
                 (self.chain, self.last) = (None, None);
@@ -122,20 +110,60 @@ impl Turned {
         let from = self.last.replace(to).unwrap_or([f64::NAN; 2]);
         let at = cx.origin().at;
         if self.block.is_none_or(|(block, _)| block != at) {
-            self.block = Some((at, from[0]));
+            self.block = Some((at, Some(from[0]).filter(|radius| !radius.is_nan())));
         }
-        if is_rapid {
-            self.rapid(from, to);
-        } else {
-            self.cut(cx, from, to, is_expanded);
+        match kind {
+            TravelKind::Rapid => self.rapid(from, to),
+            TravelKind::Thread => {}
+            _ => self.cut(cx, from, to, is_expanded),
         }
         if Parting::of(cx, event).is_some() {
             self.forget();
         }
     }
 
+    fn changed(&mut self, _: &PathCx<'_>, event: &Event) {
+        if is_other_part(event) {
+            self.forget();
+        }
+    }
+}
+
+impl Turned {
+    /// Is everything known that was cut up to here, and does the part turn under a tool that does not?
+    pub(crate) fn knows(&self, cx: &PathCx<'_>) -> bool {
+        !self.blind && self.frame.is_some() && self.frame == frame(cx) && turns_the_part(cx)
+    }
+
+    /// Where the tool is before the move that is shown.
+    pub(crate) fn here(&self) -> Option<Spot> {
+        self.last.filter(|spot| spot.iter().all(|coordinate| !coordinate.is_nan()))
+    }
+
+    /// For [`PathRule::shares`](crate::PathRule::shares).
+    pub(crate) fn shared() -> Box<dyn SharedMemory> {
+        Box::new(Self::default())
+    }
+
+    /// The memory of this in an analysis whose rules share it, unless nothing can be known any more: then the rule has seen
+    /// enough.
+    pub(crate) fn of<'a>(cx: &PathCx<'a>) -> Option<&'a Self> {
+        let turned = cx.shared::<Self>().filter(|turned| !turned.blind);
+        if turned.is_none() {
+            cx.enough();
+        }
+        turned
+    }
+    /// The radius at which the block began whose move is shown.
+    pub(crate) fn block_begins(&self, cx: &PathCx<'_>) -> Option<f64> {
+        match self.block {
+            Some((at, radius)) if at == cx.origin().at => radius,
+            _ => self.here().map(|[radius, _]| radius),
+        }
+    }
+
     /// Another part, or the same one elsewhere in the chuck.
-    pub(crate) fn forget(&mut self) {
+    fn forget(&mut self) {
         *self = Self { blind: self.blind, frame: self.frame, ..Self::default() };
     }
 
@@ -163,14 +191,29 @@ impl Turned {
             self.rapid(from, to);
             return;
         }
+        let side = self.side_of(cx, [from, to], is_expanded);
+        self.cuts.push(Cut { ends: [from, to], bytes: cx.range(), side, tool: self.tool });
+    }
+
+    /// On which side of the part is a cut, before it is made?
+    pub(crate) fn side_of(&self, cx: &PathCx<'_>, [from, to]: [Spot; 2], is_expanded: bool) -> Side {
         // A shoulder of a bore goes on where the bore ends.
         let goes_on = self.cuts.last().filter(|cut| cut.side == Side::Inside && is_one(cut.ends[1], from));
-        let side = match goes_on {
+        match goes_on {
             _ if is_deep(from, to) => self.side(cx, from, to, is_expanded),
             Some(_) => Side::Inside,
             None => Side::Unknown,
-        };
-        self.cuts.push(Cut { ends: [from, to], bytes: cx.range(), side, tool: self.tool });
+        }
+    }
+
+    /// Does a cut plunge straight across into what was turned, from outside of it: into a groove that is not made yet?
+    pub(crate) fn plunges(&self, from: Spot, to: Spot) -> bool {
+        let Some(wall) = self.outside_along(to[1]) else { return false };
+        // Begun inside the wall it is the way out of a bore, or the end of a shoulder.
+        let is_from_outside = from[0] > wall - SLACK;
+        let is_into = to[0] > SLACK && to[0] < wall - UNDER;
+        let is_across = is_level(from, to) && to[1] < -UNDER;
+        is_across && is_from_outside && is_into && !self.is_opened_beside(to[1], to[0])
     }
 
     /// The radius to which the part was faced down to its centre, and where that face is: below it the part is solid, as far
@@ -188,7 +231,7 @@ impl Turned {
         if is_expanded {
             // A cycle comes from the side where the stock is to be taken off.
             let is_cycle = cx.has_effect(is_roughing) || is_turning_pass(cx);
-            let begins = self.block.map_or(f64::NAN, |(_, radius)| radius);
+            let begins = self.block_begins(cx).unwrap_or(f64::NAN);
             return match begins - radius {
                 _ if !is_cycle => Side::Unknown,
                 way if way > SLACK => Side::Outside,
@@ -272,7 +315,7 @@ impl Turned {
     }
 
     /// Did another cut across go through this radius beside this level, so that a tool has room there?
-    pub(crate) fn is_opened_beside(&self, z: f64, radius: f64) -> bool {
+    fn is_opened_beside(&self, z: f64, radius: f64) -> bool {
         self.cuts.iter().any(|cut| {
             let [[r0, z0], [r1, _]] = cut.ends;
             let away = (z0 - z).abs();
@@ -309,6 +352,14 @@ impl Turned {
             let at_face = r0 + (z0 - face) / (z0 - z1) * (r1 - r0);
             radius - at_face < THIN && at_face > r1 + UNDER && !self.has_hole(z1)
         })
+    }
+
+    /// Is a way outward, in front of the zero of the part, or outside of what was turned along Z at its ends?
+    pub(crate) fn is_in_air(&self, from: Spot, to: Spot) -> bool {
+        let is_outward = to[1] > from[1] + SLACK && to[0] > from[0] - SLACK;
+        let is_before_face = from[1] > SLACK && to[1] > SLACK;
+        let is_beside = |spot: Spot| self.outside_along(spot[1]).is_some_and(|wall| spot[0] > wall + SLACK);
+        is_outward || is_before_face || is_beside(from) && is_beside(to)
     }
 
     /// The face that a straight way goes through into solid material.

@@ -44,12 +44,14 @@ pub(crate) mod compensation {
     pub(crate) mod diameter_offset_of_another_tool;
     pub(crate) mod lead_in_too_short;
     pub(crate) mod maybe_compensation_left_on;
+    pub(crate) mod nose_compensated_into_part;
     pub(crate) mod refused_under_compensation;
 }
 
 pub(crate) mod cycles {
     pub(crate) mod allowance_into_contour;
     pub(crate) mod back_bore_r_above_z;
+    pub(crate) mod bore_shift_very_long;
     pub(crate) mod bore_without_shift;
     pub(crate) mod cycle_begins_below_r;
     pub(crate) mod cycle_dwell_missing;
@@ -70,10 +72,12 @@ pub(crate) mod cycles {
     pub(crate) mod drilled_beside_the_centre;
     pub(crate) mod hole_after_coolant_off;
     pub(crate) mod hole_made_twice;
+    pub(crate) mod hole_ten_times_as_deep;
     pub(crate) mod maybe_cycle_left_on;
     pub(crate) mod pass_without_end_point;
     pub(crate) mod pattern_without_cycle;
     pub(crate) mod peck_longer_than_hole;
+    pub(crate) mod peck_very_short;
     pub(crate) mod pocket_on_wrong_side;
     pub(crate) mod pocket_outline_open;
     pub(crate) mod pocket_outline_too_long;
@@ -107,13 +111,13 @@ pub(crate) mod five_axis {
     pub(crate) mod five_axis_zero_not_upright;
     pub(crate) mod maybe_five_axis_length_in_incremental;
     pub(crate) mod maybe_refused_in_five_axis_mode;
-    pub(crate) mod rapid_down_from_cut;
     pub(crate) mod reference_return_under_tilt;
     pub(crate) mod refused_in_five_axis_mode;
     pub(crate) mod rotary_axis_jumps;
     pub(crate) mod rotary_feed_per_minute;
     pub(crate) mod rotary_motion_under_dynamic_offset;
     pub(crate) mod tilt_modes_conflict;
+    pub(crate) mod tilt_without_orientation;
     pub(crate) mod tool_direction_unknown;
 }
 
@@ -157,6 +161,7 @@ pub(crate) mod machine {
 }
 
 pub(crate) mod macros {
+    pub(crate) mod angle_in_radians;
     pub(crate) mod assignment_to_read_only_variable;
     pub(crate) mod common_variable_never_set;
     pub(crate) mod computed_variable_read_only;
@@ -199,6 +204,7 @@ pub(crate) mod mapping {
     pub(crate) mod cylinder_without_rotary_axis;
     pub(crate) mod cylinder_word_value_ignored;
     pub(crate) mod maybe_cylinder_left_on;
+    pub(crate) mod polar_interpolation_left_on;
 }
 
 pub(crate) mod modal {
@@ -243,10 +249,12 @@ pub(crate) mod motion {
     pub(crate) mod feed_of_another_mode;
     pub(crate) mod feed_zero;
     pub(crate) mod finish_under_rough_level;
+    pub(crate) mod groove_fed_too_fast;
     pub(crate) mod groove_left_sideways;
     pub(crate) mod home_before_retract;
     pub(crate) mod index_before_retract;
     pub(crate) mod inverse_time_feed_missing;
+    pub(crate) mod inverse_time_left_on;
     pub(crate) mod machine_coordinates_in_increments;
     pub(crate) mod maybe_feed_missing;
     pub(crate) mod maybe_feed_of_another_mode;
@@ -258,6 +266,7 @@ pub(crate) mod motion {
     pub(crate) mod probe_without_feed;
     pub(crate) mod rapid_below_zero_on_approach;
     pub(crate) mod rapid_between_cuts;
+    pub(crate) mod rapid_down_from_cut;
     pub(crate) mod rapid_in_material;
     pub(crate) mod rapid_into_turned_part;
     pub(crate) mod rapid_plunge;
@@ -272,6 +281,7 @@ pub(crate) mod motion {
     pub(crate) mod thread_without_lead;
     pub(crate) mod tolerance_above_feature;
     pub(crate) mod tool_down_at_end;
+    pub(crate) mod turned_after_cut_off;
 }
 
 pub(crate) mod offsets {
@@ -333,7 +343,10 @@ pub(crate) mod program {
 }
 
 pub(crate) mod spindle {
+    pub(crate) mod c_axis_left_engaged;
     pub(crate) mod c_axis_not_engaged;
+    pub(crate) mod chuck_opened_while_turning;
+    pub(crate) mod drill_at_surface_speed;
     pub(crate) mod drill_turns_backwards;
     pub(crate) mod maybe_spindle_stopped_while_cutting;
     pub(crate) mod mill_turns_backwards;
@@ -505,9 +518,11 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &compensation::diameter_offset_of_another_tool::RULE,
     &compensation::lead_in_too_short::RULE,
     &compensation::maybe_compensation_left_on::RULE,
+    &compensation::nose_compensated_into_part::RULE,
     &compensation::refused_under_compensation::RULE,
     &cycles::allowance_into_contour::RULE,
     &cycles::back_bore_r_above_z::RULE,
+    &cycles::bore_shift_very_long::RULE,
     &cycles::bore_without_shift::RULE,
     &cycles::cycle_begins_below_r::RULE,
     &cycles::cycle_dwell_missing::RULE,
@@ -528,10 +543,12 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &cycles::drilled_beside_the_centre::RULE,
     &cycles::hole_after_coolant_off::RULE,
     &cycles::hole_made_twice::RULE,
+    &cycles::hole_ten_times_as_deep::RULE,
     &cycles::maybe_cycle_left_on::RULE,
     &cycles::pass_without_end_point::RULE,
     &cycles::pattern_without_cycle::RULE,
     &cycles::peck_longer_than_hole::RULE,
+    &cycles::peck_very_short::RULE,
     &cycles::pocket_on_wrong_side::RULE,
     &cycles::pocket_outline_open::RULE,
     &cycles::pocket_outline_too_long::RULE,
@@ -562,13 +579,13 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &five_axis::five_axis_zero_not_upright::RULE,
     &five_axis::maybe_five_axis_length_in_incremental::RULE,
     &five_axis::maybe_refused_in_five_axis_mode::RULE,
-    &five_axis::rapid_down_from_cut::RULE,
     &five_axis::reference_return_under_tilt::RULE,
     &five_axis::refused_in_five_axis_mode::RULE,
     &five_axis::rotary_axis_jumps::RULE,
     &five_axis::rotary_feed_per_minute::RULE,
     &five_axis::rotary_motion_under_dynamic_offset::RULE,
     &five_axis::tilt_modes_conflict::RULE,
+    &five_axis::tilt_without_orientation::RULE,
     &five_axis::tool_direction_unknown::RULE,
     &flow::alarm_reached::RULE,
     &flow::analysis_incomplete::RULE,
@@ -603,6 +620,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &machine::tool_not_in_table::RULE,
     &machine::units_against_setting::RULE,
     &machine::work_offset_not_listed::RULE,
+    &macros::angle_in_radians::RULE,
     &macros::assignment_to_read_only_variable::RULE,
     &macros::common_variable_never_set::RULE,
     &macros::computed_variable_read_only::RULE,
@@ -642,6 +660,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &mapping::cylinder_without_rotary_axis::RULE,
     &mapping::cylinder_word_value_ignored::RULE,
     &mapping::maybe_cylinder_left_on::RULE,
+    &mapping::polar_interpolation_left_on::RULE,
     &modal::code_given_twice::RULE,
     &modal::code_must_come_first::RULE,
     &modal::code_must_stand_alone::RULE,
@@ -680,10 +699,12 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &motion::feed_of_another_mode::RULE,
     &motion::feed_zero::RULE,
     &motion::finish_under_rough_level::RULE,
+    &motion::groove_fed_too_fast::RULE,
     &motion::groove_left_sideways::RULE,
     &motion::home_before_retract::RULE,
     &motion::index_before_retract::RULE,
     &motion::inverse_time_feed_missing::RULE,
+    &motion::inverse_time_left_on::RULE,
     &motion::machine_coordinates_in_increments::RULE,
     &motion::maybe_feed_missing::RULE,
     &motion::maybe_feed_of_another_mode::RULE,
@@ -695,6 +716,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &motion::probe_without_feed::RULE,
     &motion::rapid_below_zero_on_approach::RULE,
     &motion::rapid_between_cuts::RULE,
+    &motion::rapid_down_from_cut::RULE,
     &motion::rapid_in_material::RULE,
     &motion::rapid_into_turned_part::RULE,
     &motion::rapid_plunge::RULE,
@@ -709,6 +731,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &motion::thread_without_lead::RULE,
     &motion::tolerance_above_feature::RULE,
     &motion::tool_down_at_end::RULE,
+    &motion::turned_after_cut_off::RULE,
     &offsets::mirror_left_on::RULE,
     &offsets::offset_added_in_increments::RULE,
     &offsets::plane_changed_under_rotation::RULE,
@@ -758,7 +781,10 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &program::units_comment_contradicts::RULE,
     &program::unsupported_dialect::RULE,
     &program::wrong_control_suspicion::RULE,
+    &spindle::c_axis_left_engaged::RULE,
     &spindle::c_axis_not_engaged::RULE,
+    &spindle::chuck_opened_while_turning::RULE,
+    &spindle::drill_at_surface_speed::RULE,
     &spindle::drill_turns_backwards::RULE,
     &spindle::maybe_spindle_stopped_while_cutting::RULE,
     &spindle::mill_turns_backwards::RULE,

@@ -65,7 +65,7 @@ fn a_mistake_is_found_whether_its_words_are_written_or_computed() {
     };
     let shown: String = silent.into_iter().map(line).collect();
     expect![[r#"
-        5364 words
+        5720 words
         allowance-into-contour: F G X Z
         blank-inside-number: G Y
         block-number-not-first: G
@@ -75,6 +75,7 @@ fn a_mistake_is_found_whether_its_words_are_written_or_computed() {
         corner-does-not-fit: Y
         cycle-ended-in-subprogram: X
         decimal-point-on-integer: H
+        drilled-beside-the-centre: M
         dwell-unit-unsure: P
         dwell-very-short: P
         fall-into-subprogram: M P
@@ -96,6 +97,7 @@ fn a_mistake_is_found_whether_its_words_are_written_or_computed() {
         number-out-of-range: P Q
         offset-words-beside-motion: G
         peck-longer-than-hole: Q
+        peck-very-short: Q
         pocket-arc-below-tool: G M
         pocket-on-wrong-side: G M
         pocket-outline-open: G M
@@ -106,6 +108,7 @@ fn a_mistake_is_found_whether_its_words_are_written_or_computed() {
         sign-not-accepted: F
         thread-start-below-crest: K P
         thread-without-lead: G
+        tilt-without-orientation: J M
         tool-call-without-station: T
         tool-comment-of-another-tool: M T
         turning-profile-turns-back: F G X Z

@@ -194,19 +194,26 @@ impl Owner {
         if !self.is_ready {
             return;
         }
-        let all = self.documents.values().flat_map(|document| &document.in_force.problems);
+        let programs = self.documents.values().filter(|document| document.is_program);
+        let all = programs.flat_map(|document| &document.in_force.problems);
         let by_file = diagnostics::of_configurations(all);
         let own = |path: &PathBuf| self.documents.values().any(|document| document.path == *path);
-        let gone: Vec<PathBuf> =
-            self.shown_problems.iter().filter(|path| !by_file.contains_key(*path)).cloned().collect();
+        let gone: Vec<PathBuf> = self
+            .shown_problems
+            .iter()
+            .filter(|path| !by_file.contains_key(*path) || own(path))
+            .cloned()
+            .collect();
         for path in gone {
-            if let Some(uri) = Uri::from_file_path(&path) {
+            // What was published of it since it was opened is what counts.
+            let is_told = self.documents.values().any(|d| d.path == path && d.published.is_some());
+            if let Some(uri) = Uri::from_file_path(&path).filter(|_| !is_told) {
                 self.clear(uri);
             }
         }
         self.shown_problems.clear();
         for (path, list) in by_file {
-            // What is wrong in a program is among its own diagnostics.
+            // What is wrong in an open document is among its own diagnostics.
             if own(&path) {
                 continue;
             }

@@ -136,7 +136,7 @@ impl Owner {
     }
 
     /// Settings or files have changed in a way that nobody can say less of.
-    fn everything_changed(&mut self) {
+    pub(super) fn everything_changed(&mut self) {
         self.host.0.forget();
         self.disk.forget(&mut self.database);
         self.world += 1;
@@ -172,7 +172,9 @@ impl Owner {
             return;
         }
         let id = document.id;
-        if stale == Stale::Callees {
+        if !document.is_program {
+            self.look_into_configuration(uri);
+        } else if stale == Stale::Callees {
             let settings = document.in_force.settings.clone().unwrap_or_else(fallback_settings);
             self.database.set_settings(id, settings);
         } else {
@@ -192,6 +194,20 @@ impl Owner {
         if let Some(document) = self.documents.get_mut(uri) {
             document.stale = Stale::No;
         }
+    }
+
+    /// Finds what is wrong with a configuration as it is in the editor.
+    fn look_into_configuration(&mut self, uri: &Uri) {
+        let Ok(text) = self.snapshot(uri).map(|snapshot| snapshot.text()) else { return };
+        let Some(document) = self.documents.get_mut(uri) else { return };
+        let mut problems = self.host.0.configuration_problems(&document.path, &text).unwrap_or_default();
+        // What is wrong in the files that it extends is told there.
+        problems.retain(|problem| problem.path.as_ref().is_none_or(|path| *path == document.path));
+        for problem in &mut problems {
+            problem.path = Some(document.path.clone());
+        }
+        document.in_force.problems = problems;
+        self.show_problems();
     }
 
     fn put_in_force(&mut self, uri: &Uri, in_force: InForce, stale: Stale) {

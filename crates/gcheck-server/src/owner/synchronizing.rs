@@ -8,7 +8,7 @@ use gcheck_db::Snapshot;
 
 use super::{Owner, fallback_settings};
 use crate::client::Moment;
-use crate::documents::{Clock, Document, Stale, StatisticsRun};
+use crate::documents::{Clock, Document, Stale, StatisticsRun, is_program};
 use crate::proto::{
     DidChangeTextDocumentParams, DidCloseTextDocumentParams, DidOpenTextDocumentParams,
     DidSaveTextDocumentParams, MessageType, TextDocumentContentChangeEvent, Uri, WorkspaceDiagnosticRefresh,
@@ -60,6 +60,7 @@ impl Owner {
             figures: None,
             run: StatisticsRun::Idle,
             touched,
+            is_program: is_program(&opened.language_id, &path),
             path,
         };
         self.documents.insert(uri.clone(), document);
@@ -134,6 +135,11 @@ impl Owner {
         let had_waited = !document.wants_findings;
         document.wants_findings = true;
         document.is_edited = false;
+        if !document.is_program {
+            // The programs that it rules over read it from disk.
+            self.everything_changed();
+            return;
+        }
         // A client that asks for findings does so when the text changes, not when it is saved.
         if had_waited && self.abilities.pulls && self.abilities.refreshes_diagnostics {
             self.outbox.ask::<WorkspaceDiagnosticRefresh>((), |_| ());
@@ -159,7 +165,7 @@ impl Owner {
     /// The text of a document has changed: who calls it has to be looked at again, and the host is to see the new text.
     fn text_changed(&mut self, uri: &Uri) {
         let Ok(snapshot) = self.snapshot(uri) else { return };
-        let Some(document) = self.documents.get(uri) else { return };
+        let Some(document) = self.documents.get(uri).filter(|document| document.is_program) else { return };
         self.open.put(&document.path, document.clock.now(), snapshot);
         let path = document.path.clone();
         self.callees_changed(&path);

@@ -120,7 +120,8 @@ impl Owner {
         wanted: &dyn Fn(&Path) -> bool,
     ) -> Addressed {
         let mut loaded: BTreeMap<PathBuf, (DocumentId, Uri, Option<i32>)> = BTreeMap::new();
-        for document in self.documents.values().filter(|document| wanted(&document.path)) {
+        let open = self.documents.values().filter(|document| document.is_program);
+        for document in open.filter(|document| wanted(&document.path)) {
             let open = (document.id, document.uri.clone(), Some(document.version));
             loaded.insert(document.path.clone(), open);
         }

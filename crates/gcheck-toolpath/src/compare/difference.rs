@@ -142,7 +142,7 @@ pub struct Difference {
     pub values: [Option<Value>; 2],
 }
 
-/// Where two paths part. Nothing after it is compared.
+/// Where two paths part. What follows is not compared, up to where both change to the same tool next.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Parting {
     /// The move of the first run, or its last one when it has none left; `None` when it has none at all.
@@ -155,6 +155,19 @@ pub struct Parting {
     pub to: [Option<Position>; 2],
     /// How far they come apart, millimetres or degrees, on the axis where it is most; NaN where one does not go on.
     pub apart: f64,
+    /// From where they are compared again; `None` where they are not.
+    pub again: Option<Again>,
+}
+
+/// Where two runs whose paths parted are compared again: both change to the same tool.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Again {
+    /// The tool.
+    pub tool: u32,
+    /// The tool change in the first run.
+    pub a: Place,
+    /// In the second.
+    pub b: Place,
 }
 
 /// The corner at which two paths may differ most, because the runs take corners differently.
@@ -174,8 +187,14 @@ pub struct Corner {
 /// All differences of two runs.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Differences {
-    /// Where the paths part, if they do.
+    /// Where the paths part first, if they do.
     pub parting: Option<Parting>,
+    /// Where they part after they were compared again: the first of these places.
+    later: Vec<Parting>,
+    /// How often the paths part.
+    partings: u64,
+    /// After the last parting there is no comparison; of which runs the rest was left alone.
+    left_alone: Option<[bool; 2]>,
     /// Pieces of path that were compared and are the same.
     pub moves: u64,
     /// A coordinate was unknown and not compared.
@@ -194,6 +213,37 @@ impl Differences {
     /// Do both move the machine the same way?
     pub fn is_same(&self) -> bool {
         self.parting.is_none() && self.counts.iter().all(|count| *count == 0)
+    }
+
+    /// The first places at which the paths part.
+    pub fn partings(&self) -> impl Iterator<Item = &Parting> {
+        self.parting.iter().chain(&self.later)
+    }
+
+    /// How often the paths part.
+    pub const fn partings_count(&self) -> u64 {
+        self.partings
+    }
+
+    /// Is nothing compared after the last place at which the paths part?
+    pub const fn is_cut_short(&self) -> bool {
+        self.left_alone.is_some()
+    }
+
+    /// Of which run was the rest left alone, because the paths had parted? How it ends says nothing.
+    pub fn left_alone(&self) -> [bool; 2] {
+        self.left_alone.unwrap_or_default()
+    }
+
+    /// The paths part, and are compared again from there if they are.
+    pub(super) fn part(&mut self, parting: Parting) {
+        self.partings += 1;
+        self.left_alone = parting.again.is_none().then(|| parting.to.map(|to| to.is_some()));
+        if self.parting.is_none() {
+            self.parting = Some(parting);
+        } else if self.later.len() + 1 < KEPT {
+            self.later.push(parting);
+        }
     }
 
     /// The first differences of each aspect, in the order of the run.

@@ -132,7 +132,7 @@ impl Drawing {
             thin::to(points.to_mut(), MAX_POINTS);
             notes.push(format!("each view is drawn with {} of {before} points", points.len()));
         }
-        let panels = self.panels();
+        let panels = panels(near(self.all, self.cut), self.is_lathe());
         let right = panels.iter().map(|panel| panel.at[0] + panel.size[0]).fold(600.0, f64::max);
         let bottom = panels.iter().map(|panel| panel.at[1] + panel.size[1]).fold(80.0, f64::max);
         let mut body = String::new();
@@ -153,87 +153,43 @@ impl Drawing {
         svg
     }
 
-    fn panels(&self) -> Vec<Panel> {
-        let Some(mut shown) = self.near() else { return Vec::new() };
-        // The zero is drawn as well where it is near.
-        let sides: Vec<f64> = three_halves(&mut shown).map(|(low, high)| *high - *low).collect();
-        let largest = sides.into_iter().fold(1e-6, f64::max);
-        let is_near = three_halves(&mut shown).all(|(low, high)| *low < largest && *high > -largest);
-        if is_near {
-            for (low, high) in three_halves(&mut shown) {
-                *low = low.min(0.0);
-                *high = high.max(0.0);
+    /// This path, in grey, with a later one over it, as an SVG element: what of the first shows is not in the second.
+    pub fn overlaid(&self, later: &Self) -> String {
+        let shown = both(near(self.all, self.cut), near(later.all, later.cut));
+        let panels = panels(shown, self.is_lathe());
+        let right = panels.iter().map(|panel| panel.at[0] + panel.size[0]).fold(200.0, f64::max);
+        let bottom = panels.iter().map(|panel| panel.at[1] + panel.size[1]).fold(80.0, f64::max);
+        let (width, height) = (right + MARGIN, bottom + MARGIN);
+        let mut svg = format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width:.0} {height:.0}\" role=\"img\">\n"
+        );
+        for panel in &panels {
+            text(&mut svg, [panel.at[0], panel.at[1] - 26.0], "m", panel.look.title);
+            open_view(&mut svg, panel);
+            for (class, drawing) in [("was", self), ("is", later)] {
+                // Writing to a string cannot fail.
+                let _ = writeln!(svg, "<g class=\"{class}\">");
+                let mut points = std::borrow::Cow::Borrowed(drawing.points.as_slice());
+                if points.len() > MAX_POINTS {
+                    thin::to(points.to_mut(), MAX_POINTS);
+                }
+                drawing.paths(&mut svg, panel, &points);
+                svg.push_str("</g>\n");
             }
+            svg.push_str("</svg>\n");
+            zero(&mut svg, panel);
         }
-        let [[x0, y0, z0], [x1, y1, z1]] = shown;
-        let least = largest * 1e-3;
-        let (x, y, z) = ((x1 - x0).max(least), (y1 - y0).max(least), (z1 - z0).max(least));
-        let place = |look: Look, at: [f64; 2], size: [f64; 2], scale: Option<f64>| {
-            let [[left, bottom], [right, top]] = look.rectangle(shown);
-            let scale = scale.unwrap_or_else(|| {
-                let [width, height] = size;
-                (width / (right - left).max(least)).min(height / (top - bottom).max(least))
-            });
-            Panel { look, at, size, scale, middle: [f64::midpoint(left, right), f64::midpoint(bottom, top)] }
-        };
-        let top = 92.0;
-        if self.is_lathe() {
-            let with_face = y1 - y0 > least;
-            let scale = (MOST[0] / (z + if with_face { x } else { 0.0 })).min(MOST[1] / x.max(y));
-            let size = [z * scale, (x * scale).max(40.0)];
-            let mut panels = vec![place(LATHE, [MARGIN, top], size, Some(scale))];
-            if with_face {
-                let face = [x * scale, (y * scale).max(40.0)];
-                panels.push(place(FACE, [MARGIN + size[0] + GAP, top], face, Some(scale)));
-            }
-            return panels;
-        }
-        if z1 - z0 < least {
-            let scale = (MOST[0] / x).min(MOST[1] / y);
-            return vec![place(TOP, [MARGIN, top], [x * scale, y * scale], Some(scale))];
-        }
-        let scale = (MOST[0] / (x + y.max(0.4 * x))).min(MOST[1] / (y + z));
-        let columns = [(x * scale).max(200.0), (y * scale).max(320.0)];
-        let rows = [(y * scale).max(200.0), (z * scale).max(40.0)];
-        let (second, below) = (MARGIN + columns[0] + GAP, top + rows[0] + GAP);
-        vec![
-            place(TOP, [MARGIN, top], [columns[0], rows[0]], Some(scale)),
-            place(FRONT, [MARGIN, below], [columns[0], rows[1]], Some(scale)),
-            place(SIDE, [second, below], [columns[1], rows[1]], Some(scale)),
-            place(ISOMETRIC, [second, top], [columns[1], rows[0]], None),
-        ]
-    }
-
-    /// What is cut, with as much of the way there as lies near: a retract to the end of the machine would leave a dot of the
-    /// part.
-    fn near(&self) -> Option<[[f64; 3]; 2]> {
-        let all = self.all?;
-        let Some(mut near) = self.cut else { return Some(all) };
-        let around = three_halves(&mut near).map(|(low, high)| *high - *low).fold(0.0, f64::max) / 4.0;
-        let [lowest, highest] = all;
-        for ((low, high), (lowest, highest)) in three_halves(&mut near).zip(lowest.into_iter().zip(highest)) {
-            *low = (*low - around).max(lowest);
-            *high = (*high + around).min(highest);
-        }
-        Some(near)
+        svg.push_str("</svg>\n");
+        svg
     }
 
     fn panel(&self, svg: &mut String, panel: &Panel, points: &[Point]) {
-        let [x, y] = panel.at;
-        let [width, height] = panel.size;
+        let ([x, y], [width, _]) = (panel.at, panel.size);
         text(svg, [x, y - 26.0], "m", panel.look.title);
         if let Some(cut) = self.cut {
             self.extents(svg, panel, cut);
         }
-        // A frame of its own for each view cuts off what goes far away.
-        let _ = writeln!(
-            svg,
-            "<svg class=\"view\" x=\"{0:.1}\" y=\"{1:.1}\" width=\"{2:.1}\" height=\"{3:.1}\" viewBox=\"{0:.1} {1:.1} {2:.1} {3:.1}\">",
-            x - 6.0,
-            y - 6.0,
-            width + 12.0,
-            height + 12.0
-        );
+        open_view(svg, panel);
         if self.lathe {
             let [_, axis] = panel.on_paper([0.0, 0.0]);
             let _ =
@@ -379,6 +335,96 @@ impl Drawing {
         }
         String::from_utf8_lossy(&out).into_owned()
     }
+}
+
+/// Begins the frame of a view, which cuts off what goes far away.
+fn open_view(svg: &mut String, panel: &Panel) {
+    let ([x, y], [width, height]) = (panel.at, panel.size);
+    // Writing to a string cannot fail.
+    let _ = writeln!(
+        svg,
+        "<svg class=\"view\" x=\"{0:.1}\" y=\"{1:.1}\" width=\"{2:.1}\" height=\"{3:.1}\" viewBox=\"{0:.1} {1:.1} {2:.1} {3:.1}\">",
+        x - 6.0,
+        y - 6.0,
+        width + 12.0,
+        height + 12.0
+    );
+}
+
+/// Where the views of what lies in these bounds are on the paper.
+fn panels(shown: Option<[[f64; 3]; 2]>, is_lathe: bool) -> Vec<Panel> {
+    let Some(mut shown) = shown else { return Vec::new() };
+    // The zero is drawn as well where it is near.
+    let sides: Vec<f64> = three_halves(&mut shown).map(|(low, high)| *high - *low).collect();
+    let largest = sides.into_iter().fold(1e-6, f64::max);
+    let is_near = three_halves(&mut shown).all(|(low, high)| *low < largest && *high > -largest);
+    if is_near {
+        for (low, high) in three_halves(&mut shown) {
+            *low = low.min(0.0);
+            *high = high.max(0.0);
+        }
+    }
+    let [[x0, y0, z0], [x1, y1, z1]] = shown;
+    let least = largest * 1e-3;
+    let (x, y, z) = ((x1 - x0).max(least), (y1 - y0).max(least), (z1 - z0).max(least));
+    let place = |look: Look, at: [f64; 2], size: [f64; 2], scale: Option<f64>| {
+        let [[left, bottom], [right, top]] = look.rectangle(shown);
+        let scale = scale.unwrap_or_else(|| {
+            let [width, height] = size;
+            (width / (right - left).max(least)).min(height / (top - bottom).max(least))
+        });
+        Panel { look, at, size, scale, middle: [f64::midpoint(left, right), f64::midpoint(bottom, top)] }
+    };
+    let top = 92.0;
+    if is_lathe {
+        let with_face = y1 - y0 > least;
+        let scale = (MOST[0] / (z + if with_face { x } else { 0.0 })).min(MOST[1] / x.max(y));
+        let size = [z * scale, (x * scale).max(40.0)];
+        let mut panels = vec![place(LATHE, [MARGIN, top], size, Some(scale))];
+        if with_face {
+            let face = [x * scale, (y * scale).max(40.0)];
+            panels.push(place(FACE, [MARGIN + size[0] + GAP, top], face, Some(scale)));
+        }
+        return panels;
+    }
+    if z1 - z0 < least {
+        let scale = (MOST[0] / x).min(MOST[1] / y);
+        return vec![place(TOP, [MARGIN, top], [x * scale, y * scale], Some(scale))];
+    }
+    let scale = (MOST[0] / (x + y.max(0.4 * x))).min(MOST[1] / (y + z));
+    let columns = [(x * scale).max(200.0), (y * scale).max(320.0)];
+    let rows = [(y * scale).max(200.0), (z * scale).max(40.0)];
+    let (second, below) = (MARGIN + columns[0] + GAP, top + rows[0] + GAP);
+    vec![
+        place(TOP, [MARGIN, top], [columns[0], rows[0]], Some(scale)),
+        place(FRONT, [MARGIN, below], [columns[0], rows[1]], Some(scale)),
+        place(SIDE, [second, below], [columns[1], rows[1]], Some(scale)),
+        place(ISOMETRIC, [second, top], [columns[1], rows[0]], None),
+    ]
+}
+
+/// What is cut, with as much of the way there as lies near: a retract to the end of the machine would leave a dot of the
+/// part.
+fn near(all: Option<[[f64; 3]; 2]>, cut: Option<[[f64; 3]; 2]>) -> Option<[[f64; 3]; 2]> {
+    let all = all?;
+    let Some(mut near) = cut else { return Some(all) };
+    let around = three_halves(&mut near).map(|(low, high)| *high - *low).fold(0.0, f64::max) / 4.0;
+    let [lowest, highest] = all;
+    for ((low, high), (lowest, highest)) in three_halves(&mut near).zip(lowest.into_iter().zip(highest)) {
+        *low = (*low - around).max(lowest);
+        *high = (*high + around).min(highest);
+    }
+    Some(near)
+}
+
+/// Bounds around both.
+fn both(a: Option<[[f64; 3]; 2]>, b: Option<[[f64; 3]; 2]>) -> Option<[[f64; 3]; 2]> {
+    let (Some(mut all), Some([low, high])) = (a, b) else { return a.or(b) };
+    for ((least, most), (low, high)) in three_halves(&mut all).zip(low.into_iter().zip(high)) {
+        *least = least.min(low);
+        *most = most.max(high);
+    }
+    Some(all)
 }
 
 fn three_halves(bounds: &mut [[f64; 3]; 2]) -> impl Iterator<Item = (&mut f64, &mut f64)> {

@@ -18,6 +18,7 @@ use crate::args::{CheckOptions, FailOn, Global, OutputFile};
 use crate::config::{Config, Configs, RuleWishes, unknown_rule, validate_control};
 use crate::console::{finish, say};
 use crate::discovery::{self, Found};
+use crate::progress::Progress;
 use crate::{Problem, output, paths, threads};
 
 use super::cache::Cache;
@@ -25,7 +26,6 @@ use super::fixed;
 use super::job::{self, Bench, Change, Checked, Target};
 use super::known::KnownFindings;
 use super::next_steps;
-use super::progress::Progress;
 use super::settings_page;
 
 /// Standard input among the paths.

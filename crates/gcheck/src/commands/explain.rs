@@ -19,7 +19,9 @@ pub(crate) fn run(global: &Global, options: &ExplainOptions) -> Result<u8, Probl
     if let Some(rule) = gcheck_rules::RULES.by_id(subject) {
         return output::print(&of_rule(rule.meta));
     }
-    if let Some(number) = CodeNumber::parse(subject) {
+    // As programs write it: `G54.1 P1`.
+    let code = subject.split_ascii_whitespace().next().unwrap_or(subject);
+    if let Some(number) = CodeNumber::parse(code) {
         return explain_code(global, number);
     }
     let rules = gcheck_rules::RULES.iter().map(|rule| rule.meta.id);

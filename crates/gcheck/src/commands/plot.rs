@@ -15,7 +15,7 @@ use gcheck_toolpath::{Names, Step, WorkCoordinates};
 
 use crate::args::{Global, PlotOptions};
 use crate::console::say;
-use crate::execution::{self, Session, Steps};
+use crate::execution::{self, Prepared, Session, Steps};
 use crate::{Problem, output};
 use findings::Found;
 
@@ -41,6 +41,7 @@ impl Form {
 /// Runs the command; the exit code is its result.
 pub(crate) fn run(global: &Global, options: &PlotOptions) -> Result<u8, Problem> {
     let form = Form::of(&options.output_file)?;
+    output::refuse_to_replace(Some(&options.output_file), [&*options.execution.file])?;
     let prepared = execution::prepare(global, &options.execution, execution::Start::Fresh)?;
     let found = match form {
         Form::Html => findings::of(global, options, &prepared)?,
@@ -50,7 +51,7 @@ pub(crate) fn run(global: &Global, options: &PlotOptions) -> Result<u8, Problem>
         if !global.quiet {
             say(&execution::control_line(session));
         }
-        let (ran, drawing) = draw(session)?;
+        let (ran, drawing) = draw(session, MAX_POINTS)?;
         let mut notes: Vec<String> = stopped(session, &ran).into_iter().collect();
         notes.extend(found.note());
         output::to_file(&options.output_file, |out| match form {
@@ -65,11 +66,21 @@ pub(crate) fn run(global: &Global, options: &PlotOptions) -> Result<u8, Problem>
     })
 }
 
-fn draw(session: &Session<'_>) -> Result<(RunResult, Drawing), Problem> {
+/// The paths of two programs over each other, as an SVG element.
+///
+/// # Errors
+/// A path cannot be recorded.
+pub(super) fn overlaid(a: &Prepared, b: &Prepared, points: usize) -> Result<String, Problem> {
+    let drawing = |prepared: &Prepared| prepared.session(|session| draw(session, points));
+    let ((_, a), (_, b)) = (drawing(a)?, drawing(b)?);
+    Ok(a.overlaid(&b))
+}
+
+fn draw(session: &Session<'_>, points: usize) -> Result<(RunResult, Drawing), Problem> {
     let equipment = &session.prepared.equipment;
     let work = WorkCoordinates::at_power_on(session.model, &equipment.machine);
     let mut plot =
-        Plot::new(session.all_axes(), equipment.timing, work, MAX_POINTS).on_machine(&equipment.machine);
+        Plot::new(session.all_axes(), equipment.timing, work, points).on_machine(&equipment.machine);
     if session.model.control().machine() == gcheck_controls::Machine::Lathe {
         plot = plot.for_lathe();
     }

@@ -14,6 +14,7 @@ use crate::{Problem, output};
 
 /// Runs the command; the exit code is its result.
 pub(crate) fn run(global: &Global, options: &RunOptions) -> Result<u8, Problem> {
+    output::refuse_to_replace(options.output_file.as_deref(), [&*options.execution.file])?;
     let prepared = execution::prepare(global, &options.execution, execution::Start::Fresh)?;
     prepared.session(|session| {
         if !global.quiet {

@@ -1,8 +1,13 @@
-//! `gcheck stats`: cycle time, distances, extents, feeds and speeds of a program, by tool and in total.
+//! `gcheck stats`: cycle time, distances, extents, feeds and speeds of a program, by tool and in total; of several programs a
+//! row each.
 //!
 //! Knows: the messages beside the statistics. Must not know: how they are computed or laid out.
 
-use std::io::{self, Write};
+mod table;
+
+use std::io;
+use std::path::Path;
+use std::sync::Arc;
 
 use gcheck_diagnostics::StatedAssumption;
 use gcheck_engine::{Assumption, Ending, RunResult, Stopped};
@@ -12,9 +17,10 @@ use serde::Serialize;
 use serde_json::{Value, json};
 
 use super::json as to_text;
-use crate::args::{Global, ListFormat, StatsOptions};
+use crate::args::{ExecutionOptions, Global, StatsFormat, StatsOptions};
 use crate::console::say;
 use crate::execution::{self, Rests, Session, Steps};
+use crate::programs::ProgramFolders;
 use crate::{Problem, output};
 
 /// Version of the JSON's shape.
@@ -22,30 +28,54 @@ const VERSION: u32 = 1;
 
 /// Runs the command; the exit code is its result.
 pub(crate) fn run(global: &Global, options: &StatsOptions) -> Result<u8, Problem> {
-    let prepared = execution::prepare(global, &options.execution, execution::Start::Fresh)?;
+    output::refuse_to_replace(options.output_file.as_deref(), options.files.iter().map(|file| &**file))?;
+    match options.files.as_slice() {
+        [file] if !file.is_dir() && options.output_format != StatsFormat::Csv => one(global, options, file),
+        _ => table::run(global, options, |file, folders| figures(global, &options.of(file), folders)),
+    }
+}
+
+/// The figures of one program.
+fn one(global: &Global, options: &StatsOptions, file: &Path) -> Result<u8, Problem> {
+    let prepared = execution::prepare(global, &options.of(file), execution::Start::Fresh)?;
     prepared.session(|session| {
-        if !global.quiet && options.output_format == ListFormat::Text {
+        if !global.quiet && options.output_format == StatsFormat::Text {
             say(&execution::control_line(session));
         }
-        let timing = session.prepared.equipment.timing;
-        let statistics = Statistics::new(session.used_axes(), timing, session.model.work_at_power_on())
-            .planned(session.prepared.equipment.plan.as_ref())
-            .with_tools(&session.prepared.equipment.machine);
-        let (ran, mut statistics) = session
-            .run(statistics)
-            .map_err(|error| Problem::new(format!("cannot gather the figures: {error}")))?;
-        statistics.finish();
+        let (ran, statistics) = gather(session)?;
         let text = match options.output_format {
-            ListFormat::Text => text(session, &ran, &statistics),
-            ListFormat::Json => to_text(&json(session, &ran, &statistics))?,
+            StatsFormat::Text => text(session, &ran, &statistics),
+            StatsFormat::Csv | StatsFormat::Json => to_text(&json(session, &ran, &statistics))?,
         };
-        match &options.output_file {
-            Some(file) => output::to_file(file, |out| out.write_all(text.as_bytes()))?,
-            None => output::to_stdout(|out: &mut dyn Write| out.write_all(text.as_bytes()))?,
-        }
+        output::to(options.output_file.as_deref(), &text)?;
         execution::end_of_run(session, &ran);
         Ok(execution::exit_code(&ran))
     })
+}
+
+/// The figures of one program among others, for other programs.
+fn figures(
+    global: &Global,
+    options: &ExecutionOptions,
+    folders: &Arc<ProgramFolders>,
+) -> Result<Value, Problem> {
+    let prepared = execution::prepare(global, options, execution::Start::Fresh)?.among(Arc::clone(folders));
+    prepared.session(|session| {
+        let (ran, statistics) = gather(session)?;
+        Ok(json(session, &ran, &statistics))
+    })
+}
+
+fn gather(session: &Session<'_>) -> Result<(RunResult, Statistics), Problem> {
+    let timing = session.prepared.equipment.timing;
+    let statistics = Statistics::new(session.used_axes(), timing, session.model.work_at_power_on())
+        .planned(session.prepared.equipment.plan.as_ref())
+        .with_tools(&session.prepared.equipment.machine);
+    let (ran, mut statistics) = session
+        .run(statistics)
+        .map_err(|error| Problem::new(format!("cannot gather the figures: {error}")))?;
+    statistics.finish();
+    Ok((ran, statistics))
 }
 
 fn with_names<R>(session: &Session<'_>, with: impl FnOnce(&Names<'_>) -> R) -> R {

@@ -59,6 +59,14 @@ impl Layer {
         let preset = Preset::inherited(&file.machine, text)?.map(inheriting);
         let mut overrides = Vec::new();
         for table in &file.overrides {
+            if table.files.is_empty() {
+                let message = "`[[overrides]]` without `files` applies to no program";
+                return Err(match &table.control {
+                    Some(control) => text.problem(control, message),
+                    None => Problem::with_file(Path::new(text.name), message),
+                }
+                .help("say to which: `files = [\"lathe/**\"]`"));
+            }
             let (patterns, own) = overriding(text, &file, table)?;
             if let Some(preset) = Preset::inherited(&table.machine, text)? {
                 overrides.push((patterns.clone(), inheriting(preset)));

@@ -390,6 +390,10 @@ impl<'t> Checked<'t> {
             for size in sizes.into_iter().flatten() {
                 self.finite(number, size)?;
             }
+            // A diameter below zero is an offset to the other side, as controls take it.
+            if tool.corner_radius.is_some_and(|radius| radius < 0.0) {
+                return Err(self.text.problem(number, "a corner radius is not negative"));
+            }
             if let Some(orientation) = tool.orientation.as_ref().filter(|o| o.value > 9) {
                 return Err(self.text.problem(orientation, "a tip points in one of the directions 0 to 9"));
             }

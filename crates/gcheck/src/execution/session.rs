@@ -15,7 +15,7 @@ use crate::args::{ExecutionOptions, Global, Switch};
 use crate::config::{Configs, validate_control};
 use crate::control_choice::{Chosen, choose};
 use crate::neighbours::Neighbours;
-use crate::programs::Reachable;
+use crate::programs::{ProgramFolders, Reachable};
 use crate::{Problem, paths, reading};
 
 /// Standard input as a file name.
@@ -33,6 +33,8 @@ pub(crate) struct Prepared {
     pub(super) fuel: u64,
     pub(crate) path: PathBuf,
     pub(crate) search: Vec<PathBuf>,
+    /// What the folders hold that calls are looked for in.
+    folders: Arc<ProgramFolders>,
 }
 
 /// Reads the program and what is in force for it.
@@ -78,6 +80,7 @@ pub(crate) fn prepare(
         fuel: options.fuel,
         search: settings.search,
         path,
+        folders: Arc::default(),
     })
 }
 
@@ -104,7 +107,13 @@ impl Prepared {
             fuel: self.fuel,
             path: self.path.clone(),
             search: self.search.clone(),
+            folders: Arc::clone(&self.folders),
         }
+    }
+
+    /// The same program among others of a run, which look through each folder once.
+    pub(crate) fn among(self, folders: Arc<ProgramFolders>) -> Self {
+        Self { folders, ..self }
     }
 }
 
@@ -124,7 +133,7 @@ impl Prepared {
     pub(crate) fn session<R>(&self, with: impl FnOnce(&Session<'_>) -> R) -> R {
         let dialect = Dialect::new(&self.control);
         let model = Model::new(&self.control);
-        let library = Reachable::new(Arc::default(), &self.path, &self.search);
+        let library = Reachable::new(Arc::clone(&self.folders), &self.path, &self.search);
         let mut axes = AxesSeen::new(&model);
         let mut tools = ToolNames::new(&self.control);
         let mut headings = Headings::default();

@@ -18,6 +18,7 @@ mod configuration;
 mod control;
 mod determinism;
 mod diff;
+mod diff_folders;
 mod editing;
 mod exit_codes;
 mod first_minutes;

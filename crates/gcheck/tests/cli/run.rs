@@ -605,3 +605,34 @@ fn faults_name_words_that_exclude_or_replace_each_other() {
         assert!(stderr.contains(says), "{block}: {stderr}");
     }
 }
+
+#[test]
+fn an_absolute_centre_is_a_radius_among_diameters() {
+    let program = "G7 G18 G90.1 F10\nG0 X20 Z0\nG2 X20 Z-10 I20 K-5\nM2\n";
+    let shown = run(program, "--output-format canonical").to_string();
+    assert!(shown.contains("ARC_FEED(-10.0000, 10.0000, -5.0000, 20.0000, -1, "), "{shown}");
+}
+
+#[test]
+fn what_a_run_cannot_read_a_check_reports() {
+    for block in [
+        "S100 :3",
+        "G1 F10 X5[2]",
+        "G0 X1 Y2,Z3",
+        "G0 X1 %",
+        "[1] G0 X1",
+        "#1=EXISTS[2]",
+        "o1.5 if [1]\no1.5 endif",
+        "G10 L1 P1",
+        "#<_value>=1",
+        "o1 repeat [2]\no1 break\no1 endrepeat",
+        "o1 repeat [2]\no1 endrepeat\no1 if [1]\no1 endif",
+    ] {
+        let shop = Shop::with(&[("part.ngc", &format!("{block}\nM2\n"))]);
+        let run = shop.gcheck("run part.ngc --isolated --control linuxcnc --quiet").to_string();
+        assert!(!run.ends_with("exit 0\n"), "{block}: {run}");
+        let check =
+            shop.gcheck("check part.ngc --isolated --no-cache --control linuxcnc --quiet").to_string();
+        assert!(check.contains("part.ngc:"), "{block}: {check}");
+    }
+}

@@ -451,3 +451,36 @@ fn chip_loads_surface_speeds_and_how_corners_are_taken_are_shown_by_tool() {
     assert_eq!(json["tools"][0]["edge"]["chip_load"]["max"], 0.05, "{:#}", json["tools"][0]);
     assert_eq!(json["tools"][0]["corners"][0], "corners blended within 0.02 mm");
 }
+
+#[test]
+fn several_programs_are_a_table() {
+    let shop = Shop::with(&[
+        ("a/part.nc", PART),
+        ("b.nc", "%\nO2\nG21 G90\nG0 X0. Y0.\nG2 X1. Y1. I9. F100.\nM30\n%\n"),
+        ("gcheck.toml", MACHINE),
+    ]);
+    let run = shop.gcheck("stats -q .");
+    expect![[r#"
+        program    control    time    cutting  tools  changes  cut mm  X                Y                Z
+        a/part.nc  haas-mill  0:46.5  0:37.2   2      2        100     0.000 to 50.000  0.000 to 10.000  -10.000 to 25.000
+        b.nc       haas-mill  0:00.0  0:00.0   1      0        0       -                -                -
+        2 programs, 0:46.5 min in all (lower bound); extents are of what is cut, in mm
+    "#]].assert_eq(&run.stdout);
+    assert_eq!(run.code, 2, "{}", run.stderr);
+    let run = shop.gcheck("stats -q a/part.nc b.nc --output-format csv");
+    expect![[r#"
+        file,control,ended,seconds,times,cutting_seconds,tools,tool_changes,cutting_mm,rapid_mm,x_from_mm,x_to_mm,y_from_mm,y_to_mm,z_from_mm,z_to_mm,problem
+        a/part.nc,haas-mill,program-end,46.524,lower-bound,37.200,2,2,100.000,662.192,0.000,50.000,0.000,10.000,-10.000,25.000,
+        b.nc,haas-mill,fault,0.000,lower-bound,0.000,1,0,0.000,0.000,,,,,,,the end point is not on the circle of the start point
+    "#]].assert_eq(&run.stdout);
+    let run = shop.gcheck("stats -q a --output-format json");
+    let json: serde_json::Value = serde_json::from_str(&run.stdout).unwrap();
+    assert_eq!((run.code, &json["programs"][0]["file"]), (0, &"a/part.nc".into()), "{json}");
+    assert!(json["seconds"].as_f64().is_some_and(|seconds| seconds > 1.0));
+}
+
+#[test]
+fn a_folder_without_programs_has_no_figures() {
+    let run = Shop::with(&[("a/note.txt", "x")]).gcheck("stats a");
+    assert!(run.code == 2 && run.stderr.contains("no programs in a"), "{}", run.stderr);
+}

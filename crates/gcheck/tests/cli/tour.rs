@@ -42,6 +42,7 @@ fn the_tour_shows_its_mistakes() {
         fixtures/tour/manifold.nc:15:1: warning[arc-without-centre] arc without centre or radius: `G3`
         fixtures/tour/manifold.nc:16:8: warning[two-codes-of-one-group] `G0` and `G1` belong to one modal group
         fixtures/tour/manifold.nc:18:19: error[jump-target-missing] jump target `N900` does not exist in this program
+        fixtures/tour/pin.nc:14:1: warning[chuck-opened-while-turning] the chuck opens while the spindle turns (`M11`)
         fixtures/tour/pin.nc:15:1: info[chuck-moved-at-bar-feed] chuck is open before the bar is fed (`M11`)
         fixtures/tour/pin.nc:15:1: warning[turret-in-the-way-of-bar] tool is in the way of the bar
         fixtures/tour/pin.nc:15:12: warning[bar-push-shorter-than-part] bar is pushed by less than the part is long

@@ -141,3 +141,40 @@ fn standard_input_without_a_name() {
         "error: stdin: is not text, so it is not a part program\n"
     );
 }
+
+#[test]
+fn a_file_may_list_what_is_checked() {
+    let shop = Shop::with(&[
+        ("a.nc", GOOD),
+        ("b/c.nc", GOOD),
+        ("d.txt", GOOD),
+        ("list.txt", "a.nc\r\n\n d.txt\nb\n"),
+    ]);
+    check_files(&shop, "--files-from list.txt", &["a.nc", "d.txt", "b/c.nc"]);
+    let run = shop.gcheck_reading("check --show-files --files-from -", b"b/c.nc\0a.nc\0");
+    assert_eq!((run.code, run.stdout.as_str()), (0, "b/c.nc\na.nc\n"), "{run}");
+    shop.file("bad.txt", "a.nc\nmissing.nc\n");
+    let run = shop.gcheck("check -q --files-from bad.txt");
+    assert!(run.code == 2 && run.stderr.contains("missing.nc: no such file or folder"), "{run}");
+    shop.file("empty.txt", "\n\n");
+    let run = shop.gcheck("check --files-from empty.txt");
+    assert!(run.code == 2 && run.stderr.contains("empty.txt: lists no files"), "{run}");
+    let run = shop.gcheck("check a.nc --files-from list.txt");
+    assert_eq!(run.code, 2, "{run}");
+}
+
+#[test]
+fn patterns_that_the_shell_left_are_expanded() {
+    let shop = Shop::with(&[("a.nc", GOOD), ("b/c.nc", GOOD), ("b/d.txt", GOOD), ("b/e/f.nc", GOOD)]);
+    check_files(&shop, "*.nc", &["a.nc"]);
+    check_files(&shop, "b/*", &["b/c.nc", "b/d.txt"]);
+    check_files(&shop, "**/*.nc", &["a.nc", "b/c.nc", "b/e/f.nc"]);
+    check_files(&shop, "./b/{c,x}.nc", &["b/c.nc"]);
+    let run = shop.gcheck("check x*.nc");
+    assert!(run.code == 2 && run.stderr.contains("x*.nc: no file fits this pattern"), "{run}");
+    let run = shop.gcheck("check [a");
+    assert!(run.code == 2 && run.stderr.contains("as a pattern it cannot be read"), "{run}");
+    // A file of this very name is that file.
+    let shop = Shop::with(&[("part[1].nc", GOOD), ("part1.nc", GOOD)]);
+    check_files(&shop, "part[1].nc", &["part[1].nc"]);
+}

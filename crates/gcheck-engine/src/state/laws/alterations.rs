@@ -161,6 +161,7 @@ fn paths() -> Vec<(&'static str, Alter)> {
         ("compensation left", |s| s.compensation.left = Perhaps::Yes(made())),
         ("tolerance of blending", |s| s.blending.tolerance = 0.1),
         ("second tolerance of blending", |s| s.blending.naive = Some(0.1)),
+        ("unit of the tolerances of blending", |s| s.blending.unit = 25.4),
         ("control points", |s| s.curve = Perhaps::Yes(ControlPoints(Rc::new(vec![[1.0; 3]])))),
         ("touched point", |s| s.probe.point = point()),
         ("result of the probe", |s| s.probe.result = Truth::True),

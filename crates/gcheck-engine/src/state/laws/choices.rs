@@ -106,7 +106,7 @@ made! {
         angles: [c.make(), c.make()],
         orientation: c.make(),
     };
-    Blending, 2, c => Blending { tolerance: c.make(), naive: c.make() };
+    Blending, 3, c => Blending { tolerance: c.make(), naive: c.make(), unit: c.make() };
     CoolantState, 2, c => {
         let mut coolant = CoolantState::all(c.make());
         coolant.mist = c.make();

@@ -99,16 +99,27 @@ impl PathRule for AllowanceIntoContour {
             let is_pointed = cx.word(letter).is_none_or(|word| word.shape.point || word.is_computed());
             let shown = |value: f64| if is_pointed { trimmed(value) } else { format!("{value:.0}") };
             let word = format!("{letter}{}", shown(value));
-            let message = format!("finishing allowance on the wrong side of the profile (`{word}`)");
+            // A profile that shrinks toward the chuck is a bore, and so is this allowance, unless it is turned from the chuck side.
+            let may_be_bore = across && side > 0.0 && profile.grows_to_chuck() == Some(false);
+            let start = trimmed(profile.start.x);
+            let message = if may_be_bore {
+                format!("start (`X{start}`) and finishing allowance (`{word}`) do not fit together")
+            } else {
+                format!("finishing allowance on the wrong side of the profile (`{word}`)")
+            };
             let mut finding = cx.finding(&META, cx.letter_range(letter), message).label(cut);
             if let Some(first) = profile.points.first() {
                 finding = finding.also(first.range.clone(), "the profile begins here");
             }
-            report.add(
-                finding
-                    .note(format!("the tool starts {where_to}, so the stock is on that side"))
-                    .help(format!("write `{letter}{}`", shown(-value))),
-            );
+            let finding = finding.note(format!("the tool starts {where_to}, so the stock is on that side"));
+            report.add(if may_be_bore {
+                finding.help(format!(
+                    "for a bore, start nearer to the centre than the profile; for an outside, write `{letter}{}`",
+                    shown(-value)
+                ))
+            } else {
+                finding.help(format!("write `{letter}{}`", shown(-value)))
+            });
         }
     }
 }
@@ -151,7 +162,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::testing::check_rule;
+    use crate::testing::{World, check_rule, findings, only, words};
 
     fn bore(u: &str, w: &str) -> String {
         format!(
@@ -243,6 +254,20 @@ mod tests {
             "G21 T0101\nG97 S500 M3\nG0 X28. Z2.\nG71 U2. R1.\nG71 P10 Q20 U0.5 W0.1 F0.25\nN10 G0 X30.\nG1 Z-20.\nX40. Z-25.\nN20 X50.\nM30\n",
             &expect![[""]],
         );
+    }
+
+    #[test]
+    fn a_bore_that_is_started_outside_of_it() {
+        let program = bore("-0.4", "0.1").replace("X18.", "X42.").replace("N20 X42.", "N20 X22.");
+        let found = findings(&only(&RULE), "fanuc-lathe", &program, &World::default());
+        expect![[r#"
+            start (`X42.`) and finishing allowance (`U-0.4`) do not fit together
+              here: the rough cut goes below the finished diameter
+              there: the profile begins here
+              note: the tool starts outside the profile, so the stock is on that side
+              help: for a bore, start nearer to the centre than the profile; for an outside, write `U0.4`
+        "#]]
+        .assert_eq(&found.iter().map(words).collect::<String>());
     }
 
     #[test]

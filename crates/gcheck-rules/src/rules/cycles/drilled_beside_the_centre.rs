@@ -6,10 +6,13 @@ use gcheck_geometry::Mm;
 
 use crate::declare::declare_rule;
 use crate::facts::cycles::{cycle_name, is_drilling};
+use crate::facts::live_tool::may_be_live;
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 
 declare_rule! {
     /// A drilling or tapping cycle of a lathe goes along Z beside the centre, while the part turns and no live tool does.
+    ///
+    /// A tool that works with the C axis, or after an M code of the machine builder, may be a live one: it is not judged.
     ///
     /// ## Why it matters
     /// A drill that does not turn cuts on the centre of a turning part only. Beside it the part runs against the flank
@@ -64,7 +67,8 @@ impl PathRule for DrilledBesideTheCentre {
             && (from.raw(Axis::Z) - to.raw(Axis::Z)).abs() > f64::EPSILON;
         // A place that is not known is NaN, and not beside anything.
         let is_beside = to.raw(Axis::X).abs() > OFF_CENTRE;
-        if !turns || cx.state().live_tool() != Truth::False || !goes_along || !is_beside {
+        let may_turn = cx.state().live_tool() != Truth::False;
+        if !turns || may_turn || !goes_along || !is_beside || may_be_live(cx) {
             return;
         }
         let away = cx.shown(Mm(to.raw(Axis::X).abs()));
@@ -115,5 +119,19 @@ mod tests {
     fn a_live_tool_drills_anywhere() {
         check_rule(&RULE, "haas-lathe", &program("M154\nG97 P900 M133", "X40."), &expect![[""]]);
         check_rule(&RULE, "haas-lathe", &program("M5", "X40."), &expect![[""]]);
+        for start in ["M13 S1500", "G97 S1500 M3\nM45", "G97 S1500 M3\nG0 C0."] {
+            check_rule(&RULE, "fanuc-lathe", &program(start, "X40."), &expect![[""]]);
+        }
+        check_rule(
+            &RULE,
+            "fanuc-lathe",
+            &program("M45\nT0404\nG97 S900 M3", "X40."),
+            &expect![[r#"
+            7 | G83 Z-30. R2. Q5. F0.1
+              | ^^^^^^^^^^^^^^^^^^^^^^ warning[drilled-beside-the-centre] `G83` drills beside the centre of the turning part
+        "#]],
+        );
+        let indexed = program("G97 S900 M3", "X40.").replace("Z-30.", "Z-30. H30.");
+        check_rule(&RULE, "fanuc-lathe", &indexed, &expect![[""]]);
     }
 }

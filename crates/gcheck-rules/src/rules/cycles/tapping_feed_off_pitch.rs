@@ -135,11 +135,17 @@ impl PathRule for TappingFeedOffPitch {
             cx.shown(gcheck_geometry::Mm(a_turn)),
             cx.shown(pitch)
         );
-        let mut finding = cx.finding(&META, cx.letter_range('F'), message);
+        let mut finding = if is_carried {
+            let speed = format!("the tap turns at the speed of the tool before (`S{}`)", trimmed(speed));
+            cx.finding(&META, cx.effect_range(is_tapping), speed)
+        } else {
+            cx.finding(&META, cx.letter_range('F'), message.clone())
+        };
         if is_carried {
             let turns = (feed * units.in_mm() / thread.pitch).round();
             finding = finding
-                .label(format!("belongs to `S{turns}`, and the speed is `S{}`", trimmed(speed)))
+                .label(format!("no `S` since the tool change; the feed belongs to `S{turns}`"))
+                .note(message)
                 .help("give the speed of the tap (`S`) after the tool change");
             if let Some(given) =
                 cx.definitions().set_by(Fact::Speed).and_then(|at| cx.find_word(at, is_speed))
@@ -288,9 +294,9 @@ mod tests {
             "haas-mill",
             &program("", "500."),
             &expect![[r#"
-            4 | G84 Z-12. R5. F500.
-              |               ^^^^^ warning[tapping-feed-off-pitch] the tap is fed 0.167 mm per turn, and the pitch is 1 mm
-        "#]],
+                4 | G84 Z-12. R5. F500.
+                  | ^^^ warning[tapping-feed-off-pitch] the tap turns at the speed of the tool before (`S3000`)
+            "#]],
         );
         check_rule(&RULE, "haas-mill", &program("S500\n", "500."), &expect![[""]]);
         // Both are from before; a speed that a variable gives.
@@ -300,10 +306,11 @@ mod tests {
         check_rule(&RULE, "fanuc-mill", &program("G95\n", "1."), &expect![[""]]);
         let found = findings(&only(&RULE), "haas-mill", &program("", "500."), &World::default());
         expect![[r#"
-            the tap is fed 0.167 mm per turn, and the pitch is 1 mm
-              here: belongs to `S500`, and the speed is `S3000`
+            the tap turns at the speed of the tool before (`S3000`)
+              here: no `S` since the tool change; the feed belongs to `S500`
               there: the last speed, from before the tool change
               there: names the thread: M6
+              note: the tap is fed 0.167 mm per turn, and the pitch is 1 mm
               help: give the speed of the tap (`S`) after the tool change
         "#]]
         .assert_eq(&found.iter().map(words).collect::<String>());

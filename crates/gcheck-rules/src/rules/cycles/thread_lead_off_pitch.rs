@@ -8,7 +8,7 @@ use gcheck_geometry::Mm;
 
 use crate::declare::declare_rule;
 use crate::facts::cutting::is_thread;
-use crate::facts::threads::{Thread, Wanted, thread_in_block, thread_of_tool, trimmed};
+use crate::facts::threads::{Thread, Wanted, names_unread_thread, thread_in_block, thread_of_tool, trimmed};
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 use crate::{Remembers, remembers};
 
@@ -16,7 +16,8 @@ declare_rule! {
     /// The lead of a thread (`F` of `G32`, `G92` and `G76` on lathes, `K` of `G33` and `G33.1`) is not the pitch of the thread
     /// that a comment names: the comment of the block, of its operation or its tool, or the title of the program.
     ///
-    /// The comment has to give the pitch (`M20X1.5`, `1/2-13`). Threads of several starts are not looked at: those whose
+    /// The comment has to give the pitch (`M20X1.5`, `1/2-13`); one nearer to the cut that names a thread in another form (`G3/4`)
+    /// counts before the others, and nothing is reported. Threads of several starts are not looked at: those whose
     /// comment has the word `START` or `LEAD`, and those with an angle for the start (`Q`) and a lead of some pitches.
     ///
     /// ## Why it matters
@@ -154,21 +155,36 @@ fn thread(cx: &PathCx<'_>, changed: Option<At>) -> Option<Thread> {
     let is_alone =
         |at: &At| cx.place_of(*at).is_some_and(|place| place.table.words(place.block()).is_empty());
     let above = (begin..here.block).rev().take(ABOVE as usize).map(|block| At { block, ..here });
-    let of_operation = || above.filter(is_alone).find_map(|at| thread_in_block(cx, at, Wanted::Written));
+    // The nearest comment that names a thread counts, whether it can be read or not.
+    let named = |at: At| {
+        let thread = thread_in_block(cx, at, Wanted::Written);
+        (thread.is_some() || names_unread_thread(cx, at)).then_some(thread)
+    };
+    let of_operation = above.filter(is_alone).find_map(named);
+    let is_beside_tool = |at: &At| Some(*at) == changed || is_alone(at);
+    let of_tool = || {
+        let changed = changed.filter(|at| at.file == 0)?;
+        let before = changed.block.checked_sub(1).map(|block| At { block, ..changed });
+        if let Some(thread) = thread_of_tool(cx, changed, Wanted::Written) {
+            return Some(Some(thread));
+        }
+        [Some(changed), before, Some(changed.next())]
+            .into_iter()
+            .flatten()
+            .filter(is_beside_tool)
+            .find_map(named)
+    };
     let is_title = |at: &At| {
         let letters = cx.place_of(*at).map(|place| place.block().letters);
         letters.is_some_and(|letters| letters.contains(Letter::of('O')))
     };
     let title = || {
         let blocks = (0..HEAD).map(|block| At { block, ..here });
-        blocks
-            .filter(|at| is_title(at) || is_alone(at))
-            .find_map(|at| thread_in_block(cx, at, Wanted::Written))
+        let mut named = blocks.filter(|at| is_title(at) || is_alone(at)).filter_map(named);
+        // A title with two threads does not tell which one is cut.
+        named.next().filter(|_| named.next().is_none())
     };
-    thread_in_block(cx, here, Wanted::Written)
-        .or_else(of_operation)
-        .or_else(|| thread_of_tool(cx, changed?, Wanted::Written))
-        .or_else(title)
+    named(here).or(of_operation).or_else(of_tool).or_else(title)?
 }
 
 #[cfg(test)]
@@ -222,6 +238,32 @@ mod tests {
         };
         check_rule(&RULE, "fanuc-lathe", &program("12."), &expect![""]);
         check_rule(&RULE, "fanuc-lathe", &program("2."), &expect![[""]]);
+    }
+
+    #[test]
+    fn a_thread_that_is_not_read_counts_before_the_title() {
+        let program = |title: &str, tool: &str| {
+            format!(
+                "O3006 ({title})\nG21 G40 G99\nT0909 ({tool})\nG97 S600 M3\nG0 X30. Z6.\nG92 X26. Z-15. F1.814\nM30\n"
+            )
+        };
+        check_rule(
+            &RULE,
+            "fanuc-lathe",
+            &program("ADAPTER M20X1.5", "EXT THREAD"),
+            &expect![[r#"
+            6 | G92 X26. Z-15. F1.814
+              |                ^^^^^^ warning[thread-lead-off-pitch] the thread is cut with a lead of 1.814 mm, and its pitch is 1.5 mm
+        "#]],
+        );
+        for (title, tool) in [
+            ("ADAPTER M20X1.5", "EXT THREAD G3/4"),
+            ("ADAPTER M20X1.5 - G3/4", "EXT THREAD"),
+            ("1/2-14 NPT AND 3/4-16 UNF SWIVEL", "EXT THREAD"),
+            ("M20X1.5", "THREAD 3/4 BSP"),
+        ] {
+            check_rule(&RULE, "fanuc-lathe", &program(title, tool), &expect![[""]]);
+        }
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! A turning cycle that starts inside its profile.
 
 use gcheck_controls::{Effect, LetterSet};
+use gcheck_engine::At;
 
 use crate::declare::declare_rule;
 use crate::facts::turning::{Point, Profile, is_roughing, profile};
@@ -10,7 +11,8 @@ declare_rule! {
     /// The tool is inside the profile when a roughing cycle begins, or so near to the chuck that the first block of the profile
     /// goes at rapid into the part; this also where the profile is finished. The same holds for a start nearer to the centre than
     /// the whole profile, if the profile is an outside one: its X grows toward the chuck, and the finishing allowance is
-    /// that of an outside.
+    /// that of an outside. A finishing cycle is reported whose way back to its start goes through the profile that a roughing
+    /// cycle has cut.
     ///
     /// ## Why it matters
     /// Each pass starts from the tool's position, and after it the tool returns there at rapid: through the part.
@@ -65,6 +67,7 @@ impl PathRule for TurningStartInsideProfile {
             return;
         }
         if is_finish {
+            finish_from_inside(cx, &profile, report);
             return;
         }
         if !along_x && is_below_outside(cx, &profile) {
@@ -120,6 +123,76 @@ fn behind_face(cx: &PathCx<'_>, profile: &Profile, begin: &Point, report: &mut R
     );
 }
 
+/// After the profile, a finishing cycle goes back to its start at rapid. Does that way lead through the part?
+fn finish_from_inside(cx: &PathCx<'_>, profile: &Profile, report: &mut Report<'_>) {
+    // The allowance of the roughing cycle tells an outside from a bore.
+    let Some(allowance) = allowance_of_roughing(cx) else { return };
+    let is_outside = allowance > 0.0;
+    let sign = if is_outside { 1.0 } else { -1.0 };
+    let (start, points) = (&profile.start, &profile.points);
+    let Some(last) = points.last() else { return };
+    let Some(units) = cx.state().units(cx.model) else { return };
+    let under = -1.0 / units.in_mm();
+    // Only a start in front of the face, and beyond it the end of the profile.
+    if profile.grows_to_chuck() != Some(is_outside) || start.z < 0.0 || last.z > under {
+        return;
+    }
+    let back = |z: f64| start.x + (z - start.z) / (last.z - start.z) * (last.x - start.x);
+    let levels = std::iter::once(under).chain(points.iter().map(|point| point.z)).filter(|z| *z <= under);
+    let is_through =
+        |z: &f64| profile_at(points, *z).is_some_and(|x| (x - back(*z)) * sign > 1.0 / units.in_mm());
+    let Some(met) = levels.into_iter().find(is_through) else { return };
+    let x = trimmed(start.x);
+    report.add(
+        cx.finding(&META, cx.range(), format!("the finishing cycle starts inside its profile (`X{x}`)"))
+            .label("after the profile the tool returns here at rapid, through the part")
+            .also(
+                last.range.clone(),
+                format!("the profile ends at `X{} Z{}`", trimmed(last.x), trimmed(last.z)),
+            )
+            .note(format!(
+                "the way back is at X {} where the profile is at X {} (Z {})",
+                trimmed(back(met)),
+                trimmed(profile_at(points, met).unwrap_or(f64::NAN)),
+                trimmed(met)
+            ))
+            .help(if is_outside {
+                format!("start outside the stock, beyond `X{}`", trimmed(last.x))
+            } else {
+                format!("start inside the bore, nearer to the centre than `X{}`", trimmed(last.x))
+            }),
+    );
+}
+
+/// The X of the profile at a level, before its last block.
+fn profile_at(points: &[Point], z: f64) -> Option<f64> {
+    let before_last = points.get(..points.len().checked_sub(1)?)?;
+    before_last.windows(2).find_map(|pair| {
+        let [from, to] = pair else { return None };
+        let (low, high) = (from.z.min(to.z), from.z.max(to.z));
+        let is_along = high - low > SLACK && (low..=high).contains(&z);
+        is_along.then(|| from.x + (z - from.z) / (to.z - from.z) * (to.x - from.x))
+    })
+}
+
+/// The allowance in X of the roughing cycle before this block that cuts the same profile.
+fn allowance_of_roughing(cx: &PathCx<'_>) -> Option<f64> {
+    let here = cx.origin().at;
+    let profile = cx.known_number('P')?;
+    let first = here.block.saturating_sub(MAX_BEFORE);
+    (first..here.block).rev().find_map(|block| {
+        let place = cx.place_of(At { block, ..here })?;
+        let words = place.table.words(place.block());
+        let number = |letter: u8| {
+            let mut of_letter = words.iter().filter(|word| word.letter.ascii() == letter);
+            of_letter.next().and_then(gcheck_program::Word::number)
+        };
+        let is_same = words.iter().any(|word| is_roughing(cx.model.effect(word.code)))
+            && number(b'P').is_some_and(|named| (named - profile).abs() < SLACK);
+        if is_same { number(b'U').filter(|allowance| *allowance != 0.0) } else { None }
+    })
+}
+
 /// Is the start nearer to the centre than the whole of an outside profile?
 fn is_below_outside(cx: &PathCx<'_>, profile: &Profile) -> bool {
     let allowance = cx.known_number('U').unwrap_or(0.0);
@@ -147,6 +220,8 @@ fn below_outside(cx: &PathCx<'_>, profile: &Profile, report: &mut Report<'_>) {
     );
 }
 
+/// Blocks before a finishing cycle that are searched for its roughing cycle.
+const MAX_BEFORE: u32 = 1000;
 /// In units of the program.
 const SLACK: f64 = 0.01;
 
@@ -179,6 +254,41 @@ mod tests {
         "#]],
         );
         check_rule(&RULE, "haas-lathe", &program(".1"), &expect![[""]]);
+    }
+
+    #[test]
+    fn a_finish_that_returns_through_the_part() {
+        let outside = |x: &str| {
+            format!(
+                "G21 G40 G99\nT0101\nG96 S200 M3\nG0 X64. Z2.\nG71 U2. R0.5\nG71 P10 Q20 U0.4 W0.1 F0.25\nN10 G0 X30.\nG1 Z-20. F0.1\nX40. Z-25.\nZ-40.\nN20 X62.\nG0 X150. Z100.\nT0303\nG0 X{x} Z2.\nG70 P10 Q20\nM30\n"
+            )
+        };
+        let bore = |x: &str| {
+            format!(
+                "G21 G40 G99\nT0404\nG96 S150 M3\nG0 X18. Z2.\nG71 U1.5 R0.5\nG71 P10 Q20 U-0.4 W0.1 F0.2\nN10 G0 X46.\nG1 Z-20. F0.1\nX34. Z-30.\nN20 X20.\nG0 Z50.\nT0505\nG0 X{x} Z2.\nG70 P10 Q20\nM30\n"
+            )
+        };
+        check_rule(
+            &RULE,
+            "fanuc-lathe",
+            &outside("20."),
+            &expect![[r#"
+            15 | G70 P10 Q20
+               | ^^^^^^^^^^^ warning[turning-start-inside-profile] the finishing cycle starts inside its profile (`X20.`)
+        "#]],
+        );
+        check_rule(
+            &RULE,
+            "fanuc-lathe",
+            &bore("60."),
+            &expect![[r#"
+            14 | G70 P10 Q20
+               | ^^^^^^^^^^^ warning[turning-start-inside-profile] the finishing cycle starts inside its profile (`X60.`)
+        "#]],
+        );
+        for program in [outside("64."), outside("62."), bore("20."), bore("18."), bore("19.")] {
+            check_rule(&RULE, "fanuc-lathe", &program, &expect![[""]]);
+        }
     }
 
     #[test]

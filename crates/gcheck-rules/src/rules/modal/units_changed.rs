@@ -1,14 +1,15 @@
 //! Inches and millimetres in one program.
 
 use gcheck_controls::Effect;
-use gcheck_engine::{Event, Fact, Role, Units};
+use gcheck_engine::{At, Event, Fact, Role, Units};
 
 use crate::declare::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Severity, Uses, Watch};
 use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// A program changes from inches to millimetres, or back, after it has moved.
+    /// A program changes from inches to millimetres, or back, after it has moved; or a subprogram changes, and its caller
+    /// moves on in units that it did not choose.
     ///
     /// ## Why it matters
     /// Everything after it counts 25.4 times as much or as little: positions, and on most controls the feed and the
@@ -37,18 +38,23 @@ declare_rule! {
         since: "0.1.0",
         run: Run::Path {
             watch: Watch::BLOCKS.union(Watch::RAPIDS).union(Watch::CUTS),
-            make: || Box::new(UnitsChanged { has_moved: false, is_told: false }),
+            make: || Box::new(UnitsChanged::default()),
         },
     }
 }
 
-#[derive(Clone, PartialEq)]
+#[derive(Default, Clone, PartialEq)]
 struct UnitsChanged {
     has_moved: bool,
     is_told: bool,
+    /// The units of the last move of the main program, and the block that set them.
+    main: Option<Units>,
+    main_set: Option<At>,
+    /// The last block of the main program that chose units.
+    own: Option<At>,
 }
 
-remembers!(UnitsChanged);
+remembers!(UnitsChanged: main_set, own);
 
 impl PathRule for UnitsChanged {
     fn memory(&mut self) -> Remembers<'_> {
@@ -66,6 +72,9 @@ impl PathRule for UnitsChanged {
             _ => None,
         };
         let is_units = |effect| units(effect).is_some();
+        if cx.depth() == 1 && cx.has_effect(is_units) {
+            self.own = Some(cx.origin().at);
+        }
         if !self.has_moved || self.is_told || cx.depth() > 1 || !cx.has_effect(is_units) {
             return;
         }
@@ -73,18 +82,16 @@ impl PathRule for UnitsChanged {
         let fact = Fact::Mode(Role::Units);
         let (Some(new), Some(old)) = (new, cx.state().units(cx.model)) else { return };
         let Some(code) = cx.state().mode(Role::Units).only() else { return };
-        if new == old || cx.definitions().set_by(fact).is_none() {
+        // After a subprogram, the units of its caller again.
+        let is_back = self.main == Some(new) && cx.definitions().set_by(fact) != self.main_set;
+        if new == old || is_back || cx.definitions().set_by(fact).is_none() {
             return;
         }
         self.is_told = true;
-        let name = |units| match units {
-            Units::Inch => "inches",
-            Units::Mm => "millimetres",
-        };
-        let message = format!("the program changes from {} to {}", name(old), name(new));
+        let message = format!("the program changes from {} to {}", words(old), words(new));
         let finding = cx
             .finding(&META, cx.effect_range(is_units), message)
-            .label(format!("from here on numbers count {}", name(new)))
+            .label(format!("from here on numbers count {}", words(new)))
             .help("write the program in one unit; check what was pasted in");
         // Where a setting fixes the unit, one of the two codes is an alarm.
         let finding = match &cx.model.semantics().units_setting {
@@ -96,14 +103,45 @@ impl PathRule for UnitsChanged {
         report.add(cx.resting_on(finding, fact, &format!("`{}`", cx.name_of(code))));
     }
 
-    fn rapid(&mut self, cx: &PathCx<'_>, _: &Event, _: &mut Report<'_>) {
-        self.has_moved = true;
-        cx.enough();
+    fn rapid(&mut self, cx: &PathCx<'_>, _: &Event, report: &mut Report<'_>) {
+        self.moves(cx, report);
     }
 
-    fn cut(&mut self, cx: &PathCx<'_>, _: &Event, _: &mut Report<'_>) {
+    fn cut(&mut self, cx: &PathCx<'_>, _: &Event, report: &mut Report<'_>) {
+        self.moves(cx, report);
+    }
+}
+
+impl UnitsChanged {
+    fn moves(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
         self.has_moved = true;
-        cx.enough();
+        let fact = Fact::Mode(Role::Units);
+        if self.is_told || cx.depth() != 1 {
+            return;
+        }
+        let Some(now) = cx.state().units(cx.model) else { return };
+        let set = cx.definitions().set_by(fact);
+        let (before, by) = (self.main.replace(now), std::mem::replace(&mut self.main_set, set));
+        let Some(old) = before.filter(|old| *old != now && by != set) else { return };
+        // Chosen by the main program itself, it was told there.
+        if set.is_none() || set == self.own || cx.is_called_only() {
+            return;
+        }
+        self.is_told = true;
+        let Some(code) = cx.state().mode(Role::Units).only() else { return };
+        let name = cx.name_of(code);
+        let finding = cx
+            .finding(&META, cx.range(), format!("a subprogram has left {} on (`{name}`)", words(now)))
+            .label(format!("the moves before the call count {}", words(old)))
+            .help("choose the units again after the call, or write the subprogram in those of its caller");
+        report.add(cx.resting_on(finding, fact, &format!("`{name}`")));
+    }
+}
+
+fn words(units: Units) -> &'static str {
+    match units {
+        Units::Inch => "inches",
+        Units::Mm => "millimetres",
     }
 }
 
@@ -125,6 +163,24 @@ mod tests {
                   | ^^^ info[units-changed] the program changes from inches to millimetres
             "#]],
         );
+    }
+
+    #[test]
+    fn a_subprogram_leaves_other_units_on() {
+        let program = |after: &str, end: &str| {
+            format!("O1\nG21 G90 G54\nG0 X0. Y0.\nM98 P100\n{after}X10.\nM30\nO100\nG20\nG0 X1.\n{end}M99\n")
+        };
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            &program("", ""),
+            &expect![[r#"
+            5 | X10.
+              | ^^^^ warning[units-changed] a subprogram has left inches on (`G20`)
+        "#]],
+        );
+        check_rule(&RULE, "fanuc-mill", &program("G21\n", ""), &expect![[""]]);
+        check_rule(&RULE, "fanuc-mill", &program("", "G21\n"), &expect![[""]]);
     }
 
     #[test]

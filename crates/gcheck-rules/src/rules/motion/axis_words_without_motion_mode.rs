@@ -64,6 +64,14 @@ impl PathRule for AxisWordsWithoutMotionMode {
         let is_axis = |word: &gcheck_program::Word| cx.control().axes().contains(word.letter);
         let mode = cx.state().mode(Role::Motion).only();
         if mode != Some(CodeIx::NONE) || cx.has_effect(|effect| effect == Effect::MachineCoordinates) {
+            // What a control does whose documentation does not refuse it is not known. The passes of a lathe are moves as well, and
+            // machines go on with them.
+            let is_documented = cx.model.semantics().strict || machine_alarm(cx).is_some();
+            let passes =
+                |effect| matches!(effect, Effect::TurningPass | Effect::ThreadingPass | Effect::FacingPass);
+            if !is_documented && mode.is_some_and(|code| passes(cx.model.effect(code))) {
+                return;
+            }
             let machine = cx.effect_range(|effect| effect == Effect::MachineCoordinates);
             let code =
                 cx.code_name(Role::Motion).map_or_else(String::new, |code| format!(" (`{code}` is active)"));
@@ -76,6 +84,7 @@ impl PathRule for AxisWordsWithoutMotionMode {
                 .label("needs `G0` or `G1`")
                 .alarm(machine_alarm(cx))
                 .help("write `G0` or `G1` in this block");
+            let finding = if is_documented { finding } else { finding.at_most(crate::Severity::Warning) };
             report.add(cx.resting_on(finding, Fact::Mode(Role::Motion), "the motion mode"));
             return;
         }
@@ -163,6 +172,19 @@ mod tests {
                 3 | G53 Z0
                   | ^^^ error[axis-words-without-motion-mode] machine coordinates in a move that is neither `G0` nor `G1` (`G2` is active)
             "#]],
+        );
+        let program = |pass: &str| format!("G20 T101\nG97 S500 M3\nG0 X1.1 Z.2\n{pass}\nG53 X0\nM30\n");
+        for pass in ["G92 X.9 Z-1. F.0625", "G90 X.9 Z-1. F.01", "G94 X.9 Z-1. F.01"] {
+            check_rule(&RULE, "haas-lathe", &program(pass), &expect![[""]]);
+        }
+        check_rule(
+            &RULE,
+            "haas-lathe",
+            &program("G2 X1.3 Z.1 R.1 F.01"),
+            &expect![[r#"
+            5 | G53 X0
+              | ^^^ warning[axis-words-without-motion-mode] machine coordinates in a move that is neither `G0` nor `G1` (`G2` is active)
+        "#]],
         );
     }
 }

@@ -7,8 +7,7 @@ use crate::declare::declare_rule;
 use crate::facts::tool_words::ToolWords;
 use crate::facts::turned::{SLACK, Spot, Turned, UNDER, end, goes_home, is_other_part};
 use crate::facts::turning::is_turned;
-use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
-use crate::{Remembers, remembers};
+use crate::{MakeShared, PathCx, PathRule, Remembers, Report, Run, Uses, Watch, remembers};
 
 declare_rule! {
     /// A tool of a lathe drilled along the centre, deeper than any tool before it, and moves in X at rapid before it has
@@ -60,11 +59,10 @@ declare_rule! {
 
 #[derive(Default, Clone, PartialEq)]
 struct DrillLeavesSideways {
-    turned: Turned,
     hole: Option<Hole>,
 }
 
-remembers!(DrillLeavesSideways: turned, hole);
+remembers!(DrillLeavesSideways: hole);
 
 /// The hole that the present tool drills.
 #[derive(Clone, PartialEq)]
@@ -87,33 +85,36 @@ impl PathRule for DrillLeavesSideways {
         Remembers::All(self)
     }
 
+    fn shares(&self) -> Option<MakeShared> {
+        Some(Turned::shared)
+    }
+
     fn concerns(&self, program: &Uses<'_>) -> bool {
         is_turned(program)
     }
 
     fn changed(&mut self, _: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
         if is_other_part(event) {
-            self.turned.forget();
             self.hole = None;
         }
     }
 
     fn moved(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
-        let here = self.turned.here();
-        if let (Event::Travel(travel), Some(here)) = (event, here)
-            && self.turned.knows(cx)
+        let Some(turned) = Turned::of(cx) else {
+            self.hole = None;
+            return;
+        };
+        if let (Event::Travel(travel), Some(here)) = (event, turned.here())
+            && turned.knows(cx)
         {
             let to = end(cx, travel);
             match travel.kind {
                 TravelKind::Feed | TravelKind::Thread => self.feed(cx, here, to),
-                TravelKind::Rapid if !travel.expanded || goes_home(cx) => self.rapid(cx, here, to, report),
+                TravelKind::Rapid if !travel.expanded || goes_home(cx) => {
+                    self.leave(cx, turned, here, to, report);
+                }
                 _ => {}
             }
-        }
-        self.turned.moved(cx, event);
-        if self.turned.is_blind() {
-            *self = Self { turned: std::mem::take(&mut self.turned), hole: None };
-            cx.enough();
         }
     }
 }
@@ -133,7 +134,7 @@ impl DrillLeavesSideways {
         }
     }
 
-    fn rapid(&mut self, cx: &PathCx<'_>, from: Spot, to: Spot, report: &mut Report<'_>) {
+    fn leave(&mut self, cx: &PathCx<'_>, turned: &Turned, from: Spot, to: Spot, report: &mut Report<'_>) {
         let tool = cx.definitions().set_by(Fact::Tool);
         let Some(hole) = self.hole.as_ref().filter(|hole| hole.tool == tool) else { return };
         let is_sideways = if to[0].is_nan() { goes_home(cx) } else { (to[0] - from[0]).abs() > SHORT };
@@ -142,7 +143,7 @@ impl DrillLeavesSideways {
             return;
         }
         // Where a tool drilled before, another one may be a boring bar.
-        let is_solid = hole.bottom < self.turned.depth_at_centre(tool) - UNDER;
+        let is_solid = hole.bottom < turned.depth_at_centre(tool) - UNDER;
         let words = ToolWords::of(cx);
         if !is_solid && !words.drills() || words.bores() || words.needs_no_spindle() {
             return;

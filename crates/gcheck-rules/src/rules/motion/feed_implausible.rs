@@ -1,17 +1,20 @@
 //! A feed that looks meant for another feed mode.
 
 use gcheck_controls::{Effect, Letter};
-use gcheck_engine::{Abstract, At, Domain, Event, Fact, FeedMode, Role};
+use gcheck_engine::{Abstract, At, Domain, Event, Fact, FeedMode, Role, TravelKind};
 use gcheck_geometry::Mm;
 
 use crate::declare::declare_rule;
 use crate::facts::feed::goes_by_feed;
-use crate::{PathCx, PathRule, Report, Run, Watch};
+use crate::facts::tool_words::ToolWords;
+use crate::facts::turned::{Turned, end};
+use crate::{MakeShared, PathCx, PathRule, Report, Run, Watch};
 use crate::{Remembers, remembers};
 
 declare_rule! {
     /// A cut at more than 10 mm (0.4 inch) per turn of the spindle, on a lathe at more than 1.4 mm (0.055 inch), or at less than
-    /// 1 mm (0.04 inch) per minute.
+    /// 1 mm (0.04 inch) per minute. On a lathe, moves in the air do not count: outward, before the face, and outside of what was
+    /// turned; nor do knurls and rollers.
     ///
     /// ## Why it matters
     /// No tool cuts like this: the number is meant for the other feed mode. 300 mm per minute read as 300 mm per turn
@@ -57,7 +60,10 @@ declare_rule! {
         severity: Warning,
         tier: Path,
         since: "0.1.0",
-        run: Run::Path { watch: Watch::CUTS, make: || Box::new(FeedImplausible { told: None }) },
+        run: Run::Path {
+            watch: Watch::CUTS.union(Watch::MOVES),
+            make: || Box::new(FeedImplausible { told: None }),
+        },
     }
 }
 
@@ -83,7 +89,25 @@ impl PathRule for FeedImplausible {
         Remembers::All(self)
     }
 
+    fn shares(&self) -> Option<MakeShared> {
+        Some(Turned::shared)
+    }
+
     fn cut(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
+        if cx.is_mill() {
+            self.judge(cx, event, report);
+        }
+    }
+
+    fn moved(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
+        if !cx.is_mill() && !is_in_air(cx, event) {
+            self.judge(cx, event, report);
+        }
+    }
+}
+
+impl FeedImplausible {
+    fn judge(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
         let state = cx.state();
         let Some(feed) = Abstract::known(state.feed()).filter(|feed| *feed > 0.0) else { return };
         let most = if cx.is_mill() { MOST_A_TURN } else { MOST_A_TURN_OF_THE_PART };
@@ -95,7 +119,7 @@ impl PathRule for FeedImplausible {
         };
         // A mode that the program does not set may differ on the machine; lathes usually start in feed per turn.
         let is_stated = cx.definitions().set_by(Fact::Mode(Role::FeedMode)).is_some();
-        if !is_stated && (cx.is_mill() || !is_fast) || taps(cx) {
+        if !is_stated && (cx.is_mill() || !is_fast) || taps(cx) || is_fast && ToolWords::of(cx).rolls() {
             return;
         }
         let Some(given) = cx.definitions().set_by(Fact::Feed) else { return };
@@ -128,6 +152,15 @@ impl PathRule for FeedImplausible {
             finding.assuming(format!("the control starts in feed {reads}"))
         });
     }
+}
+
+/// Does the tool of a lathe move in the air, as far as the program shows it?
+fn is_in_air(cx: &PathCx<'_>, event: &Event) -> bool {
+    let Event::Travel(travel) = event else { return false };
+    let Some(turned) = cx.shared::<Turned>() else { return false };
+    // A place that is not known compares as nowhere.
+    let from = turned.here().unwrap_or([f64::NAN; 2]);
+    travel.kind != TravelKind::Feed || !travel.expanded && turned.is_in_air(from, end(cx, travel))
 }
 
 /// A tap is fed by its pitch.
@@ -195,6 +228,33 @@ mod tests {
         "#]],
         );
         check_rule(&RULE, "fanuc-lathe", &program("G98 ", "200."), &expect![[""]]);
+    }
+
+    #[test]
+    fn a_lathe_moves_fast_in_the_air() {
+        let program = |tool: &str, moves: &str| {
+            format!(
+                "G21 G99\nT0101\nG97 S800 M3\nG0 X44. Z2.\nX38.\nG1 Z-60. F.2\nG0 X44.\nZ50.\nT0303 {tool}\n{moves}\nG0 X100. Z50.\nM30\n"
+            )
+        };
+        for moves in [
+            "G0 X36. Z2.\nG1 Z-20. F.1\nX200. Z100. F5.",
+            "G0 X60. Z5.\nG1 X36. Z1. F3.\nZ-20. F.1",
+            "G0 X60. Z-20.\nG1 X40. F5.\nX30. F.1",
+        ] {
+            check_rule(&RULE, "fanuc-lathe", &program("", moves), &expect![[""]]);
+        }
+        check_rule(&RULE, "fanuc-lathe", &program("(KNURL)", "G0 X37. Z2.\nG1 Z-20. F2."), &expect![[""]]);
+        // The feed of the approach stays on.
+        check_rule(
+            &RULE,
+            "fanuc-lathe",
+            &program("", "G0 X60. Z5.\nG1 X36. Z1. F3.\nZ-20."),
+            &expect![[r#"
+                11 | G1 X36. Z1. F3.
+                   |             ^^^ warning[feed-implausible] feed of 3 mm per turn of the spindle (`F`)
+            "#]],
+        );
     }
 
     #[test]

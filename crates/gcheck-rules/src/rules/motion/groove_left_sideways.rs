@@ -5,10 +5,9 @@ use gcheck_geometry::Mm;
 
 use crate::declare::declare_rule;
 use crate::facts::tool_words::ToolWords;
-use crate::facts::turned::{SLACK, Spot, Turned, UNDER, end, is_level, is_one, is_other_part};
+use crate::facts::turned::{Spot, Turned, UNDER, end, is_one, is_other_part};
 use crate::facts::turning::is_turned;
-use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
-use crate::{Remembers, remembers};
+use crate::{MakeShared, PathCx, PathRule, Remembers, Report, Run, Uses, Watch, remembers};
 
 declare_rule! {
     /// A tool of a lathe has plunged into a diameter that the program turned, and moves away along Z before it has left the
@@ -62,11 +61,10 @@ declare_rule! {
 
 #[derive(Default, Clone, PartialEq)]
 struct GrooveLeftSideways {
-    turned: Turned,
     groove: Option<Groove>,
 }
 
-remembers!(GrooveLeftSideways: turned, groove);
+remembers!(GrooveLeftSideways: groove);
 
 /// A plunge that the tool has not left.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -90,90 +88,83 @@ impl PathRule for GrooveLeftSideways {
         Remembers::All(self)
     }
 
+    fn shares(&self) -> Option<MakeShared> {
+        Some(Turned::shared)
+    }
+
     fn concerns(&self, program: &Uses<'_>) -> bool {
         is_turned(program)
     }
 
     fn changed(&mut self, _: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
         if is_other_part(event) {
-            self.turned.forget();
             self.groove = None;
         }
     }
 
     fn moved(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
         let groove = self.groove.take();
-        if let (Event::Travel(travel), Some(from)) = (event, self.turned.here())
-            && self.turned.knows(cx)
+        let Some(turned) = Turned::of(cx) else { return };
+        if let (Event::Travel(travel), Some(from)) = (event, turned.here())
+            && turned.knows(cx)
         {
             let to = end(cx, travel);
             let is_away = match travel.kind {
                 TravelKind::Rapid => true,
                 // Nearer to the part it may turn the wall.
-                TravelKind::Feed => {
-                    self.turned.outside_along(from[1]).is_some_and(|wall| to[0] > wall + AWAY)
-                }
+                TravelKind::Feed => turned.outside_along(from[1]).is_some_and(|wall| to[0] > wall + AWAY),
                 _ => false,
             };
             if is_away && !travel.expanded {
-                self.leave(cx, groove, from, to, report);
+                leave(cx, turned, groove, from, to, report);
             } else if travel.kind == TravelKind::Feed && !travel.expanded {
-                self.groove = self.plunge(cx, from, to);
+                let is_groove = turned.plunges(from, to) && !ToolWords::of(cx).bores();
+                self.groove = is_groove.then(|| Groove {
+                    tool: cx.definitions().set_by(Fact::Tool),
+                    bottom: to,
+                    at: cx.origin().at,
+                });
             }
-        }
-        self.turned.moved(cx, event);
-        if self.turned.is_blind() {
-            cx.enough();
         }
     }
 }
 
-impl GrooveLeftSideways {
-    /// The groove that a feed move makes: straight in X, into what was turned before, below the face of the part.
-    fn plunge(&self, cx: &PathCx<'_>, from: Spot, to: Spot) -> Option<Groove> {
-        let wall = self.turned.outside_along(to[1])?;
-        // Begun inside the wall it is the way out of a bore, or the end of a shoulder.
-        let is_from_outside = from[0] > wall - SLACK;
-        let is_deep = to[0] > SLACK && to[0] < wall - UNDER;
-        let is_groove = is_level(from, to) && to[1] < -UNDER && is_from_outside && is_deep;
-        let is_widened = self.turned.is_opened_beside(to[1], to[0]);
-        (is_groove && !is_widened && !ToolWords::of(cx).bores()).then(|| Groove {
-            tool: cx.definitions().set_by(Fact::Tool),
-            bottom: to,
-            at: cx.origin().at,
-        })
+fn leave(
+    cx: &PathCx<'_>,
+    turned: &Turned,
+    groove: Option<Groove>,
+    from: Spot,
+    to: Spot,
+    report: &mut Report<'_>,
+) {
+    let tool = cx.definitions().set_by(Fact::Tool);
+    let Some(groove) = groove.filter(|groove| groove.tool == tool && is_one(groove.bottom, from)) else {
+        return;
+    };
+    let along = to[1] - from[1];
+    if along.is_nan() || along.abs() <= PLAY {
+        return;
     }
-
-    fn leave(&self, cx: &PathCx<'_>, groove: Option<Groove>, from: Spot, to: Spot, report: &mut Report<'_>) {
-        let tool = cx.definitions().set_by(Fact::Tool);
-        let Some(groove) = groove.filter(|groove| groove.tool == tool && is_one(groove.bottom, from)) else {
-            return;
-        };
-        let along = to[1] - from[1];
-        if along.is_nan() || along.abs() <= PLAY {
-            return;
-        }
-        // A step in a face is short.
-        let walls = [PLAY, WALL].map(|way| self.turned.outside_along(from[1] + way * along.signum()));
-        let [Some(wall), Some(beyond)] = walls else { return };
-        let radius = from[0] + (to[0] - from[0]) * PLAY / along.abs();
-        let is_open = |way: f64| {
-            let left = self.turned.least_outside(from[1] + way * along.signum());
-            left.is_some_and(|(left, _)| left < from[0] + UNDER)
-        };
-        if radius > wall - UNDER || from[0] > beyond - UNDER || is_open(PLAY) || is_open(WALL) {
-            return;
-        }
-        let is_diameter = cx.state().is_diameter(cx.model) == Some(true);
-        let wall = cx.shown(Mm(if is_diameter { wall * 2.0 } else { wall }));
-        let mut finding = cx
-            .finding(&META, cx.range(), "the tool moves along Z while it is in its groove")
-            .label(format!("the part beside the groove is turned to X {wall}"));
-        if let Some(range) = cx.range_of(groove.at) {
-            finding = finding.also(range, "the tool plunges here");
-        }
-        report.add(finding.help("draw the tool out in X first, in a block of its own (`G0 X…`)"));
+    // A step in a face is short.
+    let walls = [PLAY, WALL].map(|way| turned.outside_along(from[1] + way * along.signum()));
+    let [Some(wall), Some(beyond)] = walls else { return };
+    let radius = from[0] + (to[0] - from[0]) * PLAY / along.abs();
+    let is_open = |way: f64| {
+        let left = turned.least_outside(from[1] + way * along.signum());
+        left.is_some_and(|(left, _)| left < from[0] + UNDER)
+    };
+    if radius > wall - UNDER || from[0] > beyond - UNDER || is_open(PLAY) || is_open(WALL) {
+        return;
     }
+    let is_diameter = cx.state().is_diameter(cx.model) == Some(true);
+    let wall = cx.shown(Mm(if is_diameter { wall * 2.0 } else { wall }));
+    let mut finding = cx
+        .finding(&META, cx.range(), "the tool moves along Z while it is in its groove")
+        .label(format!("the part beside the groove is turned to X {wall}"));
+    if let Some(range) = cx.range_of(groove.at) {
+        finding = finding.also(range, "the tool plunges here");
+    }
+    report.add(finding.help("draw the tool out in X first, in a block of its own (`G0 X…`)"));
 }
 
 #[cfg(test)]

@@ -60,8 +60,9 @@ impl PathRule for MotionWithoutAxisWords {
 fn is_told(cx: &PathCx<'_>) -> bool {
     let letters = cx.origin().letters;
     let codes = cx.codes();
-    let mut codes = codes.iter().filter_map(|ix| cx.control().code_at(*ix));
-    codes.any(|code| {
+    let codes = codes.iter().filter_map(|ix| cx.control().code_at(*ix));
+    // That an arc has no centre is reported of one that has axis words.
+    codes.filter(|code| code.motion() != gcheck_controls::Motion::Arc).any(|code| {
         let mut lists = code.entry().one_of.iter();
         lists.any(|list| {
             let mut choice = list.iter().filter_map(|letter| gcheck_controls::Letter::parse(letter));

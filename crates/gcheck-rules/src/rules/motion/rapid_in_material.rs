@@ -109,7 +109,8 @@ impl PathRule for RapidInMaterial {
             Event::Travel(travel) if travel.kind == TravelKind::Rapid => self.rapid(cx, cuts, travel),
             Event::Travel(travel) if travel.kind == TravelKind::Feed && !self.waiting.is_empty() => {
                 if let (Some(from), Some(to)) = (point(&travel.from), point(&travel.to)) {
-                    self.tell(cx, cuts, from, to, report);
+                    let ends = [[from[0], from[1]], [to[0], to[1]]];
+                    self.tell(cx, cuts, [from, to], ends, report);
                 }
             }
             Event::Arc(arc) if !self.waiting.is_empty() => self.tell_arc(cx, cuts, arc, report),
@@ -152,23 +153,26 @@ impl RapidInMaterial {
         // More than a turn cuts the same circle again.
         let sweep = arc.sweep.clamp(-std::f64::consts::TAU, std::f64::consts::TAU);
         let (radius, start) = ((x0 - centre_x).hypot(y0 - centre_y), (y0 - centre_y).atan2(x0 - centre_x));
+        // A whole circle is cut where the tool went in: it has no end in the air.
+        let is_closed = distance([x0, y0], [x1, y1]) < radius / 100.0;
+        let ends = if is_closed { [[f64::INFINITY; 2]; 2] } else { [[x0, y0], [x1, y1]] };
         let mut from = [x0, y0, z0];
         for chord in 1..=CHORDS {
             let angle = start + sweep * f64::from(chord) / f64::from(CHORDS);
             let end = [centre_x + radius * angle.cos(), centre_y + radius * angle.sin()];
             let to = if chord == CHORDS { [x1, y1, z1] } else { [end[0], end[1], z0] };
-            self.tell(cx, cuts, from, to, report);
+            self.tell(cx, cuts, [from, to], ends, report);
             from = to;
         }
     }
 
-    /// Does this cut cross a rapid move that waits, where nothing was cut before it?
+    /// Does this cut, or this chord of one with these ends, cross a rapid move that waits, where nothing was cut before it?
     fn tell(
         &mut self,
         cx: &PathCx<'_>,
         cuts: &Cuts,
-        [x0, y0, z0]: [f64; 3],
-        [x1, y1, z1]: [f64; 3],
+        [[x0, y0, z0], [x1, y1, z1]]: [[f64; 3]; 2],
+        ends: [[f64; 2]; 2],
         report: &mut Report<'_>,
     ) {
         if (z0 - z1).abs() > LEVEL {
@@ -179,7 +183,9 @@ impl RapidInMaterial {
                 return true;
             }
             let Some(at) = crossing((rapid.from, rapid.to), ([x0, y0], [x1, y1])) else { return true };
-            let inside = distance(at, rapid.from) >= SHORT && distance(at, rapid.to) >= SHORT;
+            // Near its ends the cut may be beside the part: it begins or ends with the tool in the air.
+            let is_inner = ends.into_iter().all(|end| distance(at, end) >= rapid.clear.radius);
+            let inside = is_inner && distance(at, rapid.from) >= SHORT && distance(at, rapid.to) >= SHORT;
             if !inside || cuts.reach(rapid.before, at, rapid.z, rapid.clear.radius) {
                 return true;
             }
@@ -254,11 +260,28 @@ mod tests {
             "haas-mill",
             &bores(""),
             &expect![[r#"
-                6 | G0 X3.2
-                  | ^^^^^^^ warning[rapid-in-material] rapid move through material that is cut only later
-            "#]],
+            6 | G0 X3.2
+              | ^^^^^^^ warning[rapid-in-material] rapid move through material that is cut only later
+        "#]],
         );
         check_rule(&RULE, "haas-mill", &bores("G0 Z.1\n"), &expect![[""]]);
+    }
+
+    #[test]
+    fn a_cut_that_begins_there_begins_in_the_air() {
+        // The tool comes back along the side of the part, and enters beside it.
+        let program = SLOT.replace("X45.\nG1 Y-40.", "X45.\nY4.\nG1 Y-40.");
+        check_rule(&RULE, "haas-mill", &program.replace("Y4.\n", "Y-4.\n"), &expect![[""]]);
+        check_rule(&RULE, "haas-mill", &SLOT.replace("G1 Y-40.", "G1 Y-2."), &expect![[""]]);
+        check_rule(
+            &RULE,
+            "haas-mill",
+            &program.replace("Y4.\n", ""),
+            &expect![[r#"
+            5 | G0 X80.
+              | ^^^^^^^ warning[rapid-in-material] rapid move through material that is cut only later
+        "#]],
+        );
     }
 
     #[test]

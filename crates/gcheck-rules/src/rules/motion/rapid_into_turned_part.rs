@@ -1,15 +1,14 @@
 //! A rapid move of a lathe through an outside surface that the program has turned.
 
 use gcheck_controls::LetterSet;
-use gcheck_engine::{At, Event, TravelKind};
+use gcheck_engine::{At, Event};
 use gcheck_geometry::Mm;
 
 use crate::declare::declare_rule;
 use crate::facts::tool_words::ToolWords;
-use crate::facts::turned::{Cut, SLACK, Spot, Turned, end, is_level, is_other_part};
+use crate::facts::turned::{Cut, SLACK, Spot, Turned, end, is_level};
 use crate::facts::turning::is_turned;
-use crate::{Finding, PathCx, PathRule, Report, Run, Uses, Watch};
-use crate::{Remembers, remembers};
+use crate::{Finding, MakeShared, PathCx, PathRule, Remembers, Report, Run, Uses, Watch, remembers};
 
 declare_rule! {
     /// A tool of a lathe moves inwards at rapid, through the outside of the part as the program has turned it, to where
@@ -78,7 +77,7 @@ declare_rule! {
         tier: Path,
         since: "0.1.0",
         run: Run::Path {
-            watch: Watch::MOVES.union(Watch::CHANGES),
+            watch: Watch::RAPIDS,
             make: || Box::new(RapidIntoTurnedPart::default()),
         },
     }
@@ -86,54 +85,47 @@ declare_rule! {
 
 #[derive(Default, Clone, PartialEq)]
 struct RapidIntoTurnedPart {
-    turned: Turned,
     /// The move that was reported.
     told: Option<At>,
 }
 
-remembers!(RapidIntoTurnedPart: turned, told);
+remembers!(RapidIntoTurnedPart: told);
 
 impl PathRule for RapidIntoTurnedPart {
     fn memory(&mut self) -> Remembers<'_> {
         Remembers::All(self)
     }
 
+    fn shares(&self) -> Option<MakeShared> {
+        Some(Turned::shared)
+    }
+
     fn concerns(&self, program: &Uses<'_>) -> bool {
         is_turned(program)
     }
 
-    fn changed(&mut self, _: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
-        if is_other_part(event) {
-            self.turned.forget();
-        }
-    }
-
-    fn moved(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
-        if let (Event::Travel(travel), Some(here)) = (event, self.turned.here())
-            && travel.kind == TravelKind::Rapid
+    fn rapid(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
+        let Some(turned) = Turned::of(cx) else { return };
+        if let (Event::Travel(travel), Some(here)) = (event, turned.here())
             && !travel.expanded
-            && self.turned.knows(cx)
+            && turned.knows(cx)
             && self.told != Some(cx.origin().at)
             && !cx.origin().letters.intersects(LetterSet::of("CYHV"))
         {
-            self.judge(cx, here, end(cx, travel), report);
-        }
-        self.turned.moved(cx, event);
-        if self.turned.is_blind() {
-            cx.enough();
+            self.judge(cx, turned, here, end(cx, travel), report);
         }
     }
 }
 
 impl RapidIntoTurnedPart {
-    fn judge(&mut self, cx: &PathCx<'_>, from: Spot, to: Spot, report: &mut Report<'_>) {
+    fn judge(&mut self, cx: &PathCx<'_>, turned: &Turned, from: Spot, to: Spot, report: &mut Report<'_>) {
         if ToolWords::of(cx).bores() {
             return;
         }
-        if let Some(cut) = self.turned.outside_crossed(from, to) {
+        if let Some(cut) = turned.outside_crossed(from, to) {
             self.told = Some(cx.origin().at);
             report.add(through_outside(cx, cut, from, to));
-        } else if let Some(face) = self.turned.face_crossed(from, to) {
+        } else if let Some(face) = turned.face_crossed(from, to) {
             self.told = Some(cx.origin().at);
             report.add(
                 cx.finding(&META, cx.range(), "rapid move into the part, through its face")
@@ -145,7 +137,7 @@ impl RapidIntoTurnedPart {
                     .assuming("the part is not hollow there before the program starts")
                     .help("check the sign of Z, or make the move at feed (`G1`)"),
             );
-        } else if let Some(cut) = self.turned.outside_beside(from, to) {
+        } else if let Some(cut) = turned.outside_beside(from, to) {
             self.told = Some(cx.origin().at);
             let radius = cut.ends[0][0].max(cut.ends[1][0]);
             report.add(

@@ -356,7 +356,7 @@ impl RapidPlunge {
             return None;
         }
         let clear = Clear::of(cx);
-        if cuts.reach(cuts.len(), [x, y], z, clear.radius) {
+        if may_hide_cuts(cx) || cuts.reach(cuts.len(), [x, y], z, clear.radius) {
             return None;
         }
         let solid = self.solid(cx, cuts, to);
@@ -365,9 +365,6 @@ impl RapidPlunge {
 
     /// What shows that there is material at a point.
     fn solid(&self, cx: &PathCx<'_>, cuts: &Cuts, [x, y, z]: [f64; 3]) -> Option<Solid> {
-        if may_hide_cuts(cx) {
-            return None;
-        }
         if cuts.passes_over([x, y], z) {
             return Some(Solid::PassedOver);
         }
@@ -612,6 +609,23 @@ mod tests {
             "haas-mill",
             "G21 G90 G54 G0 X10. Y10. Z5.\nG81 Z-8. R2. F100.\nG80\nG0 Z-7.\nG1 Z-20.\nG0 Z5.\nM30\n",
             &expect![[""]],
+        );
+    }
+
+    #[test]
+    fn a_pocket_that_the_control_clears_hides_its_cuts() {
+        let program = |pocket: &str| {
+            format!("G20 G90 G54 G0 X1. Y1. Z1.\n{pocket}G0 Z.1\nG0 Z-.1\nG1 Z-1. F10.\nG0 Z1.\nM30\n")
+        };
+        check_rule(&RULE, "haas-mill", &program("G13 Z-.5 I.3 K1. Q.2 D1 F20.\n"), &expect![[""]]);
+        check_rule(
+            &RULE,
+            "haas-mill",
+            &program(""),
+            &expect![[r#"
+            3 | G0 Z-.1
+              | ^^^^^^^ warning[rapid-plunge] rapid move down into the part
+        "#]],
         );
     }
 

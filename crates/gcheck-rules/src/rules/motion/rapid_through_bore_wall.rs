@@ -1,13 +1,12 @@
 //! A rapid move of a lathe out of a bore through its wall.
 
-use gcheck_engine::{At, Event, TravelKind};
+use gcheck_engine::{At, Event};
 use gcheck_geometry::Mm;
 
 use crate::declare::declare_rule;
-use crate::facts::turned::{SLACK, Spot, Turned, UNDER, end, goes_home, is_other_part};
+use crate::facts::turned::{SLACK, Spot, Turned, UNDER, end, goes_home};
 use crate::facts::turning::is_turned;
-use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
-use crate::{Remembers, remembers};
+use crate::{MakeShared, PathCx, PathRule, Remembers, Report, Run, Uses, Watch, remembers};
 
 declare_rule! {
     /// A tool of a lathe is in a bore that the program has turned, and moves outwards in X at rapid, to beyond the wall of
@@ -58,7 +57,7 @@ declare_rule! {
         tier: Path,
         since: "0.1.0",
         run: Run::Path {
-            watch: Watch::MOVES.union(Watch::CHANGES),
+            watch: Watch::RAPIDS,
             make: || Box::new(RapidThroughBoreWall::default()),
         },
     }
@@ -66,50 +65,43 @@ declare_rule! {
 
 #[derive(Default, Clone, PartialEq)]
 struct RapidThroughBoreWall {
-    turned: Turned,
     /// The move that was reported.
     told: Option<At>,
 }
 
-remembers!(RapidThroughBoreWall: turned, told);
+remembers!(RapidThroughBoreWall: told);
 
 impl PathRule for RapidThroughBoreWall {
     fn memory(&mut self) -> Remembers<'_> {
         Remembers::All(self)
     }
 
+    fn shares(&self) -> Option<MakeShared> {
+        Some(Turned::shared)
+    }
+
     fn concerns(&self, program: &Uses<'_>) -> bool {
         is_turned(program)
     }
 
-    fn changed(&mut self, _: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
-        if is_other_part(event) {
-            self.turned.forget();
-        }
-    }
-
-    fn moved(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
-        if let (Event::Travel(travel), Some(here)) = (event, self.turned.here())
-            && travel.kind == TravelKind::Rapid
+    fn rapid(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
+        let Some(turned) = Turned::of(cx) else { return };
+        if let (Event::Travel(travel), Some(here)) = (event, turned.here())
             && (!travel.expanded || goes_home(cx))
-            && self.turned.knows(cx)
+            && turned.knows(cx)
             && self.told != Some(cx.origin().at)
         {
-            self.judge(cx, here, end(cx, travel), report);
-        }
-        self.turned.moved(cx, event);
-        if self.turned.is_blind() {
-            cx.enough();
+            self.judge(cx, turned, here, end(cx, travel), report);
         }
     }
 }
 
 impl RapidThroughBoreWall {
-    fn judge(&mut self, cx: &PathCx<'_>, from: Spot, to: Spot, report: &mut Report<'_>) {
+    fn judge(&mut self, cx: &PathCx<'_>, turned: &Turned, from: Spot, to: Spot, report: &mut Report<'_>) {
         if from[0] < SLACK || from[1] > -UNDER {
             return;
         }
-        let Some((wall, cut)) = self.turned.bore(from[1]) else { return };
+        let Some((wall, cut)) = turned.bore(from[1]) else { return };
         let is_through = if to[0].is_nan() {
             goes_home(cx)
         } else {
@@ -118,7 +110,7 @@ impl RapidThroughBoreWall {
             let at_wall = from[1] + (wall - from[0]) / (to[0] - from[0]) * rise;
             to[0] > wall + UNDER && at_wall < -UNDER
         };
-        if !is_through || from[0] > wall + SLACK || self.turned.is_open_across(from[1], wall) {
+        if !is_through || from[0] > wall + SLACK || turned.is_open_across(from[1], wall) {
             return;
         }
         self.told = Some(cx.origin().at);

@@ -7,6 +7,7 @@ use gcheck_engine::{At, Axis, Event, Position, Travel, TravelKind};
 use gcheck_geometry::{Mm, Plane};
 
 use crate::declare::declare_rule;
+use crate::facts::tool_words::ToolWords;
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 use crate::{Remembers, remembers};
 
@@ -14,7 +15,8 @@ declare_rule! {
     /// A lathe moves along Z at rapid, nearer to the centre than a surface that the program has turned or faced, and then
     /// feeds outward through that surface. No earlier cut was so near to the centre there.
     ///
-    /// A boring bar that goes into a bore at rapid never feeds out through the outside of the part, so it is not reported.
+    /// A boring bar that goes into a bore at rapid never feeds out through the outside of the part, so it is not reported; nor is a
+    /// tool whose comment says that it bores.
     ///
     /// ## Why it matters
     /// The tool is driven into the face of the part at rapid. Mostly a diameter is wrong, or `G0` was written instead of
@@ -169,7 +171,11 @@ impl RapidUnderTurnedSurface {
     fn judge(&mut self, cx: &PathCx<'_>, dive: &Dive, travel: &Travel, report: &mut Report<'_>) {
         let [radius, z] = point(&travel.to);
         let is_outward = (z - dive.to).abs() < SLACK && radius > dive.radius + UNDER;
-        if !is_outward || self.told == Some(dive.at) || self.cuts.iter().any(|cut| cut.opens(dive)) {
+        if !is_outward
+            || ToolWords::of(cx).may_bore()
+            || self.told == Some(dive.at)
+            || self.cuts.iter().any(|cut| cut.opens(dive))
+        {
             return;
         }
         let Some(surface) = self.cuts.iter().rev().find(|cut| cut.is_above(dive, radius)) else { return };
@@ -196,9 +202,9 @@ impl Cut {
     fn opens(&self, dive: &Dive) -> bool {
         let [[r0, z0], [r1, z1]] = self.ends;
         let reaches = r0.min(r1) <= dive.radius + SLACK;
-        // A face that is cut to the centre opens nothing further on.
-        let is_face = (z0 - z1).abs() < SLACK && z0 > dive.to + SLACK;
-        reaches && !is_face && z0.min(z1) <= dive.to + SLACK
+        // A face that is cut to the centre opens nothing further on; a roughing cycle leaves its allowance.
+        let is_face = (z0 - z1).abs() < SLACK && z0 > dive.to + UNDER;
+        reaches && !is_face && z0.min(z1) <= dive.to + UNDER
     }
 
     /// Is it the outside of the part above the way of the rapid move, and does a feed out to this radius go through it?
@@ -280,6 +286,16 @@ mod tests {
             &program(&format!("{TURNED}{drilled}"), "G0 X30.\nZ-30.\nG1 X50. F.2"),
             &expect![[""]],
         );
+    }
+
+    #[test]
+    fn from_inside_a_cup() {
+        let faced = "G0 X20.\nG72 W1. R.3\nG72 P5 Q6 U-.3 W.1 F.2\nN5 G0 Z-20.\nG1 X50. F.12\nZ-10.\nX60. Z-5.\nN6 Z1.\n";
+        check_rule(&RULE, "fanuc-lathe", &program(faced, "G70 P5 Q6\nG0 Z50."), &expect![[""]]);
+        let bored = "G0 X30.\nZ-30.\nG1 X50. F.2";
+        let program = program(TURNED, bored);
+        let bar = program.replace("G0 X30.", "T0404 (BORING BAR)\nG0 X30.");
+        check_rule(&RULE, "fanuc-lathe", &bar, &expect![[""]]);
     }
 
     #[test]

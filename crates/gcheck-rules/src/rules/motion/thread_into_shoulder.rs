@@ -1,13 +1,12 @@
 //! A thread that runs on into a larger diameter.
 
-use gcheck_engine::{At, Axis, Event, Fact, TravelKind};
+use gcheck_engine::{At, Event, Fact, TravelKind};
 use gcheck_geometry::Mm;
 
 use crate::declare::declare_rule;
-use crate::facts::turned::{SLACK, Turned, UNDER, is_other_part};
+use crate::facts::turned::{SLACK, Spot, Turned, UNDER, spot};
 use crate::facts::turning::is_turned;
-use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
-use crate::{Remembers, remembers};
+use crate::{MakeShared, PathCx, PathRule, Remembers, Report, Run, Uses, Watch, remembers};
 
 declare_rule! {
     /// A threading cycle cuts along a diameter that the program has turned, and goes on to where the part is larger.
@@ -53,7 +52,7 @@ declare_rule! {
         tier: Path,
         since: "0.1.0",
         run: Run::Path {
-            watch: Watch::MOVES.union(Watch::CHANGES),
+            watch: Watch::MOVES,
             make: || Box::new(ThreadIntoShoulder::default()),
         },
     }
@@ -61,14 +60,11 @@ declare_rule! {
 
 #[derive(Default, Clone, PartialEq)]
 struct ThreadIntoShoulder {
-    turned: Turned,
-    /// The block under way, and the radius at which it began.
-    block: Option<(At, f64)>,
     /// Where the tool was put in that was reported last.
     told: Option<At>,
 }
 
-remembers!(ThreadIntoShoulder: turned, block, told);
+remembers!(ThreadIntoShoulder: told);
 
 /// Places along a thread that are looked at.
 const PLACES: u32 = 32;
@@ -78,53 +74,37 @@ impl PathRule for ThreadIntoShoulder {
         Remembers::All(self)
     }
 
+    fn shares(&self) -> Option<MakeShared> {
+        Some(Turned::shared)
+    }
+
     fn concerns(&self, program: &Uses<'_>) -> bool {
         is_turned(program)
     }
 
-    fn changed(&mut self, _: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
-        if is_other_part(event) {
-            self.turned.forget();
-        }
-    }
-
     fn moved(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
-        let at = cx.origin().at;
-        if self.block.is_none_or(|(block, _)| block != at) {
-            self.block = self.turned.here().map(|[radius, _]| (at, radius));
-        }
-        match event {
-            // A thread leaves the diameters as they were turned.
-            Event::Travel(travel) if travel.kind == TravelKind::Thread => {
-                let tool = cx.definitions().set_by(Fact::Tool);
-                if travel.expanded && self.turned.knows(cx) && (self.told.is_none() || self.told != tool) {
-                    let ends = [&travel.from, &travel.to].map(|end| [end.raw(Axis::X), end.raw(Axis::Z)]);
-                    self.judge(cx, ends, report);
-                }
-            }
-            _ => self.turned.moved(cx, event),
-        }
-        if self.turned.is_blind() {
-            cx.enough();
+        let Some(turned) = Turned::of(cx) else { return };
+        let Event::Travel(travel) = event else { return };
+        let tool = cx.definitions().set_by(Fact::Tool);
+        let is_new = self.told.is_none() || self.told != tool;
+        if travel.kind == TravelKind::Thread && travel.expanded && is_new && turned.knows(cx) {
+            self.judge(cx, turned, [&travel.from, &travel.to].map(spot), report);
         }
     }
 }
 
 impl ThreadIntoShoulder {
     /// One pass.
-    fn judge(&mut self, cx: &PathCx<'_>, [from, to]: [[f64; 2]; 2], report: &mut Report<'_>) {
-        let begins = self.block.map_or(f64::NAN, |(_, radius)| radius);
+    fn judge(&mut self, cx: &PathCx<'_>, turned: &Turned, [from, to]: [Spot; 2], report: &mut Report<'_>) {
         // From inside it is the thread of a bore.
         let pass = from[0].max(to[0]);
-        if begins.is_nan() || pass.is_nan() || begins <= pass + SLACK {
-            return;
-        }
+        let Some(begins) = turned.block_begins(cx).filter(|begins| *begins > pass + SLACK) else { return };
         let place = |step: u32| {
             let share = f64::from(step) / f64::from(PLACES);
             [from[0] + share * (to[0] - from[0]), from[1] + share * (to[1] - from[1])]
         };
         // How much the part is larger than the pass.
-        let above = |[radius, z]: [f64; 2]| Some(self.turned.least_outside(z)?.0 - radius);
+        let above = |[radius, z]: Spot| Some(turned.least_outside(z)?.0 - radius);
         let heights = (0..=PLACES).filter_map(|step| above(place(step)));
         // What lies below the pass is a bore, a pilot, a groove.
         let mut heights: Vec<f64> = heights.filter(|height| *height > 0.0).collect();
@@ -132,12 +112,11 @@ impl ThreadIntoShoulder {
         // A chamfer before the thread is short beside it.
         let Some(crest) = heights.get(heights.len() / 2) else { return };
         // Where the cycle begins, the tool is outside of what it cuts.
-        let is_shoulder = |spot: &[f64; 2]| {
+        let is_shoulder = |spot: &Spot| {
             above(*spot).is_some_and(|height| height > crest + UNDER && spot[0] + height > begins)
         };
         let Some([radius, z]) = (0..=PLACES).map(place).find(is_shoulder) else { return };
-        let Some((part, cut)) = self.turned.least_outside(z) else { return };
-        let turned = cut.bytes.clone();
+        let Some((part, cut)) = turned.least_outside(z) else { return };
         self.told = cx.definitions().set_by(Fact::Tool).or(Some(cx.origin().at));
         let is_diameter = cx.state().is_diameter(cx.model) == Some(true);
         let shown = |radius: f64| cx.shown(Mm(if is_diameter { radius * 2.0 } else { radius }));
@@ -149,7 +128,7 @@ impl ThreadIntoShoulder {
                 shown(part),
                 shown(radius)
             ))
-            .also(turned, "turned here")
+            .also(cut.bytes.clone(), "turned here")
             .help("end the thread before the shoulder: check `Z` of the cycle, and its sign");
         report.add(finding);
     }

@@ -81,6 +81,36 @@ mod tests {
     use crate::testing::{World, check_rule, findings, only, words};
 
     #[test]
+    fn a_subprogram_leaves_it_on() {
+        let program = |after: &str| {
+            format!(
+                "T1 M6\nM98 P100\n{after}G1 X10. F100.\nG1 Z5.\nM30\nO100\nG68 X0. Y0. R30.\nG1 X5. F100.\nM99\n"
+            )
+        };
+        let found = findings(&only(&RULE), "fanuc-mill", &program(""), &World::default());
+        expect![[r#"
+            the rotation is still on at the end of the program (`G68`)
+              here: what runs next begins with it
+              there: `G68` set here
+              there: the first cut with it after the subprogram
+              assuming: the end of the program keeps it, as the control's book leaves to a parameter
+              help: switch the rotation off with `G69` before the program ends
+              fix (unsafe): put `G69` in a block before this one
+        "#]]
+        .assert_eq(&found.iter().map(words).collect::<String>());
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            &program("T2 M6\n"),
+            &expect![[r#"
+            4 | G1 X10. F100.
+              | ^^^^^^^^^^^^^ warning[rotation-left-on] the tool cuts with the rotation of the tool before (`G68`)
+        "#]],
+        );
+        check_rule(&RULE, "fanuc-mill", &program("G69\n"), &expect![[""]]);
+    }
+
+    #[test]
     fn the_end_is_marked_and_the_code_named() {
         check_rule(
             &RULE,

@@ -1,6 +1,6 @@
 //! A local shift that the program leaves on.
 
-use gcheck_controls::{CodeIx, Effect};
+use gcheck_controls::{CodeIx, Effect, Letter, LetterSet};
 use gcheck_engine::{At, Axis, Ending, Event};
 
 use crate::declare::declare_rule;
@@ -9,7 +9,7 @@ use crate::{PathCx, PathRule, Report, Run, Severity, Uses, Watch};
 use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// The shift of the work coordinates (`G52`, `G92`) is still on when the program ends.
+    /// The shift of the work coordinates (`G52`, `G92`; `G50` of lathes) is still on when the program ends.
     ///
     /// ## Why it matters
     /// A parameter or setting decides whether the end of the program clears it. If it remains, every work offset is
@@ -28,6 +28,13 @@ declare_rule! {
     /// G52 X0.
     /// M30
     /// ```
+    /// A shift by increments adds up from part to part.
+    /// ```nc,reported,fanuc-lathe
+    /// G21 T0101
+    /// G50 W-5.
+    /// G1 Z-2. F.2
+    /// M30
+    /// ```
     /// A program that uses `G92` instead of work offsets sets it again each time.
     /// ```nc,quiet,fanuc-mill
     /// G92 X0. Y0. Z100.
@@ -42,7 +49,7 @@ declare_rule! {
         since: "0.1.0",
         run: Run::Path {
             watch: Watch::BLOCKS.union(Watch::CHANGES).union(Watch::ENDS),
-            make: || Box::new(ShiftLeftOn { set: None }),
+            make: || Box::new(ShiftLeftOn { set: None, steps: Some([0.0; 2]) }),
         },
     }
 }
@@ -51,7 +58,12 @@ declare_rule! {
 struct ShiftLeftOn {
     /// The block that shifted last, and its code. Choosing a work offset applies the shift too.
     set: Option<(At, CodeIx)>,
+    /// The sums of the increments `U` and `W` of a lathe, as the program writes them, as long as the shift has only such ones.
+    steps: Option<[f64; 2]>,
 }
+
+/// Sums that are less are zero.
+const SAME: f64 = 1e-6;
 
 remembers!(ShiftLeftOn: set);
 
@@ -75,6 +87,12 @@ impl PathRule for ShiftLeftOn {
         if boundary(cx) == Some(Boundary::ProgramEnd) {
             self.judge(cx, report);
         }
+        let code = cx.codes().iter().copied().find(|code| is_shift(cx.model.effect(*code)));
+        if let Some(code) = code.filter(|_| is_step(cx)) {
+            self.set = Some((cx.origin().at, code));
+            let sums = self.steps.zip(steps(cx));
+            self.steps = sums.map(|(sums, [u, w])| [sums[0] + u, sums[1] + w]);
+        }
     }
 
     fn changed(&mut self, cx: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
@@ -82,6 +100,7 @@ impl PathRule for ShiftLeftOn {
             && let Some(code) = cx.codes().iter().copied().find(|code| is_shift(cx.model.effect(*code)))
         {
             self.set = Some((cx.origin().at, code));
+            self.steps = self.steps.filter(|_| is_step(cx));
         }
     }
 
@@ -101,17 +120,22 @@ impl ShiftLeftOn {
             .filter(|axis| shift.get(*axis).is_some_and(|v| v != 0.0))
             .map(Axis::name)
             .collect();
-        let is_set_position = cx.model.effect(code) == Effect::SetPosition;
+        let is_set_position = cx.model.effect(code) != Effect::LocalShift;
+        let by_steps =
+            is_set_position && self.steps.is_some_and(|sums| sums.iter().any(|sum| sum.abs() > SAME));
         // The positions of the axes are seldom known, so the shift that gives them the block's values is seldom known
         // too.
-        let is_left = if is_set_position {
+        let is_left = if by_steps {
+            true
+        } else if is_set_position {
             Axis::ALL.into_iter().any(|axis| shift.get(axis) != Some(0.0))
         } else {
             !axes.is_empty()
         };
         let uses_work_offsets =
             cx.file_uses(|effect| matches!(effect, Effect::WorkOffset(_) | Effect::WorkOffsetByP(_)));
-        if !is_left || is_set_position && !uses_work_offsets {
+        let is_back = self.steps.is_some() && !by_steps;
+        if !is_left || is_set_position && (is_back || !by_steps && !uses_work_offsets) {
             return;
         }
         let name = cx.name_of(code);
@@ -123,7 +147,12 @@ impl ShiftLeftOn {
         let help = if is_set_position {
             match cx.name_of_effect(Effect::ClearShift) {
                 Some(clear) => format!("clear it with `{clear}` before the program ends"),
-                None => format!("set it back with `{name}` before the program ends"),
+                None if by_steps => {
+                    format!("shift it back with `{name}` by the same way before the program ends")
+                }
+                None => format!(
+                    "go back to where `{name}` set the position and set the earlier one there, or use work offsets instead"
+                ),
             }
         } else {
             format!("end the program with `{name} X0. Y0. Z0.`")
@@ -140,7 +169,7 @@ impl ShiftLeftOn {
             )
             .label("what runs next may begin with it")
             .help(help)
-            .at_most(if is_set_position { Severity::Info } else { Severity::Warning });
+            .at_most(if is_set_position && !by_steps { Severity::Info } else { Severity::Warning });
         let finding = match cleared {
             Some(_) => finding,
             None => {
@@ -155,6 +184,22 @@ impl ShiftLeftOn {
     }
 }
 
+/// Does the block shift by increments of a lathe alone, if it shifts?
+fn is_step(cx: &PathCx<'_>) -> bool {
+    let letters = cx.origin().letters;
+    let has_own = !cx.model.semantics().increments.is_empty();
+    has_own && letters.intersects(LetterSet::of("UW")) && !letters.intersects(LetterSet::of("SXYZ"))
+}
+
+/// By how much the block shifts; `None` where that is not known.
+fn steps(cx: &PathCx<'_>) -> Option<[f64; 2]> {
+    let by = |letter: char| {
+        let is_given = cx.origin().letters.contains(Letter::of(letter));
+        if is_given { cx.known_number(letter) } else { Some(0.0) }
+    };
+    Some([by('U')?, by('W')?])
+}
+
 /// Does the code shift the work coordinates?
 fn is_shift(effect: Effect) -> bool {
     matches!(effect, Effect::LocalShift | Effect::SetPosition | Effect::SpeedLimitOrSetPosition)
@@ -165,7 +210,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::testing::check_rule;
+    use crate::testing::{World, check_rule, findings, only, words};
 
     #[test]
     fn the_axes_are_named() {
@@ -192,6 +237,38 @@ mod tests {
         "#]],
         );
         check_rule(&RULE, "linuxcnc", "G21 G54 G0 X0\nG92 X5\nG1 X0 F100\nG92.1\nM2\n", &expect![[""]]);
+    }
+
+    #[test]
+    fn steps_of_a_lathe_add_up() {
+        let program = |after: &str| format!("G21 T0101\nG50 W-5.\nG1 Z-2. F.2\n{after}\nM30\n");
+        let found = findings(&only(&RULE), "fanuc-lathe", &program("G50 U1."), &World::default());
+        expect![[r#"
+            the shift is still on at the end of the program (`G50`)
+              here: what runs next may begin with it
+              there: `G50` set here
+              assuming: the end of the program keeps the shift, as a parameter or setting decides
+              help: clear it with `G50.3` before the program ends
+        "#]]
+        .assert_eq(&found.iter().map(words).collect::<String>());
+        check_rule(&RULE, "fanuc-lathe", &program("G50 W5."), &expect![[""]]);
+        check_rule(&RULE, "fanuc-lathe", &program("G50 W#500"), &expect![[""]]);
+        // The old form, without work offsets, sets the position again each time; with them it is worth knowing.
+        check_rule(&RULE, "fanuc-lathe", "G21 G50 X200. Z150.\nT0101\nG1 Z-2. F.2\nM30\n", &expect![[""]]);
+        let found = findings(
+            &only(&RULE),
+            "fanuc-lathe",
+            "G21 G54 G50 X200. Z150.\nT0101\nG1 Z-2. F.2\nM30\n",
+            &World::default(),
+        );
+        expect![[r#"
+            the shift is still on at the end of the program (`G50`)
+              here: what runs next may begin with it
+              there: `G50` set here
+              assuming: the end of the program keeps the shift, as a parameter or setting decides
+              help: clear it with `G50.3` before the program ends
+        "#]]
+        .assert_eq(&found.iter().map(words).collect::<String>());
     }
 
     #[test]

@@ -123,11 +123,11 @@ mod tests {
     fn a_mark_inside_a_block_is_shown_itself() {
         check_rule(
             &RULE,
-            "linuxcnc",
-            "%\nG0 X1 %\nM2\n%\n",
+            "haas-mill",
+            "%\nO1\nG0 X1. %\nM30\n%\n",
             &expect![[r#"
-            2 | G0 X1 %
-              |       ^ info[stray-tape-mark] tape mark `%` inside a block
+            3 | G0 X1. %
+              |        ^ info[stray-tape-mark] tape mark `%` inside a block
         "#]],
         );
     }

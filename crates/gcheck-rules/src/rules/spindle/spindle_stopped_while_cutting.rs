@@ -1,7 +1,7 @@
 //! A cut while the spindle is stopped.
 
 use gcheck_controls::{Code, CodeIx, Effect};
-use gcheck_engine::{Abstract, At, Domain, Event, Fact, Fault, FeedMode, Role, Spindle, Truth};
+use gcheck_engine::{Abstract, At, Domain, Event, Fact, Fault, FeedMode, Role, Spindle, TravelKind, Truth};
 
 use crate::declare::declare_rule;
 use crate::facts::cutting::{is_cut, starts_spindle};
@@ -149,7 +149,9 @@ impl PathRule for SpindleStoppedWhileCutting {
         // A strict control refuses the block, which is reported as a fault.
         let is_refused =
             by_turns && cx.model.semantics().strict && Abstract::known(cx.state().speed()) == Some(0.0);
-        if !stands || is_refused || !needs_turns && !is_cut(cx, event) || cx.is_called_only() {
+        let threads = is_thread(cx, event);
+        let is_work = needs_turns || threads || is_cut(cx, event);
+        if !stands || is_refused || !is_work || cx.is_called_only() {
             return;
         }
         let stopped_by = cx.definitions().set_by(Fact::Spindle);
@@ -180,6 +182,10 @@ impl PathRule for SpindleStoppedWhileCutting {
             return;
         }
         let message = match (stopped_by, needs_turns) {
+            (Some(at), _) if threads => {
+                format!("thread cut after the spindle was stopped (`{}`)", stop_code(cx, at))
+            }
+            (None, _) if threads => "thread cut, and the spindle was not started (no `M3`)".to_owned(),
             (Some(at), false) if self.is_oriented => {
                 format!("cut with the spindle held at an angle (`{}`)", stop_code(cx, at))
             }
@@ -197,7 +203,7 @@ impl PathRule for SpindleStoppedWhileCutting {
         };
         let mut finding = cx
             .finding(&META, cx.range(), message)
-            .label(match (needs_turns, is_ever_started) {
+            .label(match (needs_turns || threads, is_ever_started) {
                 (true, _) => "the axes wait for the spindle, which does not turn",
                 (false, _) if live == LiveTool::Stands => "neither the spindle nor a live tool turns here",
                 (false, true) => "the spindle does not turn here",
@@ -239,6 +245,14 @@ impl PathRule for SpindleStoppedWhileCutting {
             .help("start the spindle with `S` and `M3` or `M4` before this block");
         report.add(refused(cx, since(cx, finding, cx.definitions().set_by(Fact::Spindle))));
     }
+}
+
+/// Does a pass of a thread wait for the angle of the spindle? Taps that a cycle drives start and stop it themselves.
+fn is_thread(cx: &PathCx<'_>, event: &Event) -> bool {
+    let Event::Travel(travel) = event else { return false };
+    let is_pass = |effect| matches!(effect, Effect::Thread | Effect::ThreadingPass | Effect::ThreadCycle);
+    let by_mode = || cx.state().effect(Role::Motion, cx.model).is_some_and(is_pass);
+    travel.kind == TravelKind::Thread && (cx.has_effect(is_pass) || by_mode())
 }
 
 /// Did the tool in the spindle touch the work, and was a speed given after that, which is for what is cut next?
@@ -678,6 +692,35 @@ mod tests {
             &expect![[r#"
                 4 | G1 Z5.
                   | ^^^^^^ warning[spindle-stopped-while-cutting] feed per turn of a spindle that was stopped (`M5`)
+            "#]],
+        );
+    }
+
+    #[test]
+    fn a_thread_needs_the_spindle() {
+        for (control, pass) in [
+            ("fanuc-lathe", "G32 Z-20. F1.5"),
+            ("fanuc-lathe", "G92 X19. Z-20. F1.5"),
+            ("fanuc-lathe", "G76 P010060 Q80 R0.03\nG76 X18.16 Z-20. P920 Q250 F1.5"),
+            ("haas-lathe", "G76 X18.16 Z-20. K.92 D.25 F1.5"),
+        ] {
+            let program = |stop: &str| {
+                format!("G21 G99 T0101\nG97 S500 M3\nG0 X24. Z5.\n{stop}{pass}\nG0 X100.\nM30\n")
+            };
+            assert_eq!(
+                findings(&only(&RULE), control, &program("M5\n"), &World::default()).len(),
+                1,
+                "{pass}"
+            );
+            check_rule(&RULE, control, &program(""), &expect![[""]]);
+        }
+        check_rule(
+            &RULE,
+            "fanuc-lathe",
+            "G21 G99 T0101\nG97 S500 M3\nG0 X24. Z5.\nM5\nG92 X19. Z-20. F1.5\nX18.5\nM30\n",
+            &expect![[r#"
+                5 | G92 X19. Z-20. F1.5
+                  | ^^^^^^^^^^^^^^^^^^^ warning[spindle-stopped-while-cutting] thread cut after the spindle was stopped (`M5`)
             "#]],
         );
     }

@@ -6,7 +6,8 @@ use crate::declare::declare_rule;
 use crate::{BlockCx, Finding, Fix, Report, Run};
 
 declare_rule! {
-    /// A number has a second decimal point, or another number follows a value directly.
+    /// A number has a second decimal point, another number follows a value directly, or the label of an O-word has
+    /// decimals.
     ///
     /// ## Why it matters
     /// The control refuses the block. It cannot know which of the two points is right.
@@ -41,6 +42,15 @@ fn check(cx: &BlockCx<'_>, error: &SyntaxError, report: &mut Report<'_>) {
 
 fn finding(cx: &BlockCx<'_>, error: &SyntaxError) -> Finding {
     let extra = cx.slice(error.range.clone());
+    if extra.starts_with(['O', 'o']) {
+        return Finding::new(
+            &META,
+            cx.in_file(error.range.clone()),
+            format!("label `{}` is not a whole number", extra.trim_end()),
+        )
+        .label("a label is a whole number, or a name in `< >`")
+        .help("write the label without decimals");
+    }
     let before = cx.slice(cx.block().range.start..error.range.start);
     let digits = before.trim_end_matches(|c: char| c.is_ascii_digit() || matches!(c, '.' | '-' | '+')).len();
     let number = before.get(digits..).unwrap_or_default();

@@ -44,9 +44,18 @@ fn finding(cx: &BlockCx<'_>, error: &SyntaxError) -> Finding {
         _ if written.ends_with('=') => format!("assignment `{}` has no value", written.trim_end()),
         _ => format!("`{}` has no operand", written.trim_end()),
     };
+    let behind = cx.slice(error.range.end..cx.block().range.end);
+    if written.trim_end().eq_ignore_ascii_case("EXISTS") && behind.trim_start().starts_with('[') {
+        return Finding::new(
+            &META,
+            cx.in_file(error.range.clone()),
+            format!("`{}` without a parameter", written.trim_end()),
+        )
+        .label("asks for one parameter, and for nothing else")
+        .help("write one parameter in the brackets: `EXISTS[#<name>]`");
+    }
     let finding = Finding::new(&META, cx.in_file(error.range.clone()), message)
         .label("a number, a variable or a `[` must follow");
-    let behind = cx.slice(error.range.end..cx.block().range.end);
     if behind.trim_start().starts_with('(') {
         return finding.note("text in parentheses is a comment").help("write `[ ]` in expressions");
     }

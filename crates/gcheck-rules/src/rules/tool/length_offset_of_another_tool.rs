@@ -52,6 +52,19 @@ declare_rule! {
     /// G1 Z-1.
     /// M30
     /// ```
+    /// A tool that the list at the head has, and that never comes: a tool change is missing.
+    /// ```nc,reported,haas-mill
+    /// (T1 20 MM END MILL)
+    /// (T2 10 MM DRILL)
+    /// G21 G90 G94 G54 T1 M6
+    /// G43 H1 Z10. S2000 M3
+    /// G1 Z-1. F200.
+    /// G0 Z50.
+    /// G43 H2 Z50. S900 M3
+    /// G98 G81 X5. Y5. Z-25. R3. F120.
+    /// G80
+    /// M30
+    /// ```
     /// With one tool, the number of another one is reported where the control's manual asks for the tool's own.
     /// ```nc,reported,linuxcnc
     /// T1 M6
@@ -67,7 +80,11 @@ declare_rule! {
         since: "0.1.0",
         run: Run::Path {
             watch: Watch::CUTS.union(Watch::CHANGES).union(Watch::FOLLOWED),
-            make: || Box::new(LengthOffsetOfAnotherTool { pairs: Pairs::new(), listed: BTreeSet::new() }),
+            make: || Box::new(LengthOffsetOfAnotherTool {
+                pairs: Pairs::new(),
+                listed: BTreeSet::new(),
+                called: Some(BTreeSet::new()),
+            }),
         },
     }
 }
@@ -77,6 +94,8 @@ struct LengthOffsetOfAnotherTool {
     pairs: Pairs,
     /// Offsets of the pairs that are the numbers of tools which comments at the head of the program list.
     listed: BTreeSet<u32>,
+    /// Tools that the program calls; `None` when it calls one whose number is not known.
+    called: Option<BTreeSet<u32>>,
 }
 
 remembers!(LengthOffsetOfAnotherTool: pairs);
@@ -135,13 +154,29 @@ impl PathRule for LengthOffsetOfAnotherTool {
     }
 
     fn changed(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
-        if matches!(event, Event::LengthOffset(_)) {
-            tell_disagreement(cx, report);
+        match event {
+            Event::LengthOffset(_) => tell_disagreement(cx, report),
+            Event::SelectTool(tool) | Event::ToolChange(tool) => {
+                self.called = self.called.take().zip(*tool).map(|(mut called, tool)| {
+                    called.insert(tool);
+                    called
+                });
+            }
+            _ => {}
         }
     }
 
     fn followed(&mut self, cx: &FollowedCx<'_>, report: &mut Report<'_>) {
         let by_t = cx.model.semantics().tools.offset_in_t;
+        let absent = self.called.as_ref().map(|called| &self.listed - called).unwrap_or_default();
+        for (finding, offset) in self.pairs.take_of_absent(&absent) {
+            report.add(
+                finding
+                    .label(format!("the list of tools has tool {offset}, which the program never calls"))
+                    .help(format!("check whether the change to tool {offset} is missing"))
+                    .at_most(Severity::Warning),
+            );
+        }
         for (finding, scheme) in self.pairs.take_odd('H', !by_t) {
             // A tool may have a second offset, but for one that a list at the head gives to another tool.
             let is_listed = u32::try_from(scheme.owner).is_ok_and(|owner| self.listed.contains(&owner));

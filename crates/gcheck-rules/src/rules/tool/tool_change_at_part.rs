@@ -8,12 +8,13 @@ use gcheck_geometry::{Mm, Plane};
 use crate::declare::declare_rule;
 use crate::facts::boundary::{Boundary, boundary, boundary_range};
 use crate::facts::cycles::cycle_code;
+use crate::facts::turned::goes_home;
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// The turret turns, or the tool is changed, where the last cut or the last cycle ended: there is no rapid move and
-    /// no return to a reference position between them. The rule is for controls that change the tool in place.
+    /// The turret turns, or the tool is changed, where the last cut or the last cycle ended: there is no rapid move,
+    /// no return to a reference position and no feed move far out of the part between them. The rule is for controls that change the tool in place.
     ///
     /// ## Why it matters
     /// The tool is still beside the part. The turret swings its longer tools into the part or into the chuck. The same holds
@@ -103,7 +104,7 @@ impl PathRule for ToolChangeAtPart {
 
     fn moved(&mut self, cx: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
         let is_at_part = match event {
-            Event::Travel(travel) => ends_at_part(cx, travel),
+            Event::Travel(travel) => ends_at_part(cx, travel) && !self.retracts(cx, travel),
             Event::Arc(arc) => is_low(cx, arc.to.raw(Axis::Z)),
             _ => false,
         };
@@ -116,6 +117,21 @@ impl PathRule for ToolChangeAtPart {
             _ => f64::NAN,
         };
         self.lowest = self.lowest.min(z);
+    }
+}
+
+impl ToolChangeAtPart {
+    /// Does a feed move take the tool of a lathe out of the part: to a place of the machine, away from the chuck, or on outward
+    /// from there?
+    fn retracts(&self, cx: &PathCx<'_>, travel: &Travel) -> bool {
+        if travel.kind != TravelKind::Feed || travel.expanded || cx.state().plane(cx.model) != Some(Plane::Zx)
+        {
+            return false;
+        }
+        let way = |axis: Axis| travel.to.raw(axis) - travel.from.raw(axis);
+        let (across, along) = (way(Axis::X), way(Axis::Z));
+        let is_outward = across > -SLACK && along > -SLACK;
+        goes_home(cx) || is_outward && (along > FAR || self.cut.is_none() && self.lowest.is_finite())
     }
 }
 
@@ -135,6 +151,8 @@ fn tell_deep(cx: &PathCx<'_>, lowest: f64, report: &mut Report<'_>) {
     );
 }
 
+/// A way that a tool does not cut away from the chuck, but retracts: millimetres.
+const FAR: f64 = 10.0;
 /// Levels that differ by less are one: millimetres.
 const SLACK: f64 = 1.0;
 
@@ -209,6 +227,27 @@ mod tests {
         check_rule(&RULE, "fanuc-lathe", &turned("G0 X150. Z100.\n"), &expect![[""]]);
         check_rule(&RULE, "fanuc-lathe", &turned("G28 U0. W0.\n"), &expect![[""]]);
         check_rule(&RULE, "fanuc-lathe", "G21 G28 U0. W0.\nT0101\nM30\n", &expect![[""]]);
+    }
+
+    #[test]
+    fn a_retract_at_feed_is_enough() {
+        let program = |retract: &str| {
+            format!(
+                "G21 G99 T0101\nG97 S500 M3\nG0 X50. Z2.\nG1 Z-20. F0.2\n{retract}\nT0202\nG0 X150. Z50.\nM30\n"
+            )
+        };
+        for retract in ["G1 X200. Z100. F5.", "G1 Z100. F5.\nX200.", "G1 G53 X0", "X54.\nG53 Z0"] {
+            check_rule(&RULE, "haas-lathe", &program(retract), &expect![[""]]);
+        }
+        check_rule(
+            &RULE,
+            "haas-lathe",
+            &program("X54. Z-18."),
+            &expect![[r#"
+            6 | T0202
+              | ^^^^^ warning[tool-change-at-part] the turret turns where the last cut ended
+        "#]],
+        );
     }
 
     #[test]

@@ -4,7 +4,6 @@ use gcheck_controls::{CodeIx, Effect, Letter};
 use gcheck_engine::{Abstract, At, Domain, Event, Fact, Role};
 
 use crate::declare::declare_rule;
-use crate::facts::boundary::is_before;
 use crate::facts::five_axis::is_along_tool;
 use crate::facts::probing::is_near;
 use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
@@ -53,7 +52,7 @@ declare_rule! {
         since: "0.1.0",
         run: Run::Path {
             watch: Watch::CHANGES.union(Watch::MOVES),
-            make: || Box::new(ToolLengthMissing { changed: None, is_done: false }),
+            make: || Box::new(ToolLengthMissing { changed: None, has_length: false, is_done: false }),
         },
     }
 }
@@ -62,6 +61,8 @@ declare_rule! {
 struct ToolLengthMissing {
     /// The tool change whose tool has not worked yet.
     changed: Option<At>,
+    /// A length was given since.
+    has_length: bool,
     /// A program that never compensates is reported once.
     is_done: bool,
 }
@@ -74,8 +75,13 @@ impl PathRule for ToolLengthMissing {
     }
 
     fn changed(&mut self, cx: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
-        if let Event::ToolChange(number) = event {
-            self.changed = (*number != Some(0)).then_some(cx.origin().at);
+        match event {
+            Event::ToolChange(number) => {
+                self.changed = (*number != Some(0)).then_some(cx.origin().at);
+                self.has_length = false;
+            }
+            Event::LengthOffset(_) => self.has_length = true,
+            _ => {}
         }
     }
 
@@ -102,7 +108,7 @@ impl ToolLengthMissing {
         let is_off = |code| matches!(cx.model.effect(code), Effect::LengthOff | Effect::None);
         let Some(code) = cx.state().mode(Role::Length).only() else { return };
         if !is_off(code) {
-            judge_what_is_on(cx, at, code, report);
+            judge_what_is_on(cx, at, code, self.has_length, report);
             return;
         }
         if cx.definitions().set_by(Fact::Tool) != Some(at) {
@@ -169,11 +175,13 @@ impl ToolLengthMissing {
 }
 
 /// Length compensation is on: with no length at all, or with the one that the tool before had.
-fn judge_what_is_on(cx: &PathCx<'_>, at: At, code: CodeIx, report: &mut Report<'_>) {
+fn judge_what_is_on(cx: &PathCx<'_>, at: At, code: CodeIx, has_length: bool, report: &mut Report<'_>) {
     if cx.model.effect(code) != Effect::LengthPlus || cx.definitions().set_by(Fact::Tool) != Some(at) {
         return;
     }
     let Some(set) = cx.definitions().set_by(Fact::Length) else { return };
+    // In the block of the change the length may come first; what other files do is not shown.
+    let is_own = has_length || set == at || set.file != 0;
     let name = cx.name_of(code);
     let is_h = |word: &gcheck_program::Word| word.letter == Letter::of('H');
     let given = cx.find_word(set, is_h);
@@ -183,7 +191,7 @@ fn judge_what_is_on(cx: &PathCx<'_>, at: At, code: CodeIx, report: &mut Report<'
     let is_followed_by_its_own = is_near(cx, |effect| effect == Effect::LengthPlus);
     // In a block that also moves Z, another rule reports it for any tool.
     let is_alone = cx.find_word(set, |word| word.letter == Letter::of('Z')).is_none();
-    if is_zero && is_alone && !cx.model.semantics().tools.length_from_tool && !is_before(set, at) {
+    if is_zero && is_alone && !cx.model.semantics().tools.length_from_tool && is_own {
         let finding = cx
             .finding(
                 &META,
@@ -192,7 +200,7 @@ fn judge_what_is_on(cx: &PathCx<'_>, at: At, code: CodeIx, report: &mut Report<'
             )
             .label("the control takes the spindle nose for the tool tip");
         report.add(finding.help(format!("give the offset of the tool: `{name} H1 Z…`")));
-    } else if is_before(set, at) && !is_zero && is_followed_by_its_own {
+    } else if !is_own && !is_zero && is_followed_by_its_own {
         let mut finding = cx
             .finding(
                 &META,
@@ -265,6 +273,34 @@ mod tests {
             "fanuc-mill",
             "O1\nT1 M6\nG43 H1 Z1.\nG1 Z0. F5.\nT2 M6\nG0 X0. Y2.\nG43 H2 Z1.\nG1 Z0.\nM30\n",
             &expect![[""]],
+        );
+    }
+
+    #[test]
+    fn the_length_in_the_block_of_the_change() {
+        for control in ["haas-mill", "fanuc-mill"] {
+            let program =
+                "O1\nM6 T1 G43 H1 M3 S500\nG0 Z1.\nG1 Z0. F5.\nM6 T3 G43 H3 M3 S500\nG0 Z1.\nG1 Z0.\nM30\n";
+            check_rule(&RULE, control, program, &expect![[""]]);
+        }
+    }
+
+    #[test]
+    fn a_tool_change_in_a_subprogram() {
+        let program = |sub: &str, length: &str| {
+            format!(
+                "O1\nT1 M98 P100\nG43 H1 Z1.\nG1 Z0. F5.\nT2 M98 P100\n{length}G0 X0. Z2.\nG43 H2 Z1.\nG1 Z0.\nM30\nO100\n{sub}M6\nM99\n"
+            )
+        };
+        check_rule(&RULE, "fanuc-mill", &program("", "G43 H2 "), &expect![[""]]);
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            &program("", ""),
+            &expect![[r#"
+            6 | G0 X0. Z2.
+              |        ^^^ warning[tool-length-missing] the tool moves with the length of the tool before (no `G43` since the tool change)
+        "#]],
         );
     }
 

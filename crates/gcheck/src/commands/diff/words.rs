@@ -7,7 +7,9 @@ use std::path::Path;
 
 use gcheck_controls::Control;
 use gcheck_engine::{Axis, Model, Position, Spindle, Units};
-use gcheck_toolpath::{Aspect, Corner, Difference, Differences, Driven, Feed, Parting, Place, Stand, Value};
+use gcheck_toolpath::{
+    Again, Aspect, Corner, Difference, Differences, Driven, Feed, Parting, Place, Stand, Value,
+};
 use serde_json::{Value as Json, json};
 
 use crate::Problem;
@@ -39,8 +41,11 @@ pub(in crate::commands) struct Sides<'s> {
 impl Sides<'_> {
     pub(in crate::commands) fn text(&self, differences: &Differences) -> String {
         let mut out = String::new();
-        if let Some(parting) = &differences.parting {
-            self.parting(&mut out, parting);
+        let told = differences.partings().map(|parting| self.parting(&mut out, parting)).count() as u64;
+        let more = differences.partings_count().saturating_sub(told);
+        if more > 0 {
+            // Writing to a string cannot fail.
+            let _ = writeln!(out, "… and part {more} more times");
         }
         for aspect in Aspect::ALL {
             let count = differences.count(aspect);
@@ -76,7 +81,12 @@ impl Sides<'_> {
         let within = format!("within {} mm", self.tolerance);
         let mut out = match (self.faults.iter().any(Option::is_some), &differences.parting) {
             (true, _) => format!("{a} and {b} are compared up to where a run ends before its program\n"),
-            (false, Some(_)) => format!("{a} and {b} move differently; what follows is not compared\n"),
+            (false, Some(_)) if differences.is_cut_short() => {
+                format!("{a} and {b} move differently; what follows is not compared\n")
+            }
+            (false, Some(_)) => format!(
+                "{a} and {b} move differently; from there to the next tool change they are not compared\n"
+            ),
             (false, None) if differences.is_same() => {
                 format!("{a} and {b} make the machine do the same, {within}\n")
             }
@@ -94,10 +104,26 @@ impl Sides<'_> {
         for (side, (place, to)) in [&parting.a, &parting.b].into_iter().zip(&parting.to).enumerate() {
             let words = match (to, self.faults.get(side)) {
                 (Some(to), _) => format!("to {}", self.point(to)),
-                (None, Some(Some(fault))) => format!("stops: {}", fault.message),
+                (None, Some(Some(fault))) => {
+                    // The block that the control refuses, and not the last one that moved.
+                    let place = fault.problem.place().map(|(file, line, ..)| Place {
+                        file: file.into(),
+                        line: u32::try_from(line).unwrap_or(u32::MAX),
+                    });
+                    self.one(out, side, place.as_ref(), &format!("stops: {}", fault.message));
+                    continue;
+                }
                 (None, _) => "has no moves left".to_owned(),
             };
             self.one(out, side, place.as_ref(), &words);
+        }
+        if let Some(Again { tool, a, b }) = &parting.again {
+            // Writing to a string cannot fail.
+            let _ = writeln!(
+                out,
+                "  compared again from tool {tool} on ({}:{}, {}:{})",
+                a.file, a.line, b.file, b.line
+            );
         }
     }
 
@@ -309,14 +335,18 @@ impl Sides<'_> {
                 json!({ "aspect": aspect.name(), "count": differences.count(aspect), "first": first })
             })
             .collect();
-        let parting = differences.parting.as_ref().map(|parting| {
+        let parting = |parting: &Parting| {
             let [to_a, to_b] = parting.to.map(|to| to.map(|to| coordinates(&to)));
             json!({
                 "a": place(0, parting.a.as_ref()), "b": place(1, parting.b.as_ref()),
                 "at": coordinates(&parting.at), "to_a": to_a, "to_b": to_b,
                 "apart": Some(parting.apart).filter(|apart| apart.is_finite()),
+                "again": parting.again.as_ref().map(|again| {
+                    json!({ "tool": again.tool, "a": place(0, Some(&again.a)), "b": place(1, Some(&again.b)) })
+                }),
             })
-        });
+        };
+        let partings: Vec<Json> = differences.partings().map(parting).collect();
         let corner = differences.corner.as_ref().map(|corner| {
             json!({
                 "a": place(0, Some(&corner.a)), "at": coordinates(&corner.at),
@@ -337,7 +367,9 @@ impl Sides<'_> {
             "a": side(0), "b": side(1),
             "moves": differences.moves,
             "unknown": differences.unknown,
-            "parting": parting,
+            "parting": partings.first(),
+            "partings": partings,
+            "partings_count": differences.partings_count(),
             "corner": corner,
             "differences": by_aspect,
         })

@@ -59,9 +59,8 @@ pub(super) fn prove(
             return Err(problem(before, change, &refusal));
         }
         // A run that was cut off because the paths had parted before ended nowhere of its own.
-        let goes_on =
-            differences.parting.as_ref().map_or([false; 2], |parting| parting.to.map(|to| to.is_some()));
-        let fault = faults.into_iter().zip(goes_on).find_map(|(fault, goes_on)| fault.filter(|_| !goes_on));
+        let left_alone = differences.left_alone();
+        let fault = faults.into_iter().zip(left_alone).find_map(|(fault, left)| fault.filter(|_| !left));
         if fault.is_none() && !differences.is_same() {
             return Err(different(before, &after, asked, &differences));
         }

@@ -11,13 +11,13 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 const PATIENCE: Duration = Duration::from_secs(1);
 
 /// Counts files, and shows the count once the work has lasted.
-pub(super) struct Progress {
+pub(crate) struct Progress {
     bar: Option<ProgressBar>,
     start: Instant,
 }
 
 impl Progress {
-    pub(super) fn new(files: usize, quiet: bool) -> Self {
+    pub(crate) fn new(files: usize, quiet: bool) -> Self {
         let wanted = !quiet && files > 1 && std::io::stderr().is_terminal();
         let bar = wanted.then(|| {
             let bar = ProgressBar::with_draw_target(Some(files as u64), ProgressDrawTarget::hidden());
@@ -30,7 +30,7 @@ impl Progress {
     }
 
     /// Runs the work on one file.
-    pub(super) fn counting<T>(&self, work: impl FnOnce() -> T) -> T {
+    pub(crate) fn counting<T>(&self, work: impl FnOnce() -> T) -> T {
         let result = work();
         if let Some(bar) = &self.bar {
             if bar.is_hidden() && self.start.elapsed() > PATIENCE {
@@ -41,7 +41,7 @@ impl Progress {
         result
     }
 
-    pub(super) fn end(&self) {
+    pub(crate) fn end(&self) {
         if let Some(bar) = &self.bar {
             bar.finish_and_clear();
         }

@@ -1,0 +1,145 @@
+//! A hole that takes hundreds of pecks.
+
+use gcheck_controls::Effect;
+use gcheck_engine::{At, Axis, Event, TravelKind};
+use gcheck_geometry::Mm;
+
+use crate::declare::declare_rule;
+use crate::facts::cycles::cycle_range;
+use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
+use crate::{Remembers, remembers};
+
+declare_rule! {
+    /// A cycle that drills in pecks (`G83`, `G73`; `G74` of lathes) makes more than 500 of them in one hole.
+    ///
+    /// ## Why it matters
+    /// Each peck rubs more than it cuts, and the hole takes an hour. Mostly the number has another unit: without a decimal point
+    /// `Q` counts the smallest step of the control on many controls, a thousandth of a millimetre.
+    ///
+    /// ## Reported
+    /// ```nc,reported,fanuc-lathe
+    /// G21 G99 T0404
+    /// G97 S1200 M3
+    /// G0 X0. Z3.
+    /// G74 R1.
+    /// G74 Z-60. Q10 F.15
+    /// G0 Z50.
+    /// M30
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,fanuc-lathe
+    /// G21 G99 T0404
+    /// G97 S1200 M3
+    /// G0 X0. Z3.
+    /// G74 R1.
+    /// G74 Z-60. Q10000 F.15
+    /// G0 Z50.
+    /// M30
+    /// ```
+    rule "peck-very-short" in "cycles" {
+        summary: "hole that takes hundreds of pecks",
+        severity: Warning,
+        tier: Path,
+        since: "0.1.0",
+        run: Run::Path { watch: Watch::MOVES, make: || Box::new(PeckVeryShort::default()) },
+    }
+}
+
+#[derive(Default, Clone, PartialEq)]
+struct PeckVeryShort {
+    /// The block that pecks, and how often so far in the hole; with the bottom that was reached.
+    pecks: Option<(At, u32, f64)>,
+    /// Blocks that gave the `Q` of what was reported.
+    is_told: bool,
+}
+
+remembers!(PeckVeryShort: pecks);
+
+/// No drill pecks as often.
+const MOST: u32 = 500;
+
+impl PathRule for PeckVeryShort {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
+    fn concerns(&self, program: &Uses<'_>) -> bool {
+        program.may(pecks)
+    }
+
+    fn moved(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
+        let Event::Travel(travel) = event else { return };
+        if travel.kind != TravelKind::Feed || !travel.expanded || self.is_told {
+            return;
+        }
+        let cycle = cx.state().active_cycle(cx.model).filter(|code| code.is_some());
+        let is_peck = cx.has_effect(pecks) || cycle.is_some_and(|code| pecks(cx.model.effect(code)));
+        let (from, to) = (travel.from.raw(Axis::Z), travel.to.raw(Axis::Z));
+        let is_down = to < from;
+        if !is_peck || !is_down {
+            return;
+        }
+        let at = cx.origin().at;
+        // Back up at another hole, the bottom is above the last one.
+        let count = match self.pecks {
+            Some((before, count, bottom)) if before == at && to < bottom => count + 1,
+            _ => 1,
+        };
+        self.pecks = Some((at, count, to));
+        if count != MOST + 1 {
+            return;
+        }
+        self.is_told = true;
+        let way = cx.shown(Mm(from - to));
+        let mut finding = cx
+            .finding(&META, cycle_range(cx), format!("more than {MOST} pecks in one hole"))
+            .label(format!("a peck goes {way} down"));
+        let unpointed = cx.word('Q').is_some_and(|word| !word.shape.point && !word.is_computed());
+        if unpointed {
+            finding = finding
+                .also(cx.letter_range('Q'), "counts the smallest step of the control, without a point");
+        }
+        report.add(finding.help("check the unit and the decimal point of `Q`"));
+    }
+}
+
+fn pecks(effect: Effect) -> bool {
+    matches!(effect, Effect::CyclePeck | Effect::CycleChipBreak | Effect::GrooveFace)
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::check_rule;
+
+    #[test]
+    fn on_mills_and_in_series() {
+        let program = |q: &str| {
+            format!(
+                "G21 G90 G54 G0 X0. Y0. Z10. S900 M3\nG98 G83 Z-60. R2. {q} F100.\nX10.\nX20.\nG80\nM30\n"
+            )
+        };
+        check_rule(
+            &RULE,
+            "haas-mill",
+            &program("Q.1"),
+            &expect![[r#"
+            2 | G98 G83 Z-60. R2. Q.1 F100.
+              |     ^^^ warning[peck-very-short] more than 500 pecks in one hole
+        "#]],
+        );
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            &program("Q30"),
+            &expect![[r#"
+            2 | G98 G83 Z-60. R2. Q30 F100.
+              |     ^^^ warning[peck-very-short] more than 500 pecks in one hole
+        "#]],
+        );
+        check_rule(&RULE, "haas-mill", &program("Q.2"), &expect![[""]]);
+        check_rule(&RULE, "fanuc-mill", &program("Q2000"), &expect![[""]]);
+    }
+}

@@ -1,0 +1,149 @@
+//! A chuck that opens while the spindle turns.
+
+use gcheck_controls::Effect;
+use gcheck_engine::{At, Event, Fact, Spindle};
+
+use crate::declare::declare_rule;
+use crate::{PathCx, PathRule, Remembers, Report, Run, Uses, Watch, remembers};
+
+declare_rule! {
+    /// The chuck opens (`M11`) while the spindle turns. Programs for two spindles are not judged: there the other chuck holds the
+    /// part, and both turn together.
+    ///
+    /// ## Why it matters
+    /// The part is thrown out of the jaws, or the machine stops with an alarm.
+    ///
+    /// ## Reported
+    /// ```nc,reported,haas-lathe
+    /// G20 T909
+    /// G97 S1200 M3
+    /// G0 X0. Z0.5
+    /// M11
+    /// M30
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,haas-lathe
+    /// G20 T909
+    /// G97 S1200 M3
+    /// G0 X0. Z0.5
+    /// M5
+    /// M11
+    /// M30
+    /// ```
+    rule "chuck-opened-while-turning" in "spindle" {
+        summary: "chuck opened while the spindle turns",
+        severity: Warning,
+        tier: Path,
+        since: "0.1.0",
+        run: Run::Path {
+            watch: Watch::BLOCKS.union(Watch::CHANGES),
+            make: || Box::new(ChuckOpenedWhileTurning::default()),
+        },
+    }
+}
+
+#[derive(Default, Clone, PartialEq)]
+struct ChuckOpenedWhileTurning {
+    /// Stopped at an angle, or by a stop of the program.
+    is_oriented: bool,
+}
+
+remembers!(ChuckOpenedWhileTurning);
+
+/// The modal groups of the codes for a second spindle.
+const SECOND: [&str; 5] =
+    ["secondary-spindle", "secondary-chuck", "secondary-spindle-brake", "spindle-swap", "spindle-sync"];
+
+impl PathRule for ChuckOpenedWhileTurning {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
+    fn concerns(&self, program: &Uses<'_>) -> bool {
+        program.may(opens)
+    }
+
+    fn changed(&mut self, _: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
+        match event {
+            // At a stop the operator, or the machine, may have stopped it too.
+            Event::OrientSpindle { .. } | Event::Stop(_) => self.is_oriented = true,
+            Event::Spindle(_) => self.is_oriented = false,
+            _ => {}
+        }
+    }
+
+    fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
+        let turns = matches!(cx.state().spindle(), Some(Spindle::Clockwise | Spindle::CounterClockwise));
+        let is_known = cx.is_on_every_path() && !cx.is_called_only() && !cx.is_after_unknown_program();
+        if !cx.has_effect(opens)
+            || !turns
+            || self.is_oriented
+            || !is_known
+            || stops_in_block(cx)
+            || has_second_spindle(cx)
+        {
+            return;
+        }
+        let name = cx.name_of_effect(Effect::ChuckUnclamp).unwrap_or_default();
+        let stop = cx.name_of_effect(Effect::SpindleStop).unwrap_or_default();
+        let finding = cx
+            .finding(
+                &META,
+                cx.effect_range(opens),
+                format!("the chuck opens while the spindle turns (`{name}`)"),
+            )
+            .label("lets the part go")
+            .help(format!("stop the spindle with `{stop}` before this block"));
+        report.add(cx.resting_on(finding, Fact::Spindle, "the spindle"));
+    }
+}
+
+fn opens(effect: Effect) -> bool {
+    effect == Effect::ChuckUnclamp
+}
+
+/// The block may stop the spindle first, or its effect is unknown.
+fn stops_in_block(cx: &PathCx<'_>) -> bool {
+    cx.has_effect(|effect| matches!(effect, Effect::SpindleStop | Effect::BarFeed))
+        || cx.codes().iter().filter_map(|ix| cx.code_of(*ix)).any(gcheck_controls::Code::is_user)
+}
+
+fn has_second_spindle(cx: &PathCx<'_>) -> bool {
+    let here = cx.origin().at;
+    (0..here.block).any(|block| {
+        cx.place_of(At { block, ..here }).is_some_and(|place| {
+            let words = place.table.words(place.block());
+            words
+                .iter()
+                .filter_map(|word| cx.code_of(word.code))
+                .any(|code| SECOND.contains(&code.entry().group.as_str()))
+        })
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::{World, check_rule, findings, only, words};
+
+    fn program(before: &str) -> String {
+        format!("G20 T909\nG97 S1200 M3\nG0 X0. Z0.5\n{before}M11\nG4 P1.\nM10\nM30\n")
+    }
+
+    #[test]
+    fn the_spindle_has_to_stand() {
+        let found = findings(&only(&RULE), "haas-lathe", &program(""), &World::default());
+        expect![[r#"
+            the chuck opens while the spindle turns (`M11`)
+              here: lets the part go
+              there: the spindle set here
+              help: stop the spindle with `M5` before this block
+        "#]]
+        .assert_eq(&found.iter().map(words).collect::<String>());
+        for before in ["M5\n", "M0\n", "M19\n", "M143 P1200\nG199\nM110\n", "G65 P9077\n"] {
+            check_rule(&RULE, "haas-lathe", &program(before), &expect![[""]]);
+        }
+    }
+}

@@ -1,0 +1,133 @@
+//! Outcomes of comparisons as findings, for the formats of CI servers.
+//!
+//! Knows: which outcome is which finding, and where. Must not know: the formats.
+
+use std::sync::Arc;
+
+use gcheck_diagnostics::{Finding, Fixability, RuleMeta, Severity, Tier};
+use gcheck_report::{ControlChoice, ControlSource, FileReport, Format, Report};
+use gcheck_syntax::SourceText;
+
+use super::outcome::{Outcome, Outcomes, Spot, Verdict};
+use super::runs::Compared;
+use crate::{Problem, output, paths, reading};
+
+/// The first difference of a comparison.
+pub(super) fn first(compared: &Compared) -> Spot {
+    let differences = &compared.differences;
+    let [_, b] = &compared.prepared;
+    let own = |file: &str| file == b.shown;
+    let of_parting = differences.parting.as_ref().and_then(|parting| parting.b.as_ref());
+    let of_others = differences.kept().iter().find_map(|difference| difference.b.as_ref());
+    let lines = [of_parting, of_others].into_iter().flatten().filter(|place| own(&place.file));
+    let line = lines.map(|place| place.line).min().unwrap_or(1);
+    Spot { line, control: b.chosen.choice.clone() }
+}
+
+const fn rule(id: &'static str, summary: &'static str) -> RuleMeta {
+    RuleMeta {
+        id,
+        group: "diff",
+        summary,
+        severity: Severity::Error,
+        control_specific: false,
+        recommended: true,
+        other_sets: &[],
+        fixability: Fixability::Never,
+        since: "0.1.0",
+        aliases: &[],
+        tier: Tier::Path,
+        raw_docs: "",
+    }
+}
+
+static DIFFERS: RuleMeta = rule("program-differs", "two programs make the machine do different things");
+static NO_VERDICT: RuleMeta = rule("program-not-compared", "a program cannot be compared");
+static REMOVED: RuleMeta = rule("program-removed", "a program of the first folder is not in the second");
+static ADDED: RuleMeta = rule("program-added", "a program of the second folder is not in the first");
+
+/// Test results: a suite a program.
+pub(super) fn junit(all: &Outcomes) -> Result<String, Problem> {
+    written(all, Format::Junit)
+}
+
+/// Annotations for GitHub.
+pub(super) fn github(all: &Outcomes) -> Result<String, Problem> {
+    written(all, Format::Github)
+}
+
+fn written(all: &Outcomes, format: Format) -> Result<String, Problem> {
+    let pairs = all.pairs.iter().map(|outcome| {
+        let [_, file] = &outcome.pair.files;
+        let text = reading::file(file).unwrap_or_else(|_| SourceText::from(""));
+        let findings = finding(outcome, &text).into_iter().collect();
+        let control = outcome.first.as_ref().map(|spot| spot.control.clone());
+        report_of(paths::shown_from_here(file), text, control, findings)
+    });
+    let alone = all.alone.iter().filter(|alone| alone.is_open()).map(|alone| {
+        let (rule, message) = match alone.side {
+            0 => (&REMOVED, "the program is in the first folder only"),
+            _ => (&ADDED, "the program is in the second folder only"),
+        };
+        let text = reading::file(&alone.file).unwrap_or_else(|_| SourceText::from(""));
+        report_of(paths::shown_from_here(&alone.file), text, None, vec![Finding::new(rule, 0..0, message)])
+    });
+    let report = Report::new(pairs.chain(alone).collect());
+    let mut out = Vec::new();
+    gcheck_report::write(&report, format, output::colour(crate::args::When::Never), &mut out)
+        .map_err(|error| Problem::new(format!("cannot write the report: {error}")))?;
+    Ok(String::from_utf8_lossy(&out).into_owned())
+}
+
+fn report_of(
+    path: String,
+    text: SourceText,
+    control: Option<ControlChoice>,
+    findings: Vec<Finding>,
+) -> FileReport {
+    let lines = text.text().lines().count();
+    FileReport {
+        path,
+        text: Arc::new(text),
+        control: control.unwrap_or(ControlChoice {
+            name: String::new(),
+            source: ControlSource::Default,
+            because: None,
+        }),
+        findings,
+        omitted: Vec::new(),
+        lines,
+        suppressed: 0,
+        baseline: 0,
+        fixed: 0,
+        out_of_fuel: false,
+        failed_rules: Vec::new(),
+        assumptions: Vec::new(),
+    }
+}
+
+fn finding(outcome: &Outcome, text: &SourceText) -> Option<Finding> {
+    let line = outcome.first.as_ref().map_or(1, |spot| spot.line);
+    let range = line_range(text.text(), line);
+    let finding = match &outcome.verdict {
+        Verdict::Same => return None,
+        Verdict::Different => Finding::new(&DIFFERS, range, outcome.words()),
+        Verdict::Accepted => Finding::new(&DIFFERS, range, outcome.words()).at_most(Severity::Info),
+        Verdict::None(_) => Finding::new(&NO_VERDICT, range, outcome.words()),
+    };
+    let text = outcome.text.trim_end();
+    Some(if text.is_empty() { finding } else { finding.note(text) })
+}
+
+/// The bytes of a line, from 1.
+fn line_range(text: &str, line: u32) -> std::ops::Range<u32> {
+    let mut start = 0;
+    for (number, content) in (1..).zip(text.split_inclusive('\n')) {
+        if number == line {
+            let end = start + content.trim_end().len();
+            return start as u32..end as u32;
+        }
+        start += content.len();
+    }
+    0..0
+}

@@ -1,0 +1,287 @@
+//! Many pairs of programs, compared at once: what each comes to, and the figures of all.
+//!
+//! Knows: the outcomes of pairs, exit codes, which format is written by whom. Must not know: how programs are paired or run.
+
+use std::fmt::Write as _;
+use std::sync::Arc;
+use std::thread;
+
+use gcheck_toolpath::Aspect;
+use rayon::prelude::*;
+use serde_json::{Value as Json, json};
+use twox_hash::XxHash3_128;
+
+use super::accepted::{self, Accepted, Answer};
+use super::outcome::{Alone, DIFFERENT, Outcome, Outcomes, Verdict};
+use super::pairs::{self, By, Pair, Pairs};
+use super::runs::{self, Compared};
+use super::{findings, page};
+use crate::args::{DiffFormat, DiffOptions, Global};
+use crate::commands::plot;
+use crate::config::Configs;
+use crate::console::{FAILED, finish, say};
+use crate::containment::guarded;
+use crate::programs::ProgramFolders;
+use crate::progress::Progress;
+use crate::{Problem, output, paths, threads};
+
+/// Version of the JSON's shape.
+const VERSION: u32 = 1;
+/// The paths part.
+pub(super) const PATH: &str = "path";
+/// A program of one folder that the other one does not have.
+pub(super) const ALONE: [&str; 2] = ["removed", "added"];
+/// Pictures in a page: more make it too heavy to open.
+const MOST_PICTURES: usize = 100;
+/// Points of each path in a picture.
+const POINTS: usize = 20_000;
+
+/// Compares the programs of two folders, or two programs as if each were the only one of its folder.
+pub(super) fn run(global: &Global, options: &DiffOptions) -> Result<u8, Problem> {
+    let accepted = match &options.accepted {
+        Some(file) => Accepted::read(file, &kinds())?,
+        None => Accepted::default(),
+    };
+    let Pairs { found: pairs, alone, problems } = if options.a.is_dir() {
+        let mut configs = Configs::new(&global.config, global.isolated)?;
+        pairs::of_folders([&options.a, &options.b], &mut configs)
+    } else {
+        let pair = Pair {
+            name: paths::shown(&options.b),
+            files: [options.a.clone(), options.b.clone()],
+            by: By::Command,
+        };
+        Pairs { found: vec![pair], ..Pairs::default() }
+    };
+    if pairs.is_empty() && alone.iter().all(Vec::is_empty) && problems.is_empty() {
+        return Err(Problem::new(format!(
+            "no programs in {} and {}",
+            paths::shown(&options.a),
+            paths::shown(&options.b)
+        )));
+    }
+    let today = accepted::today();
+    let outcomes = compare_all(global, options, pairs, |name, differences, digest| {
+        accepted.of(name, differences, digest, today)
+    })?;
+    let alone = alone
+        .into_iter()
+        .enumerate()
+        .flat_map(|(side, files)| files.into_iter().map(move |(name, file)| (side, name, file)));
+    let alone = alone
+        .map(|(side, name, file)| {
+            let kind = ALONE.get(side).copied().unwrap_or_default();
+            Alone { answer: accepted.of(&name, &[kind], "", today), name, side, file }
+        })
+        .collect();
+    let all = Outcomes {
+        titles: [&options.a, &options.b].map(|path| paths::shown(path)),
+        tolerance: options.tolerance,
+        pairs: outcomes,
+        alone,
+    };
+    let text = match options.output_format {
+        DiffFormat::Text => all.text(),
+        DiffFormat::Json => crate::commands::json(&all.json())?,
+        DiffFormat::Junit => findings::junit(&all)?,
+        DiffFormat::Github => findings::github(&all)?,
+        DiffFormat::Html => page::html(&all),
+    };
+    output::to(options.output_file.as_deref(), &text)?;
+    if !global.quiet {
+        let answers = all.pairs.iter().map(|outcome| &outcome.answer);
+        let used: Vec<usize> =
+            answers.chain(all.alone.iter().map(|alone| &alone.answer)).flat_map(|a| a.used.clone()).collect();
+        for words in accepted.unused(&used) {
+            say(&words);
+        }
+        if !matches!(options.output_format, DiffFormat::Text) {
+            say(&all.summary());
+        }
+    }
+    Ok(finish(&problems, all.code()))
+}
+
+/// Names of all differences that there may be.
+fn kinds() -> Vec<&'static str> {
+    let aspects = Aspect::ALL.into_iter().map(Aspect::name);
+    [PATH].into_iter().chain(aspects).chain(ALONE).collect()
+}
+
+fn compare_all(
+    global: &Global,
+    options: &DiffOptions,
+    pairs: Vec<Pair>,
+    answer: impl Fn(&str, &[&str], &str) -> Answer + Sync,
+) -> Result<Vec<Outcome>, Problem> {
+    let folders = Arc::new(ProgramFolders::default());
+    let progress = Progress::new(pairs.len(), global.quiet);
+    let pool = threads::pool(thread::available_parallelism().map_or(1, Into::into))?;
+    let is_page = options.output_format == DiffFormat::Html;
+    let mut outcomes: Vec<Outcome> = pool.install(|| {
+        let compared = pairs.into_par_iter().map(|pair| {
+            progress.counting(|| {
+                let [a, b] = &pair.files;
+                match guarded(b, || runs::both(global, options, [a, b], &folders)) {
+                    Ok(compared) => Outcome::new(pair, &compared, &answer),
+                    Err(problem) => Outcome::without(pair, problem),
+                }
+            })
+        });
+        compared.collect()
+    });
+    if is_page {
+        let different = outcomes.iter_mut().filter(|outcome| outcome.verdict == Verdict::Different);
+        let drawn: Vec<&mut Outcome> = different.take(MOST_PICTURES).collect();
+        pool.install(|| {
+            drawn.into_par_iter().for_each(|outcome| {
+                let [a, b] = &outcome.pair.files;
+                // A program that cannot be drawn has its words.
+                let draw = || {
+                    let [a, b] = runs::prepared(global, options, [a, b], &folders)?;
+                    plot::overlaid(&a, &b, POINTS)
+                };
+                outcome.picture = guarded(b, draw).ok();
+            });
+        });
+    }
+    progress.end();
+    Ok(outcomes)
+}
+
+impl Outcome {
+    fn new(pair: Pair, compared: &Compared, answer: impl Fn(&str, &[&str], &str) -> Answer) -> Self {
+        let differences = &compared.differences;
+        let mut names: Vec<&str> = Vec::new();
+        if differences.parting.is_some() {
+            names.push(PATH);
+        }
+        names.extend(Aspect::ALL.into_iter().filter(|a| differences.count(*a) > 0).map(Aspect::name));
+        let sides = compared.sides();
+        let detail = sides.json(differences);
+        let digest = digest(&detail);
+        let answer = answer(&pair.name, &names, &digest);
+        let fault = compared.faults.iter().flatten().next();
+        let verdict = match fault {
+            Some(fault) => Verdict::None(fault.problem.clone()),
+            None if names.is_empty() => Verdict::Same,
+            None if answer.open.is_empty() => Verdict::Accepted,
+            None => Verdict::Different,
+        };
+        let text = if verdict == Verdict::Same { String::new() } else { sides.text(differences) };
+        Self {
+            first: Some(findings::first(compared)),
+            differences: names.into_iter().map(str::to_owned).collect(),
+            pair,
+            verdict,
+            answer,
+            digest,
+            text,
+            detail,
+            picture: None,
+        }
+    }
+
+    fn without(pair: Pair, problem: Problem) -> Self {
+        Self {
+            pair,
+            verdict: Verdict::None(problem),
+            differences: Vec::new(),
+            answer: Answer::default(),
+            digest: String::new(),
+            text: String::new(),
+            detail: Json::Null,
+            first: None,
+            picture: None,
+        }
+    }
+}
+
+/// A short name for these very differences: it stays as long as they do.
+fn digest(detail: &Json) -> String {
+    let of = |key: &str| detail.get(key).map(Json::to_string).unwrap_or_default();
+    let all = ["partings", "corner", "differences"].map(of).join("\n");
+    let digest = format!("{:032x}", XxHash3_128::oneshot(all.as_bytes()));
+    digest.get(..8).unwrap_or_default().to_owned()
+}
+
+impl Outcomes {
+    fn code(&self) -> u8 {
+        let differs = |verdict: &Verdict| *verdict == Verdict::Different;
+        if self.count(|verdict| matches!(verdict, Verdict::None(_))) > 0 {
+            FAILED
+        } else if self.count(differs) > 0 || self.alone.iter().any(Alone::is_open) {
+            DIFFERENT
+        } else {
+            0
+        }
+    }
+
+    fn text(&self) -> String {
+        let mut out = String::new();
+        for outcome in self.pairs.iter().filter(|outcome| outcome.verdict != Verdict::Same) {
+            let digest =
+                if outcome.digest.is_empty() { "" } else { &format!("  [digest {}]", outcome.digest) };
+            // Writing to a string cannot fail.
+            let _ = writeln!(out, "{}  {}{digest}", outcome.pair.name, outcome.words());
+            if outcome.verdict != Verdict::Accepted {
+                for line in outcome.text.lines() {
+                    let _ = writeln!(out, "    {line}");
+                }
+            }
+        }
+        for alone in &self.alone {
+            let title = self.titles.get(alone.side).map_or("", String::as_str);
+            let accepted = if alone.is_open() {
+                String::new()
+            } else {
+                format!("  accepted ({})", alone.answer.reasons.join("; "))
+            };
+            let _ = writeln!(out, "{}  only in {title}{accepted}", alone.name);
+        }
+        out.push_str(&self.summary());
+        out.push('\n');
+        gcheck_report::harmless(&out).into_owned()
+    }
+
+    fn json(&self) -> Json {
+        let pairs: Vec<Json> = self
+            .pairs
+            .iter()
+            .map(|outcome| {
+                let problem = match &outcome.verdict {
+                    Verdict::None(problem) => Some(problem.message()),
+                    _ => None,
+                };
+                json!({
+                    "name": outcome.pair.name,
+                    "a": paths::shown(&outcome.pair.files[0]), "b": paths::shown(&outcome.pair.files[1]),
+                    "paired_by": outcome.pair.by.name(),
+                    "verdict": outcome.verdict.name(),
+                    "differences": outcome.differences,
+                    "open": outcome.answer.open,
+                    "reasons": outcome.answer.reasons,
+                    "digest": Some(&outcome.digest).filter(|digest| !digest.is_empty()),
+                    "problem": problem,
+                    "detail": outcome.detail,
+                })
+            })
+            .collect();
+        let alone = |side: usize| {
+            let files = self.alone.iter().filter(|alone| alone.side == side);
+            files.map(|alone| json!({ "name": alone.name, "accepted": !alone.is_open() })).collect::<Vec<_>>()
+        };
+        json!({
+            "version": VERSION,
+            "a": self.titles[0], "b": self.titles[1],
+            "tolerance": self.tolerance,
+            "unit": "mm",
+            "same": self.count(|verdict| *verdict == Verdict::Same),
+            "different": self.count(|verdict| *verdict == Verdict::Different),
+            "accepted": self.count(|verdict| *verdict == Verdict::Accepted),
+            "without_verdict": self.count(|verdict| matches!(verdict, Verdict::None(_))),
+            "pairs": pairs,
+            "only_in_a": alone(0), "only_in_b": alone(1),
+        })
+    }
+}

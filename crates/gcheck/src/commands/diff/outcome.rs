@@ -1,0 +1,132 @@
+//! What pairs of programs come to, and what is said of them in a line.
+//!
+//! Knows: verdicts, counts. Must not know: formats, how programs are paired or run.
+
+use std::fmt::Write as _;
+use std::path::PathBuf;
+
+use gcheck_report::ControlChoice;
+use serde_json::Value as Json;
+
+use super::accepted::Answer;
+use super::pairs::Pair;
+use crate::Problem;
+
+/// Exit code: something differs.
+pub(super) const DIFFERENT: u8 = 1;
+
+/// What a pair comes to.
+pub(super) struct Outcome {
+    pub(super) pair: Pair,
+    pub(super) verdict: Verdict,
+    /// Names of the differences.
+    pub(super) differences: Vec<String>,
+    pub(super) answer: Answer,
+    /// Of these very differences.
+    pub(super) digest: String,
+    /// The differences in words.
+    pub(super) text: String,
+    pub(super) detail: Json,
+    /// File and line of the first difference in the second program, with its text.
+    pub(super) first: Option<Spot>,
+    /// Both paths, as an SVG element.
+    pub(super) picture: Option<String>,
+}
+
+/// What is to be said of a pair.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) enum Verdict {
+    Same,
+    Different,
+    /// All differences are accepted.
+    Accepted,
+    /// A program cannot be read or does not come to its end.
+    None(Problem),
+}
+
+impl Verdict {
+    pub(super) const fn name(&self) -> &'static str {
+        match self {
+            Self::Same => "same",
+            Self::Different => "different",
+            Self::Accepted => "accepted",
+            Self::None(_) => "no-verdict",
+        }
+    }
+}
+
+/// Programs of one folder alone.
+pub(super) struct Alone {
+    pub(super) name: String,
+    /// 0 of the first folder, 1 of the second.
+    pub(super) side: usize,
+    pub(super) file: PathBuf,
+    pub(super) answer: Answer,
+}
+
+impl Alone {
+    pub(super) fn is_open(&self) -> bool {
+        !self.answer.open.is_empty()
+    }
+}
+
+/// All that was compared.
+pub(super) struct Outcomes {
+    pub(super) titles: [String; 2],
+    pub(super) tolerance: f64,
+    pub(super) pairs: Vec<Outcome>,
+    pub(super) alone: Vec<Alone>,
+}
+
+/// Where the first difference is in the second program.
+pub(super) struct Spot {
+    pub(super) line: u32,
+    pub(super) control: ControlChoice,
+}
+
+impl Outcome {
+    /// What the pair comes to, in a line.
+    pub(super) fn words(&self) -> String {
+        let mut words = match &self.verdict {
+            Verdict::Same => "the same".to_owned(),
+            Verdict::Different => format!("differs: {}", self.answer.open.join(", ")),
+            Verdict::Accepted => format!("accepted: {}", self.differences.join(", ")),
+            Verdict::None(problem) => format!("no verdict: {}", problem.message()),
+        };
+        if !self.answer.reasons.is_empty() {
+            let accepts = if self.verdict == Verdict::Accepted { "" } else { "the rest is accepted: " };
+            // Writing to a string cannot fail.
+            let _ = write!(words, " ({accepts}{})", self.answer.reasons.join("; "));
+        }
+        if let Some(date) = self.answer.expired.first() {
+            let _ = write!(words, " (was accepted until {date})");
+        }
+        words
+    }
+}
+
+impl Outcomes {
+    /// How many pairs come to this.
+    pub(super) fn count(&self, is: impl Fn(&Verdict) -> bool) -> usize {
+        self.pairs.iter().filter(|outcome| is(&outcome.verdict)).count()
+    }
+
+    /// The figures in a line.
+    pub(super) fn summary(&self) -> String {
+        let count = self.pairs.len();
+        let mut parts = vec![format!("{} the same", self.count(|verdict| *verdict == Verdict::Same))];
+        let mut part = |count: usize, words: &str| {
+            if count > 0 {
+                parts.push(format!("{count} {words}"));
+            }
+        };
+        part(self.count(|verdict| *verdict == Verdict::Different), "different");
+        part(self.count(|verdict| *verdict == Verdict::Accepted), "accepted");
+        part(self.count(|verdict| matches!(verdict, Verdict::None(_))), "without a verdict");
+        for (side, title) in self.titles.iter().enumerate() {
+            part(self.alone.iter().filter(|alone| alone.side == side).count(), &format!("only in {title}"));
+        }
+        let pairs = if count == 1 { "1 pair".to_owned() } else { format!("{count} pairs") };
+        format!("{pairs} of programs compared, within {} mm: {}", self.tolerance, parts.join(", "))
+    }
+}
