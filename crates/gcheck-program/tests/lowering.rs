@@ -340,10 +340,11 @@ fn mistakes_leave_the_rest_of_the_block_readable() {
               Y = 2 (0 decimals)
               ! AddressWithoutValue "X"
               ! UnclosedComment "(open"
-            "X1.2.3 Z#1+2 [1 Y5." BlockFlags(ERROR | EXPRESSION)
+            "X1.2.3 Z#1+2 [1 Y5." BlockFlags(ERROR | STATEMENT | EXPRESSION)
               X = 1.2 (1 decimals)
               Z = #1
               Y = 5 (0 decimals)
+              "[1": guard 1
               ! MalformedNumber ".3"
               ! NeedsBrackets "+2"
               ! UnclosedBracket "["

@@ -472,7 +472,7 @@ fn several_programs_are_a_table() {
         file,control,ended,seconds,times,cutting_seconds,tools,tool_changes,cutting_mm,rapid_mm,x_from_mm,x_to_mm,y_from_mm,y_to_mm,z_from_mm,z_to_mm,problem
         a/part.nc,haas-mill,program-end,46.524,lower-bound,37.200,2,2,100.000,662.192,0.000,50.000,0.000,10.000,-10.000,25.000,
         b.nc,haas-mill,fault,0.000,lower-bound,0.000,1,0,0.000,0.000,,,,,,,the end point is not on the circle of the start point
-    "#]].assert_eq(&run.stdout);
+    "#]].assert_eq(&run.stdout.replace("\r\n", "\n"));
     let run = shop.gcheck("stats -q a --output-format json");
     let json: serde_json::Value = serde_json::from_str(&run.stdout).unwrap();
     assert_eq!((run.code, &json["programs"][0]["file"]), (0, &"a/part.nc".into()), "{json}");
