@@ -73,10 +73,10 @@ const STATEMENTS: &[Statement] = &[
             ),
         ],
     ),
-    gap(
+    held(
         "#ocode:errors",
         "break and continue of a repeat are refused (interpreter 2.9)",
-        "`run` refuses them where it comes to them, as `check` and the interpreter do",
+        "O-word break and continue; rule `o-word-unmatched`",
         &[
             stops(
                 "#1=1\nO103 REPEAT [5]\nG91 G0 X1\nO104 IF [#1 GT 0]\nO103 BREAK\nO104 ENDIF\nO103 ENDREPEAT\nM2\n",
