@@ -354,6 +354,11 @@ impl<'a> PathCx<'a> {
         self.is_called_only
     }
 
+    /// Does what the state holds come from this program alone, on every path to here? Then what it has done so far is known.
+    pub fn is_certain(&self) -> bool {
+        self.is_on_every_path() && !self.is_called_only() && !self.is_after_unknown_program()
+    }
+
     /// A program was called that is not available: it may have changed anything.
     pub fn is_after_unknown_program(&self) -> bool {
         // Modes that hardly any program switches are known to be what the control starts with, unless a program was called

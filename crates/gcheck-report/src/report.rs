@@ -41,6 +41,26 @@ pub struct FileReport {
     pub assumptions: Vec<StatedAssumption>,
 }
 
+impl FileReport {
+    /// The report of a file that holds these findings and nothing else to tell.
+    pub fn new(path: String, text: SourceText, control: ControlChoice, findings: Vec<Finding>) -> Self {
+        Self {
+            path,
+            lines: text.text().lines().count(),
+            text: Arc::new(text),
+            control,
+            findings,
+            omitted: Vec::new(),
+            suppressed: 0,
+            baseline: 0,
+            fixed: 0,
+            out_of_fuel: false,
+            failed_rules: Vec::new(),
+            assumptions: Vec::new(),
+        }
+    }
+}
+
 /// A file that labels point to and that was not itself checked, e.g. a subprogram from a library.
 #[derive(Debug, Clone)]
 pub struct RelatedFile {

@@ -43,25 +43,12 @@ pub(crate) static ARC_OFF_CIRCLE: RuleMeta = RuleMeta {
 
 /// A file checked for a control that everybody knows.
 pub(crate) fn file(path: &str, text: &str, findings: Vec<Finding>) -> FileReport {
-    let lines = text.lines().count();
-    FileReport {
-        path: path.to_owned(),
-        text: Arc::new(SourceText::from(text)),
-        control: ControlChoice {
-            name: "acme-mill".to_owned(),
-            source: ControlSource::Detected,
-            because: Some("(ACME)".to_owned()),
-        },
-        findings,
-        omitted: Vec::new(),
-        lines,
-        suppressed: 0,
-        baseline: 0,
-        fixed: 0,
-        out_of_fuel: false,
-        failed_rules: Vec::new(),
-        assumptions: Vec::new(),
-    }
+    let control = ControlChoice {
+        name: "acme-mill".to_owned(),
+        source: ControlSource::Detected,
+        because: Some("(ACME)".to_owned()),
+    };
+    FileReport::new(path.to_owned(), SourceText::from(text), control, findings)
 }
 
 /// The bytes of the first `part` of a text.

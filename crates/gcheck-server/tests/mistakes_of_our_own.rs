@@ -5,6 +5,8 @@
 
 #![expect(clippy::unwrap_used, reason = "a test that meets the unexpected is to fail")]
 
+mod served;
+
 use std::io::{Read as _, Write as _};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -85,14 +87,7 @@ impl Host for Fragile {
 const URI: &str = "file:///work/a.nc";
 
 fn session(text: &str) -> (LanguageClient, std::thread::JoinHandle<Ending>) {
-    let (input, to_server) = std::io::pipe().unwrap();
-    let (from_server, output) = std::io::pipe().unwrap();
-    let server = std::thread::spawn(move || serve(Arc::new(Fragile), input, output).unwrap());
-    let mut client = LanguageClient::over(to_server, from_server);
-    client.initialize(json!({ "processId": null, "rootUri": null, "capabilities": {} }));
-    let document = json!({ "uri": URI, "languageId": "gcode", "version": 1, "text": text });
-    client.notify("textDocument/didOpen", json!({ "textDocument": document }));
-    (client, server)
+    served::session(Fragile, (URI, "gcode"), text, &json!({}))
 }
 
 fn change(client: &mut LanguageClient, version: i32, text: &str) {

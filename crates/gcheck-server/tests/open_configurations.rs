@@ -8,13 +8,14 @@
     reason = "a test that meets the unexpected is to fail"
 )]
 
+mod served;
+
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
 use gcheck_db::Settings;
 use gcheck_lint::RuleTable;
 use gcheck_server::{
-    Choice, ConfigurationProblem, Ending, Host, InForce, ProgramFile, ProgramQuery, ProgramText, serve,
+    Choice, ConfigurationProblem, Ending, Host, InForce, ProgramFile, ProgramQuery, ProgramText,
 };
 use gcheck_testkit::language_client::LanguageClient;
 use serde_json::{Value, json};
@@ -71,15 +72,8 @@ impl Host for FaultFinder {
 const URI: &str = "file:///work/gcheck.toml";
 
 fn session(language: &str, capabilities: &Value) -> (LanguageClient, std::thread::JoinHandle<Ending>) {
-    let (input, to_server) = std::io::pipe().unwrap();
-    let (from_server, output) = std::io::pipe().unwrap();
-    let server = std::thread::spawn(move || serve(Arc::new(FaultFinder), input, output).unwrap());
-    let mut client = LanguageClient::over(to_server, from_server);
-    client.initialize(json!({ "processId": null, "rootUri": null, "capabilities": capabilities }));
     let text = "a = FAULT\nG999 X1\nb = \"FAULT\"\n";
-    let document = json!({ "uri": URI, "languageId": language, "version": 1, "text": text });
-    client.notify("textDocument/didOpen", json!({ "textDocument": document }));
-    (client, server)
+    served::session(FaultFinder, (URI, language), text, capabilities)
 }
 
 /// Each as `line:column message`.

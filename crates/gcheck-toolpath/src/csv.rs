@@ -68,7 +68,7 @@ impl<W: Write> Csv<W> {
 fn line(out: &mut Vec<u8>, view: View, n: u64, step: &Step<'_>, record: &Record<'_>) {
     whole(out, n);
     out.push(b',');
-    cell(out, step.file);
+    csv_cell(out, step.file);
     out.push(b',');
     whole(out, u64::from(step.line));
     out.push(b',');
@@ -91,7 +91,7 @@ fn line(out: &mut Vec<u8>, view: View, n: u64, step: &Step<'_>, record: &Record<
     out.push(b',');
     brief(out, record.value.map_or(f64::NAN, |(_, value)| value), 6, "");
     out.push(b',');
-    cell(out, record.text.unwrap_or_default());
+    csv_cell(out, record.text.unwrap_or_default());
 }
 
 fn path(out: &mut Vec<u8>, view: View, path: &Path, units: Units) {
@@ -125,7 +125,8 @@ fn path(out: &mut Vec<u8>, view: View, path: &Path, units: Units) {
     short(out, arc.sweep().to_degrees(), 6, "");
 }
 
-fn cell(out: &mut Vec<u8>, text: &str) {
+/// Writes a cell of text as RFC 4180 wants it: quoted where it holds a comma, a quote or a line end.
+pub fn csv_cell(out: &mut Vec<u8>, text: &str) {
     if !text.contains(['"', ',', '\n', '\r']) {
         out.extend_from_slice(text.as_bytes());
         return;

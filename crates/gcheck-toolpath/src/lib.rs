@@ -33,7 +33,7 @@ pub use bar::BarFigures;
 pub use canonical::{Canonical, Ending, Start};
 pub use compare::{Again, Aspect, Corner, Difference, Differences, Parting, Place, Value, compare};
 pub use corner_mode::{Contour, CornerMode};
-pub use csv::Csv;
+pub use csv::{Csv, csv_cell};
 pub use jsonl::JsonLines;
 pub use placing::WorkCoordinates;
 pub use plan::Plan;

@@ -19,6 +19,7 @@ use gcheck_geometry::{Arc, Bounds, Mm};
 pub use data::Heading;
 pub use drawing::{Drawing, Thinned, Tool};
 pub use page::{Finding, Page, Source};
+pub use svg::escaped;
 
 use crate::motion::{Cover, Motion, Way, cover};
 use crate::placing::{Placing, WorkCoordinates};

@@ -293,10 +293,18 @@ pub struct ExecutionOptions {
     /// The program; `-` reads standard input
     #[arg(value_name = "FILE")]
     pub file: PathBuf,
+    /// How it is executed.
+    #[command(flatten)]
+    pub conditions: Conditions,
+}
+
+/// How programs are executed.
+#[derive(Debug, Clone, Args)]
+pub struct Conditions {
     /// What standard input is called
     #[arg(long, value_name = "PATH")]
     pub stdin_filename: Option<PathBuf>,
-    /// A variable's value before the program starts: `--set '#100=2.5'`, `--set '#<name>=1'` (may be repeated)
+    /// A variable's value before a program starts: `--set '#100=2.5'`, `--set '#<name>=1'` (may be repeated)
     #[arg(long, value_name = "VARIABLE=VALUE", value_parser = assignment)]
     pub set: Vec<Assignment>,
     /// The block delete switch: whether blocks with `/` are skipped; a list such as `1,3` switches those levels on
@@ -305,9 +313,16 @@ pub struct ExecutionOptions {
     /// The optional stop switch: whether `M1` stops
     #[arg(long, value_enum, value_name = "on|off", default_value_t)]
     pub optional_stop: Switch,
-    /// Blocks that may be executed
+    /// Blocks of a program that may be executed
     #[arg(long, value_name = "BLOCKS", default_value_t = FUEL)]
     pub fuel: u64,
+}
+
+impl Conditions {
+    /// A program that is executed so.
+    pub(crate) fn of(&self, file: &Path) -> ExecutionOptions {
+        ExecutionOptions { file: file.to_owned(), conditions: self.clone() }
+    }
 }
 
 /// Options of `gcheck run`.
@@ -347,21 +362,9 @@ pub struct StatsOptions {
     /// Programs and folders; `-` reads standard input. More than one program gives a table
     #[arg(value_name = "FILE|FOLDER", required = true)]
     pub files: Vec<PathBuf>,
-    /// What standard input is called
-    #[arg(long, value_name = "PATH")]
-    pub stdin_filename: Option<PathBuf>,
-    /// A variable's value before each program starts: `--set '#100=2.5'`, `--set '#<name>=1'` (may be repeated)
-    #[arg(long, value_name = "VARIABLE=VALUE", value_parser = assignment)]
-    pub set: Vec<Assignment>,
-    /// The block delete switch: whether blocks with `/` are skipped; a list such as `1,3` switches those levels on
-    #[arg(long, value_name = "on|off|LEVELS", value_parser = block_skip, default_value = "off")]
-    pub block_skip: BlockSkip,
-    /// The optional stop switch: whether `M1` stops
-    #[arg(long, value_enum, value_name = "on|off", default_value_t)]
-    pub optional_stop: Switch,
-    /// Blocks of each program that may be executed
-    #[arg(long, value_name = "BLOCKS", default_value_t = FUEL)]
-    pub fuel: u64,
+    /// How the programs are executed.
+    #[command(flatten)]
+    pub conditions: Conditions,
     /// How the figures are printed
     #[arg(long, value_enum, default_value_t, value_name = "FORMAT")]
     pub output_format: StatsFormat,
@@ -385,21 +388,9 @@ pub struct DiffOptions {
     /// The control that runs B, where it is another one than that of A
     #[arg(long, value_name = "NAME")]
     pub control_b: Option<String>,
-    /// What standard input is called
-    #[arg(long, value_name = "PATH")]
-    pub stdin_filename: Option<PathBuf>,
-    /// A variable's value before both programs start: `--set '#100=2.5'`, `--set '#<name>=1'` (may be repeated)
-    #[arg(long, value_name = "VARIABLE=VALUE", value_parser = assignment)]
-    pub set: Vec<Assignment>,
-    /// The block delete switch: whether blocks with `/` are skipped; a list such as `1,3` switches those levels on
-    #[arg(long, value_name = "on|off|LEVELS", value_parser = block_skip, default_value = "off")]
-    pub block_skip: BlockSkip,
-    /// The optional stop switch: whether `M1` stops
-    #[arg(long, value_enum, value_name = "on|off", default_value_t)]
-    pub optional_stop: Switch,
-    /// Blocks of each program that may be executed
-    #[arg(long, value_name = "BLOCKS", default_value_t = FUEL)]
-    pub fuel: u64,
+    /// How the programs are executed.
+    #[command(flatten)]
+    pub conditions: Conditions,
     /// How differences are printed
     #[arg(long, value_enum, default_value_t, value_name = "FORMAT")]
     pub output_format: DiffFormat,
@@ -527,20 +518,6 @@ pub struct ListOptions {
     /// How the list is printed
     #[arg(long, value_enum, default_value_t, value_name = "FORMAT")]
     pub output_format: ListFormat,
-}
-
-impl StatsOptions {
-    /// How one of the programs is executed.
-    pub(crate) fn of(&self, file: &Path) -> ExecutionOptions {
-        ExecutionOptions {
-            file: file.to_owned(),
-            stdin_filename: self.stdin_filename.clone(),
-            set: self.set.clone(),
-            block_skip: self.block_skip,
-            optional_stop: self.optional_stop,
-            fuel: self.fuel,
-        }
-    }
 }
 
 /// How figures are printed.

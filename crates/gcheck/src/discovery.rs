@@ -90,7 +90,7 @@ fn fit(pattern: &Path, found: &mut Found, seen: &mut BTreeSet<PathBuf>) {
     let matcher = match PathPattern::new(&paths::absolute(folder), &glob) {
         Ok(matcher) => matcher,
         Err(reason) => {
-            let message = format!("there is no such file, and as a pattern it cannot be read: {reason}");
+            let message = format!("no such file, and as a pattern it cannot be read: {reason}");
             found.problems.push(Problem::with_file(pattern, message));
             return;
         }

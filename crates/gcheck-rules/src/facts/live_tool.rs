@@ -5,6 +5,7 @@
 use gcheck_controls::{CodeIx, Effect, LetterSet};
 use gcheck_engine::{At, Fact, Role};
 use gcheck_geometry::Plane;
+use gcheck_program::{Place, Word};
 
 use crate::PathCx;
 use crate::facts::cutting::starts_spindle;
@@ -66,31 +67,33 @@ pub(crate) fn may_be_live(cx: &PathCx<'_>) -> bool {
     let here = cx.origin().at;
     let changed =
         cx.definitions().set_by(Fact::Tool).filter(|at| at.file == here.file && at.block <= here.block);
-    let first = changed.map_or(0, |at| at.block);
-    (first..=here.block).any(|block| {
-        let Some(place) = cx.place_of(At { block, ..here }) else { return true };
+    // On lathes `M13` may be the start of a live tool as well.
+    let starts_with_coolant = |effect| {
+        matches!(effect, Effect::SpindleClockwiseWithCoolant | Effect::SpindleCounterClockwiseWithCoolant)
+    };
+    some_block_since(cx, changed.map_or(0, |at| at.block), |place| {
         let words = place.table.words(place.block());
-        // On lathes `M13` may be the start of a live tool as well.
-        let starts_with_coolant = |effect| {
-            matches!(effect, Effect::SpindleClockwiseWithCoolant | Effect::SpindleCounterClockwiseWithCoolant)
-        };
         place.block().letters.intersects(LetterSet::of("CHY"))
             || words.iter().any(|word| starts_with_coolant(cx.model.effect(word.code)))
-            || words.iter().any(|word| is_function(cx, word.letter.ascii(), word.code))
+            || has_builders(cx, words)
     })
 }
 
 /// Is there an M code whose meaning is the machine builder's in the blocks from this one of the main file up to the one that is
 /// shown? Also where they do not follow each other.
 pub(crate) fn builders_since(cx: &PathCx<'_>, first: u32) -> bool {
+    first > cx.origin().at.block
+        || some_block_since(cx, first, |place| has_builders(cx, place.table.words(place.block())))
+}
+
+/// Does this hold for a block from there up to the one that is shown? Also where a block is not known.
+fn some_block_since(cx: &PathCx<'_>, first: u32, is: impl Fn(&Place) -> bool) -> bool {
     let here = cx.origin().at;
-    first > here.block
-        || (first..=here.block).any(|block| {
-            cx.place_of(At { block, ..here }).is_none_or(|place| {
-                let words = place.table.words(place.block());
-                words.iter().any(|word| is_function(cx, word.letter.ascii(), word.code))
-            })
-        })
+    (first..=here.block).any(|block| cx.place_of(At { block, ..here }).is_none_or(|place| is(&place)))
+}
+
+fn has_builders(cx: &PathCx<'_>, words: &[Word]) -> bool {
+    words.iter().any(|word| is_function(cx, word.letter.ascii(), word.code))
 }
 
 /// Is it an M code that does what the machine builder made of it?

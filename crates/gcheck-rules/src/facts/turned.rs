@@ -80,7 +80,7 @@ impl SharedMemory for Turned {
         if self.blind || !turns(cx) {
             return;
         }
-        let is_known = cx.is_on_every_path() && !cx.is_called_only() && !cx.is_after_unknown_program();
+        let is_known = cx.is_certain();
         if !is_known || self.cuts.len() >= MOST {
             *self = Self { blind: true, ..Self::default() };
             return;

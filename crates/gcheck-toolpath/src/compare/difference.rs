@@ -193,7 +193,7 @@ pub struct Differences {
     later: Vec<Parting>,
     /// How often the paths part.
     partings: u64,
-    /// After the last parting there is no comparison; of which runs the rest was left alone.
+    /// Set when nothing after the last parting is compared: which runs go on there.
     left_alone: Option<[bool; 2]>,
     /// Pieces of path that were compared and are the same.
     pub moves: u64,

@@ -494,8 +494,8 @@ fn text(svg: &mut String, [x, y]: [f64; 2], class: &str, words: &str) {
     let _ = writeln!(svg, "<text x=\"{x:.1}\" y=\"{y:.1}\"{class}>{words}</text>");
 }
 
-/// Text for XML, which has no control characters at all.
-pub(super) fn escaped(text: &str) -> String {
+/// Text for XML and HTML; XML has no control characters at all.
+pub fn escaped(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {
         match c {

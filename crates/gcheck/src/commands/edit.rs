@@ -13,7 +13,9 @@ use gcheck_edit::{Amount, Change, Refusal, Scope, Witness, assume_places, plan, 
 use gcheck_engine::{Assumption, Axis, Nobody, Options, Units};
 use gcheck_program::BlockFlags;
 
-use crate::args::{BlockSkip, EditCommand, EditTarget, ExecutionOptions, Global, MirrorAxis, QuarterTurns};
+use crate::args::{
+    BlockSkip, Conditions, EditCommand, EditTarget, ExecutionOptions, Global, MirrorAxis, QuarterTurns,
+};
 use crate::console::{finish, say};
 use crate::execution::{self, Prepared, Rests, Session, Start};
 use crate::{Problem, output, rewriting};
@@ -86,11 +88,13 @@ fn refused(prepared: &Prepared, problem: Problem) -> u8 {
 fn execution(target: &EditTarget) -> ExecutionOptions {
     ExecutionOptions {
         file: target.file.clone(),
-        stdin_filename: target.stdin_filename.clone(),
-        set: target.set.clone(),
-        block_skip: target.block_skip.unwrap_or(BlockSkip(0)),
-        optional_stop: target.optional_stop,
-        fuel: target.fuel,
+        conditions: Conditions {
+            stdin_filename: target.stdin_filename.clone(),
+            set: target.set.clone(),
+            block_skip: target.block_skip.unwrap_or(BlockSkip(0)),
+            optional_stop: target.optional_stop,
+            fuel: target.fuel,
+        },
     }
 }
 

@@ -31,13 +31,15 @@ pub(crate) fn run(global: &Global, options: &StatsOptions) -> Result<u8, Problem
     output::refuse_to_replace(options.output_file.as_deref(), options.files.iter().map(|file| &**file))?;
     match options.files.as_slice() {
         [file] if !file.is_dir() && options.output_format != StatsFormat::Csv => one(global, options, file),
-        _ => table::run(global, options, |file, folders| figures(global, &options.of(file), folders)),
+        _ => table::run(global, options, |file, folders| {
+            figures(global, &options.conditions.of(file), folders)
+        }),
     }
 }
 
 /// The figures of one program.
 fn one(global: &Global, options: &StatsOptions, file: &Path) -> Result<u8, Problem> {
-    let prepared = execution::prepare(global, &options.of(file), execution::Start::Fresh)?;
+    let prepared = execution::prepare(global, &options.conditions.of(file), execution::Start::Fresh)?;
     prepared.session(|session| {
         if !global.quiet && options.output_format == StatsFormat::Text {
             say(&execution::control_line(session));

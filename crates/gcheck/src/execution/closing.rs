@@ -5,7 +5,6 @@
 
 use std::fmt::Write as _;
 use std::ops::Range;
-use std::sync::Arc;
 
 use gcheck_controls::Letter;
 use gcheck_diagnostics::StatedAssumption;
@@ -25,20 +24,9 @@ const MOST_REPORTED: usize = 20;
 /// Which control reads the program, and why that one.
 pub(crate) fn control_line(session: &Session<'_>) -> String {
     let prepared = session.prepared;
-    let report = Report::new(vec![FileReport {
-        path: prepared.shown.clone(),
-        text: Arc::new(SourceText::from("")),
-        control: prepared.chosen.choice.clone(),
-        findings: Vec::new(),
-        omitted: Vec::new(),
-        lines: 0,
-        suppressed: 0,
-        baseline: 0,
-        fixed: 0,
-        out_of_fuel: false,
-        failed_rules: Vec::new(),
-        assumptions: Vec::new(),
-    }]);
+    let control = prepared.chosen.choice.clone();
+    let report =
+        Report::new(vec![FileReport::new(prepared.shown.clone(), SourceText::from(""), control, Vec::new())]);
     gcheck_report::control_lines(&report).join("\n")
 }
 

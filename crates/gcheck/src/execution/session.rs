@@ -46,9 +46,10 @@ pub(crate) fn prepare(
     if let Some(name) = &global.control {
         validate_control(name).map_err(Problem::new)?;
     }
+    let conditions = &options.conditions;
     let is_standard_input = options.file.as_os_str() == STANDARD_INPUT;
     let path = if is_standard_input {
-        options.stdin_filename.clone().unwrap_or_else(|| PathBuf::from("stdin"))
+        conditions.stdin_filename.clone().unwrap_or_else(|| PathBuf::from("stdin"))
     } else {
         options.file.clone()
     };
@@ -65,7 +66,7 @@ pub(crate) fn prepare(
     let control =
         if settings.codes.is_empty() { plain } else { Arc::new(plain.with_user_codes(&settings.codes)) };
     let mut equipment = Equipment::new(&settings, &Model::new(&control), start)?;
-    equipment.set(&options.set);
+    equipment.set(&conditions.set);
     Ok(Prepared {
         shown: paths::shown(&path),
         source,
@@ -73,11 +74,11 @@ pub(crate) fn prepare(
         control,
         equipment,
         options: Options {
-            skip: options.block_skip.0,
-            optional_stop: options.optional_stop == Switch::On,
+            skip: conditions.block_skip.0,
+            optional_stop: conditions.optional_stop == Switch::On,
             past_alarms: false,
         },
-        fuel: options.fuel,
+        fuel: conditions.fuel,
         search: settings.search,
         path,
         folders: Arc::default(),

@@ -16,7 +16,7 @@ use gcheck_report::ControlSource;
 use super::request::Request;
 use super::sheet::{Lines, Sheet, Tells, Value, rounded};
 use crate::Problem;
-use crate::args::{BlockSkip, ExecutionOptions, FUEL, Global, Switch, When};
+use crate::args::{BlockSkip, Conditions, ExecutionOptions, FUEL, Global, Switch, When};
 use crate::config::Units;
 use crate::execution::{self, Prepared, Rests, Session};
 
@@ -154,11 +154,13 @@ pub(super) fn read(sheet: &mut Sheet<'_>, path: &Path, request: Request<'_>) {
     };
     let options = ExecutionOptions {
         file: path.to_owned(),
-        stdin_filename: None,
-        set: Vec::new(),
-        block_skip: BlockSkip(0),
-        optional_stop: Switch::Off,
-        fuel: FUEL,
+        conditions: Conditions {
+            stdin_filename: None,
+            set: Vec::new(),
+            block_skip: BlockSkip(0),
+            optional_stop: Switch::Off,
+            fuel: FUEL,
+        },
     };
     let mut prepared = match execution::prepare(&global, &options, execution::Start::Fresh) {
         Ok(prepared) => prepared,

@@ -114,7 +114,7 @@ impl PathRule for CompensationOnWrongSide {
             cx.enough();
             return;
         }
-        let is_known = cx.is_on_every_path() && !cx.is_called_only() && !cx.is_after_unknown_program();
+        let is_known = cx.is_certain();
         if !is_known || cx.state().plane(cx.model) != Some(Plane::Xy) {
             *self = Self { told: self.told, ..Self::default() };
             return;

@@ -76,7 +76,7 @@ impl PathRule for TiltWithoutOrientation {
         }
         let Some(code) = cx.control().codes().find(|code| orients(cx, *code)) else { return };
         self.told = Some(set);
-        let is_known = cx.is_on_every_path() && !cx.is_called_only() && !cx.is_after_unknown_program();
+        let is_known = cx.is_certain();
         if !is_known || cx.depth() > 1 || may_be_turned(cx) {
             return;
         }

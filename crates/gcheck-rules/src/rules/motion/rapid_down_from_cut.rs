@@ -120,7 +120,7 @@ impl PathRule for RapidDownFromCut {
             }
             _ => return,
         };
-        if !cx.is_on_every_path() || cx.is_called_only() || cx.is_after_unknown_program() {
+        if !cx.is_certain() {
             return;
         }
         let is_rapid = travel.kind == TravelKind::Rapid;

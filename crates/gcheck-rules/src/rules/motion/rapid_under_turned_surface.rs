@@ -114,7 +114,7 @@ impl PathRule for RapidUnderTurnedSurface {
 
     fn moved(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
         let dive = self.dive.take();
-        let is_known = cx.is_on_every_path() && !cx.is_called_only() && !cx.is_after_unknown_program();
+        let is_known = cx.is_certain();
         if !is_known || self.is_blind || self.cuts.len() >= MOST {
             *self = Self { is_blind: true, ..Self::default() };
             cx.enough();

@@ -124,7 +124,7 @@ impl PathRule for TurnedAfterCutOff {
     }
 
     fn moved(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
-        let is_known = cx.is_on_every_path() && !cx.is_called_only() && !cx.is_after_unknown_program();
+        let is_known = cx.is_certain();
         if !is_known || !turns_the_part(cx) {
             self.forget();
             return;

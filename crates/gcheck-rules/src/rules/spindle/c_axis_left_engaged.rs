@@ -74,7 +74,7 @@ impl PathRule for CAxisLeftEngaged {
     }
 
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
-        let is_known = cx.is_on_every_path() && !cx.is_called_only() && !cx.is_after_unknown_program();
+        let is_known = cx.is_certain();
         let mut is_released = !is_known;
         for code in cx.codes().iter().filter_map(|ix| cx.code_of(*ix)) {
             let is_own = code.entry().group == GROUP;

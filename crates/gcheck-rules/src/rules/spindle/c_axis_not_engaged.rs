@@ -112,7 +112,7 @@ impl PathRule for CAxisNotEngaged {
 
 impl CAxisNotEngaged {
     fn tell(&mut self, cx: &PathCx<'_>, range: std::ops::Range<u32>, what: &str, report: &mut Report<'_>) {
-        let is_known = cx.is_on_every_path() && !cx.is_called_only() && !cx.is_after_unknown_program();
+        let is_known = cx.is_certain();
         if self.is_engaged || !is_known || std::mem::replace(&mut self.is_told, true) {
             return;
         }

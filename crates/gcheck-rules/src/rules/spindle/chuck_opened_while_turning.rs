@@ -74,7 +74,7 @@ impl PathRule for ChuckOpenedWhileTurning {
 
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
         let turns = matches!(cx.state().spindle(), Some(Spindle::Clockwise | Spindle::CounterClockwise));
-        let is_known = cx.is_on_every_path() && !cx.is_called_only() && !cx.is_after_unknown_program();
+        let is_known = cx.is_certain();
         if !cx.has_effect(opens)
             || !turns
             || self.is_oriented

@@ -13,8 +13,9 @@ use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// The turret turns, or the tool is changed, where the last cut or the last cycle ended: there is no rapid move,
-    /// no return to a reference position and no feed move far out of the part between them. The rule is for controls that change the tool in place.
+    /// The turret turns, or the tool is changed, where the last cut or the last cycle ended, without a rapid move, a return to a
+    /// reference position or a feed move far out of the part between them. The rule is for controls that change the tool in
+    /// place.
     ///
     /// ## Why it matters
     /// The tool is still beside the part. The turret swings its longer tools into the part or into the chuck. The same holds

@@ -160,7 +160,7 @@ impl ToolDoesUnlikeWork {
             return;
         }
         // Of several paths, another one may have changed the tool.
-        if !cx.is_on_every_path() || cx.is_called_only() || cx.is_after_unknown_program() {
+        if !cx.is_certain() {
             return;
         }
         let at = cx.origin().at;

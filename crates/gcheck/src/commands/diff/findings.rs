@@ -2,7 +2,7 @@
 //!
 //! Knows: which outcome is which finding, and where. Must not know: the formats.
 
-use std::sync::Arc;
+use std::path::Path;
 
 use gcheck_diagnostics::{Finding, Fixability, RuleMeta, Severity, Tier};
 use gcheck_report::{ControlChoice, ControlSource, FileReport, Format, Report};
@@ -59,7 +59,9 @@ pub(super) fn github(all: &Outcomes) -> Result<String, Problem> {
 fn written(all: &Outcomes, format: Format) -> Result<String, Problem> {
     let pairs = all.pairs.iter().map(|outcome| {
         let [_, file] = &outcome.pair.files;
-        let text = reading::file(file).unwrap_or_else(|_| SourceText::from(""));
+        // Without a finding nothing of the text is shown.
+        let is_same = outcome.verdict == Verdict::Same;
+        let text = if is_same { SourceText::from("") } else { text_of(file) };
         let findings = finding(outcome, &text).into_iter().collect();
         let control = outcome.first.as_ref().map(|spot| spot.control.clone());
         report_of(paths::shown_from_here(file), text, control, findings)
@@ -69,7 +71,7 @@ fn written(all: &Outcomes, format: Format) -> Result<String, Problem> {
             0 => (&REMOVED, "the program is in the first folder only"),
             _ => (&ADDED, "the program is in the second folder only"),
         };
-        let text = reading::file(&alone.file).unwrap_or_else(|_| SourceText::from(""));
+        let text = text_of(&alone.file);
         report_of(paths::shown_from_here(&alone.file), text, None, vec![Finding::new(rule, 0..0, message)])
     });
     let report = Report::new(pairs.chain(alone).collect());
@@ -85,25 +87,13 @@ fn report_of(
     control: Option<ControlChoice>,
     findings: Vec<Finding>,
 ) -> FileReport {
-    let lines = text.text().lines().count();
-    FileReport {
-        path,
-        text: Arc::new(text),
-        control: control.unwrap_or(ControlChoice {
-            name: String::new(),
-            source: ControlSource::Default,
-            because: None,
-        }),
-        findings,
-        omitted: Vec::new(),
-        lines,
-        suppressed: 0,
-        baseline: 0,
-        fixed: 0,
-        out_of_fuel: false,
-        failed_rules: Vec::new(),
-        assumptions: Vec::new(),
-    }
+    let unknown = || ControlChoice { name: String::new(), source: ControlSource::Default, because: None };
+    FileReport::new(path, text, control.unwrap_or_else(unknown), findings)
+}
+
+/// The text of a program that findings point into; empty where it cannot be read, as its problem says then.
+fn text_of(file: &Path) -> SourceText {
+    reading::file(file).unwrap_or_else(|_| SourceText::from(""))
 }
 
 fn finding(outcome: &Outcome, text: &SourceText) -> Option<Finding> {

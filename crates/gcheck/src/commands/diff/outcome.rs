@@ -1,4 +1,4 @@
-//! What pairs of programs come to, and what is said of them in a line.
+//! The verdict on each pair of programs, and the line that tells it.
 //!
 //! Knows: verdicts, counts. Must not know: formats, how programs are paired or run.
 

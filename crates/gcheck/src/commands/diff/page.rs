@@ -4,6 +4,8 @@
 
 use std::fmt::Write as _;
 
+use gcheck_toolpath::plot::escaped;
+
 use super::outcome::{Outcome, Outcomes, Verdict};
 
 const STYLE: &str = "\
@@ -59,7 +61,7 @@ pub(super) fn html(all: &Outcomes) -> String {
             if outcome.digest.is_empty() { String::new() } else { format!(" Digest {}.", outcome.digest) };
         let _ = writeln!(out, "<p>{}{digest}</p>", escaped(&outcome.words()));
         if !outcome.text.is_empty() {
-            let _ = writeln!(out, "<pre>{}</pre>", escaped(&outcome.text));
+            let _ = writeln!(out, "<pre>{}</pre>", escaped_lines(&outcome.text));
         }
         if let Some(picture) = &outcome.picture {
             let _ = writeln!(
@@ -72,19 +74,7 @@ pub(super) fn html(all: &Outcomes) -> String {
     out
 }
 
-/// Text for HTML.
-fn escaped(text: &str) -> String {
-    let mut out = String::with_capacity(text.len());
-    for c in text.chars() {
-        match c {
-            '<' => out.push_str("&lt;"),
-            '>' => out.push_str("&gt;"),
-            '&' => out.push_str("&amp;"),
-            '"' => out.push_str("&quot;"),
-            '\'' => out.push_str("&#39;"),
-            c if c.is_control() && c != '\n' => out.push('\u{fffd}'),
-            c => out.push(c),
-        }
-    }
-    out
+/// Several lines for HTML.
+fn escaped_lines(text: &str) -> String {
+    text.split('\n').map(escaped).collect::<Vec<_>>().join("\n")
 }

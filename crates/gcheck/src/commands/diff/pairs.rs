@@ -6,6 +6,8 @@ use std::collections::HashMap;
 use std::hash::Hash;
 use std::path::{Path, PathBuf};
 
+use twox_hash::XxHash3_128;
+
 use crate::config::Configs;
 use crate::{Problem, discovery, paths, programs, reading};
 
@@ -59,26 +61,43 @@ pub(super) struct Pairs {
 /// A larger file is paired by its path or name only.
 const MAX_BYTES: u64 = 64 << 20;
 
+/// A program that has no partner yet.
+struct Single {
+    /// Its path from the folder.
+    name: String,
+    file: PathBuf,
+    /// A digest of its content, and its program number; `None` while nobody has looked, and for what cannot be read.
+    content: Option<(u128, Option<u32>)>,
+}
+
+impl Single {
+    fn look(&mut self) {
+        let bytes = reading::regular(&self.file, MAX_BYTES).ok();
+        self.content = bytes.map(|bytes| (XxHash3_128::oneshot(&bytes), programs::first_number(&bytes)));
+    }
+}
+
 /// Pairs the programs of two folders: by path, and what is left by content, program number and name.
 pub(super) fn of_folders(folders: [&Path; 2], configs: &mut Configs) -> Pairs {
     let mut pairs = Pairs::default();
     let mut left = folders.map(|folder| {
         let found = discovery::find(&[folder.to_owned()], configs);
         pairs.problems.extend(found.problems);
-        let named = found.files.into_iter().map(|file| {
+        let single = |file: PathBuf| {
             let name = paths::shown(file.strip_prefix(folder).unwrap_or(&file));
-            (name, file)
-        });
-        named.collect::<Vec<_>>()
+            Single { name, file, content: None }
+        };
+        found.files.into_iter().map(single).collect::<Vec<_>>()
     });
-    pairs.match_by(By::Path, &mut left, |name, _| Some(name.to_owned()));
-    pairs.match_by(By::Content, &mut left, |_, file| reading::regular(file, MAX_BYTES).ok());
-    pairs.match_by(By::Number, &mut left, |_, file| {
-        programs::first_number(&reading::regular(file, MAX_BYTES).ok()?)
-    });
-    pairs.match_by(By::Name, &mut left, |_, file| Some(file.file_name()?.to_owned()));
+    pairs.match_by(By::Path, &mut left, |single| Some(single.name.clone()));
+    if left.iter().all(|side| !side.is_empty()) {
+        left.iter_mut().flatten().for_each(Single::look);
+    }
+    pairs.match_by(By::Content, &mut left, |single| Some(single.content?.0));
+    pairs.match_by(By::Number, &mut left, |single| single.content?.1);
+    pairs.match_by(By::Name, &mut left, |single| Some(single.file.file_name()?.to_owned()));
     pairs.found.sort_by(|a, b| a.name.cmp(&b.name));
-    pairs.alone = left;
+    pairs.alone = left.map(|side| side.into_iter().map(|single| (single.name, single.file)).collect());
     pairs
 }
 
@@ -87,38 +106,32 @@ impl Pairs {
     fn match_by<K: Eq + Hash>(
         &mut self,
         by: By,
-        left: &mut [Vec<(String, PathBuf)>; 2],
-        key: impl Fn(&str, &Path) -> Option<K>,
+        left: &mut [Vec<Single>; 2],
+        key: impl Fn(&Single) -> Option<K>,
     ) {
-        let [a, b] = left;
-        if a.is_empty() || b.is_empty() {
-            return;
-        }
-        let by_key = |files: &[(String, PathBuf)]| {
+        let by_key = |side: &[Single]| {
             let mut known: HashMap<K, Option<usize>> = HashMap::new();
-            for (index, (name, file)) in files.iter().enumerate() {
-                if let Some(key) = key(name, file) {
+            for (index, single) in side.iter().enumerate() {
+                if let Some(key) = key(single) {
                     known.entry(key).and_modify(|only| *only = None).or_insert(Some(index));
                 }
             }
             known
         };
+        let [a, b] = left;
         let others = by_key(b);
-        let matched: Vec<(usize, usize)> =
-            by_key(a).into_iter().filter_map(|(key, index)| Some((index?, (*others.get(&key)?)?))).collect();
-        let [mut taken_a, mut taken_b] = [vec![false; a.len()], vec![false; b.len()]];
-        for (first, second) in matched {
-            let (Some((name, file)), Some((_, other))) = (a.get(first), b.get(second)) else { continue };
-            self.found.push(Pair { name: name.clone(), files: [file.clone(), other.clone()], by });
-            for (taken, index) in [(&mut taken_a, first), (&mut taken_b, second)] {
-                if let Some(is_taken) = taken.get_mut(index) {
-                    *is_taken = true;
+        let partner = |(key, index): (K, Option<usize>)| Some((index?, (*others.get(&key)?)?));
+        let mut partners: HashMap<usize, usize> = by_key(a).into_iter().filter_map(partner).collect();
+        let mut rest: Vec<Option<Single>> = std::mem::take(b).into_iter().map(Some).collect();
+        for (index, single) in std::mem::take(a).into_iter().enumerate() {
+            let partner = partners.remove(&index).and_then(|partner| rest.get_mut(partner)?.take());
+            match partner {
+                Some(partner) => {
+                    self.found.push(Pair { name: single.name, files: [single.file, partner.file], by });
                 }
+                None => a.push(single),
             }
         }
-        for (files, taken) in [(a, taken_a), (b, taken_b)] {
-            let mut taken = taken.into_iter();
-            files.retain(|_| !taken.next().unwrap_or(false));
-        }
+        b.extend(rest.into_iter().flatten());
     }
 }

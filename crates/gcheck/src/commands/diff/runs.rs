@@ -13,7 +13,7 @@ use gcheck_toolpath::{Act, Differences, Step, Trail, WorkCoordinates, compare};
 
 use super::words::{Sides, Stopped};
 use crate::Problem;
-use crate::args::{DiffOptions, ExecutionOptions, Global};
+use crate::args::{DiffOptions, Global};
 use crate::execution::{self, Prepared, Steps};
 use crate::programs::ProgramFolders;
 
@@ -48,7 +48,7 @@ impl Compared {
         !self.has_fault() && self.differences.is_same()
     }
 
-    /// Does a program not come to its end, so that there is no verdict?
+    /// Does a program stop before its end? Then nothing can be concluded.
     pub(super) fn has_fault(&self) -> bool {
         self.faults.iter().any(Option::is_some)
     }
@@ -89,7 +89,7 @@ pub(super) fn prepared(
     folders: &Arc<ProgramFolders>,
 ) -> Result<[Prepared; 2], Problem> {
     let prepare = |global: &Global, path: &Path| {
-        let prepared = execution::prepare(global, &of_one(options, path), execution::Start::Fresh)?;
+        let prepared = execution::prepare(global, &options.conditions.of(path), execution::Start::Fresh)?;
         Ok::<_, Problem>(prepared.among(Arc::clone(folders)))
     };
     let second = Global {
@@ -100,17 +100,6 @@ pub(super) fn prepared(
         quiet: global.quiet,
     };
     Ok([prepare(global, a)?, prepare(&second, b)?])
-}
-
-fn of_one(options: &DiffOptions, file: &Path) -> ExecutionOptions {
-    ExecutionOptions {
-        file: file.to_owned(),
-        stdin_filename: options.stdin_filename.clone(),
-        set: options.set.clone(),
-        block_skip: options.block_skip,
-        optional_stop: options.optional_stop,
-        fuel: options.fuel,
-    }
 }
 
 /// What is known of a run when it is over.

@@ -61,7 +61,7 @@ pub(super) fn of(global: &Global, options: &PlotOptions, prepared: &Prepared) ->
     prepared.chosen.narrow(&mut selection);
     let dialect = Dialect::new(&prepared.control);
     let programs = Reachable::new(Arc::default(), path, &prepared.search);
-    let machine = in_force::machine(&settings, &prepared.control, &options.execution.set)?;
+    let machine = in_force::machine(&settings, &prepared.control, &options.execution.conditions.set)?;
     let outcome = check(&Job {
         source: &prepared.source,
         environment: Environment {
@@ -73,7 +73,7 @@ pub(super) fn of(global: &Global, options: &PlotOptions, prepared: &Prepared) ->
         },
         selection: &selection,
         suppressions: true,
-        execution: Execution { fuel: options.execution.fuel, block_skip: None },
+        execution: Execution { fuel: options.execution.conditions.fuel, block_skip: None },
     });
     let text = prepared.source.text();
     let lines = LineIndex::new(text);

@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::thread;
 
+use gcheck_toolpath::csv_cell;
 use rayon::prelude::*;
 use serde_json::{Value, json};
 
@@ -208,13 +209,11 @@ fn csv(rows: &[Row]) -> String {
     out
 }
 
-/// A cell as RFC 4180 wants it.
+/// A cell of text in a table of comma-separated values.
 fn quoted(cell: &str) -> String {
-    if cell.contains(['"', ',', '\n', '\r']) {
-        format!("\"{}\"", cell.replace('"', "\"\""))
-    } else {
-        cell.to_owned()
-    }
+    let mut out = Vec::new();
+    csv_cell(&mut out, cell);
+    String::from_utf8_lossy(&out).into_owned()
 }
 
 fn as_json(rows: &[Row]) -> Value {
