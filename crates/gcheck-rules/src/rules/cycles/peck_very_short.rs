@@ -114,7 +114,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::testing::check_rule;
+    use crate::testing::{World, check_rule, findings, only, words};
 
     #[test]
     fn on_mills_and_in_series() {
@@ -143,5 +143,26 @@ mod tests {
         );
         check_rule(&RULE, "haas-mill", &program("Q.2"), &expect![[""]]);
         check_rule(&RULE, "fanuc-mill", &program("Q2000"), &expect![[""]]);
+    }
+
+    #[test]
+    fn how_far_a_peck_goes() {
+        let program = "G21 G90 G54 G17\nT1 M6\nS900 M3\nG0 X0 Y0 Z10\nG83 Z-600 R2 Q1 F100\nG80\nM2\n";
+        let found = findings(&only(&RULE), "linuxcnc", program, &World::default());
+        expect![[r#"
+            more than 500 pecks in one hole
+              here: a peck goes 1 mm down
+              help: check the unit and the decimal point of `Q`
+        "#]]
+        .assert_eq(&found.iter().map(words).collect::<String>());
+        let program = "G21 G90 G54 G0 X0. Y0. Z10. S900 M3\nG98 G83 Z-60. R2. Q30 F100.\nG80\nM30\n";
+        let found = findings(&only(&RULE), "fanuc-mill", program, &World::default());
+        expect![[r#"
+            more than 500 pecks in one hole
+              here: a peck goes 0.03 mm down
+              there: without a point it may count the smallest step of the control
+              help: check the unit and the decimal point of `Q`
+        "#]]
+        .assert_eq(&found.iter().map(words).collect::<String>());
     }
 }

@@ -200,11 +200,8 @@ impl TurnedAfterCutOff {
 mod tests {
     use expect_test::expect;
 
-    use gcheck_engine::SourceFile;
-    use gcheck_lint::Programs;
-
     use super::RULE;
-    use crate::testing::{World, check_rule, check_rule_in, findings, only, words};
+    use crate::testing::{Called, World, check_rule, check_rule_in, findings, only, words};
 
     fn program(between: &str, after: &str) -> String {
         format!(
@@ -264,20 +261,8 @@ mod tests {
 
     #[test]
     fn another_file_may_feed_the_bar() {
-        struct Feed;
-        impl Programs for Feed {
-            fn has_number(&self, number: u32) -> bool {
-                number == 9000
-            }
-            fn has_name(&self, _: &str) -> bool {
-                false
-            }
-            fn source_of_number(&self, number: u32) -> Option<SourceFile> {
-                let text = "O9000\nM11\nG4 P1.\nM10\nM99\n".to_owned();
-                (number == 9000).then(|| SourceFile { name: "O9000.nc".into(), text })
-            }
-        }
-        let world = World { programs: &Feed, ..World::default() };
+        let feed = Called(9000, "O9000\nM11\nG4 P1.\nM10\nM99\n");
+        let world = World { programs: &feed, ..World::default() };
         let program = program("M98 P9000\n", "G1 Z-20. F.1\nX40.");
         check_rule_in(&RULE, "fanuc-lathe", &program, &world, &expect![[""]]);
     }
