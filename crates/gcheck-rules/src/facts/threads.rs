@@ -130,36 +130,39 @@ fn pieces(upper: &str) -> impl Iterator<Item = &str> {
     parts.filter(|piece| !piece.is_empty())
 }
 
+/// A drill for a tap, and a thread that is milled, are not taps. Several starts have a lead of several pitches.
+const OTHERS: [&str; 20] = [
+    "DRILL",
+    "MILL",
+    "PREDRILL",
+    "CHAMFER",
+    "SPOT",
+    "START",
+    "STARTS",
+    "LEAD",
+    "LEADS",
+    "TWIN",
+    "DOUBLE",
+    "TRIPLE",
+    "QUAD",
+    "QUADRUPLE",
+    "MULTI",
+    "MULTISTART",
+    "MULTIPLE",
+    "TWOSTART",
+    "DUAL",
+    "2START",
+];
+
+/// Words beside which two numbers are a thread.
+const THREADS: [&str; 10] =
+    ["THREAD", "THREADS", "THREADING", "THD", "TAP", "TAPS", "TAPPING", "UNC", "UNF", "UNEF"];
+
 /// The one thread that a comment names, and its pitch in millimetres.
 fn thread_in(comment: &str, wanted: Wanted) -> Option<(String, f64)> {
     let upper = comment.to_ascii_uppercase();
     let is_letter = |c: char| c.is_ascii_alphanumeric();
     let has = |names: &[&str]| upper.split(|c: char| !is_letter(c)).any(|word| names.contains(&word));
-    // A drill for a tap, and a thread that is milled, are not taps. Several starts have a lead of several pitches.
-    const OTHERS: [&str; 20] = [
-        "DRILL",
-        "MILL",
-        "PREDRILL",
-        "CHAMFER",
-        "SPOT",
-        "START",
-        "STARTS",
-        "LEAD",
-        "LEADS",
-        "TWIN",
-        "DOUBLE",
-        "TRIPLE",
-        "QUAD",
-        "QUADRUPLE",
-        "MULTI",
-        "MULTISTART",
-        "MULTIPLE",
-        "TWOSTART",
-        "DUAL",
-        "2START",
-    ];
-    const THREADS: [&str; 10] =
-        ["THREAD", "THREADS", "THREADING", "THD", "TAP", "TAPS", "TAPPING", "UNC", "UNF", "UNEF"];
     // A holder or an insert may be named after the thread that it was bought for.
     let is_holder = wanted == Wanted::Written && has(&["HOLDER", "INSERT"]);
     if has(&OTHERS) || is_holder || wanted == Wanted::Tap && !has(&["TAP", "TAPS", "TAPPING"]) {

@@ -146,8 +146,8 @@ impl NoseCompensatedIntoPart {
         let own = (first.block..=last.block).find_map(|block| {
             let at = At { block, ..first };
             let place = cx.place_of(at)?;
-            let codes = place.table.words(place.block()).iter().map(|word| word.code);
-            Some((at, codes.filter(|code| is_on(cx.model.effect(*code))).last()?))
+            let mut codes = place.table.words(place.block()).iter().map(|word| word.code);
+            Some((at, codes.rfind(|code| is_on(cx.model.effect(*code)))?))
         });
         let Some((on, code)) = own.filter(|(on, _)| self.told != Some(*on)) else { return };
         let is_left =

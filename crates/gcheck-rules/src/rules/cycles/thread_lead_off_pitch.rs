@@ -145,7 +145,9 @@ impl PathRule for ThreadLeadOffPitch {
         let by_title = std::mem::take(&mut self.by_title);
         // With several leads the title's thread is one of them, and nothing tells which.
         if self.leads.len() == 1 {
-            by_title.into_iter().for_each(|thread| report.add(thread.finding));
+            for thread in by_title {
+                report.add(thread.finding);
+            }
         }
     }
 }

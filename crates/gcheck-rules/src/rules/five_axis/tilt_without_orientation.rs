@@ -6,6 +6,7 @@ use gcheck_engine::{At, Event, Fact, Role};
 use crate::declare::declare_rule;
 use crate::facts::feed::goes_by_feed;
 use crate::facts::live_tool::builders_since;
+use crate::facts::offset_schemes::whole;
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 use crate::{Remembers, remembers};
 
@@ -126,7 +127,7 @@ fn tilts(cx: &PathCx<'_>, at: At) -> bool {
     };
     let is_given = |letter: u8| cx.find_word(at, |word| word.letter.ascii() == letter).is_some();
     let turns = |letter: u8| has(letter, &|angle| angle != 0.0);
-    if has(b'P', &|form| form == 1.0) {
+    if has(b'P', &|form| whole(form) == Some(1)) {
         turns(b'I') || turns(b'J')
     } else {
         (!is_given(b'P') || has(b'P', &|form| form == 0.0)) && turns(b'J')
