@@ -68,7 +68,7 @@ impl PathRule for BoreShiftVeryLong {
             || word.is_computed()
             || cx.control().numbers().unpointed == Unpointed::AsWritten;
         let shift = q.abs() * of_program.in_mm();
-        // A bar has less room behind it than its own radius.
+        // A bar has less room at its back than its own radius.
         let own = cutter_radius(cx);
         let most = own.unwrap_or(most);
         let [least, _] = units::range(cx, shift);
@@ -81,7 +81,7 @@ impl PathRule for BoreShiftVeryLong {
             Some(radius) => {
                 format!("the tool has the radius of {} of the machine file", cx.shown(Mm(radius)))
             }
-            None => format!("the bar has no more than {} of room behind it", cx.shown(Mm(most))),
+            None => format!("the bar has no more than {} of room at its back", cx.shown(Mm(most))),
         };
         report.add(
             cx.finding(

@@ -127,6 +127,11 @@ impl PathRule for TurnedAfterCutOff {
             self.forget();
             return;
         }
+        // A bar stop or a puller comes for the next part.
+        if self.off.is_some() && ToolWords::of(cx).needs_no_spindle() {
+            self.forget();
+            return;
+        }
         let (from, to) = match event {
             Event::Travel(travel) if travel.kind == TravelKind::Feed => (spot(&travel.from), end(cx, travel)),
             Event::Arc(arc) => (spot(&arc.from), spot(&arc.programmed)),
@@ -180,7 +185,7 @@ impl TurnedAfterCutOff {
             self.forget();
             return;
         }
-        if by.is_none() || !is_cut || ToolWords::of(cx).needs_no_spindle() {
+        if by.is_none() || !is_cut {
             return;
         }
         let mut finding = cx
@@ -228,6 +233,7 @@ mod tests {
         for between in ["M0\n", "M1\n", "M20\n", "M77\n", "G55\n", "G50 W-35.\n", "G65 P9077\n"] {
             check_rule(&RULE, "fanuc-lathe", &program(between, cut), &expect![[""]]);
         }
+        check_rule(&RULE, "fanuc-lathe", &program("T0909 (BAR STOP)\nG0 X0. Z1.\n", cut), &expect![[""]]);
         // Further along the bar; a face.
         for cut in ["Z-34.\nG1 Z-60. F.1\nX40.", "G1 Z0. F.1\nX-1."] {
             check_rule(&RULE, "fanuc-lathe", &program("", cut), &expect![[""]]);

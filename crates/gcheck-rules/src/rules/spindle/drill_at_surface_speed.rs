@@ -16,7 +16,7 @@ use crate::{Remembers, remembers};
 
 declare_rule! {
     /// A lathe drills along its centre while the spindle keeps a constant surface speed (`G96`): a feed move along Z at `X0` into
-    /// the part, after which the tool comes straight out. A limit of the speed that the tool gets after it came in (`G50 S800`) is
+    /// the part, after which the tool comes straight out. A low limit of the speed that the tool gets after it came in (`G50 S800`) is
     /// the drill's own speed, and nothing is reported.
     ///
     /// ## Why it matters
@@ -89,6 +89,8 @@ remembers!(Waiting: tool, bytes, finding);
 
 /// The centre, as a radius: millimetres.
 const CENTRE: f64 = 0.02;
+/// Turns a minute: up to this a limit may be meant as the speed of the drill.
+const FASTEST: f64 = 2000.0;
 /// So far into the part: millimetres.
 const DEEP: f64 = 1.0;
 
@@ -147,7 +149,7 @@ impl DrillAtSurfaceSpeed {
             return None;
         }
         let is_own_limit = self.limited.zip(tool).is_some_and(|(limited, tool)| is_before(tool, limited));
-        if is_own_limit || ToolWords::of(cx).needs_no_spindle() {
+        if is_own_limit && state.speed_limit() <= FASTEST || ToolWords::of(cx).needs_no_spindle() {
             return None;
         }
         let name = cx.code_name(Role::SpindleMode)?;
@@ -209,9 +211,9 @@ mod tests {
             check_rule(
                 &RULE,
                 "fanuc-lathe",
-                &format!("G21 G99 T0404\nG96 S150 M3\nG0 X0. Z3.\nG1 Z-40. F.1\n{out}\nM30\n"),
+                &format!("G21 G99 T0404\nG50 S4000\nG96 S150 M3\nG0 X0. Z3.\nG1 Z-40. F.1\n{out}\nM30\n"),
                 &expect![[r#"
-                    4 | G1 Z-40. F.1
+                    5 | G1 Z-40. F.1
                       | ^^^^^^^^^^^^ warning[drill-at-surface-speed] the centre is drilled at constant surface speed (`G96`)
                 "#]],
             );
