@@ -1064,7 +1064,7 @@ fn repeats_turn_the_work_on() {
 #[test]
 fn increments_change_the_coordinates_of_the_present_position() {
     two_blocks(
-        "G50 U-10. W-5.\nG0 X60. Z5.",
+        "G50 U-10. W-5.\nG0 U2. W1.",
         &expect![[r#"
         rapid x30 z5
         rapid x30 z5
