@@ -13,7 +13,17 @@ pub trait SharedMemory: Memory {
     /// The axes moved, and every rule has seen it.
     fn moved(&mut self, cx: &PathCx<'_>, event: &Event);
 
-    /// An event that is not a move, and every rule has seen it.
+    /// A block with a code, a statement or `F S T H D` of the main file begins, and every rule has seen it.
+    fn block(&mut self, cx: &PathCx<'_>) {
+        let _ = cx;
+    }
+
+    /// The axes moved in a block of another file, which no rule sees.
+    fn moved_elsewhere(&mut self, event: &Event) {
+        let _ = event;
+    }
+
+    /// An event that is not a move, of any file, and every rule has seen what it may see of it.
     fn changed(&mut self, cx: &PathCx<'_>, event: &Event) {
         let _ = (cx, event);
     }

@@ -375,7 +375,7 @@ impl<'a, 'c> Watchers<'a, 'c> {
 
     /// What rules remember together goes on with what they were shown.
     fn remember(&mut self, flow: &FlowCx<'_>, mut call: impl FnMut(&mut dyn SharedMemory, &PathCx<'_>)) {
-        if flow.origin.at.file != 0 || self.shared.is_empty() {
+        if self.shared.is_empty() {
             return;
         }
         let mut shared = std::mem::take(&mut self.shared);
@@ -450,11 +450,12 @@ impl FlowObserver for Watchers<'_, '_> {
             };
             self.letters =
                 of_values.filter(|(has_others, _)| *has_others).map(|(_, letters)| (cx.origin.at, letters));
+            if is_eventful {
+                self.show_evaluated(Watch::BLOCKS, cx, &evaluated, |rule, cx, report| rule.block(cx, report));
+                self.remember(cx, |memory, cx| memory.block(cx));
+            }
             let mut show =
                 |watch| self.show_evaluated(watch, cx, &evaluated, |rule, cx, report| rule.block(cx, report));
-            if is_eventful {
-                show(Watch::BLOCKS);
-            }
             show(Watch::ALL_BLOCKS);
             if let Some((has_others, _)) = of_values {
                 show(Watch::COMPUTED);
@@ -481,8 +482,11 @@ impl FlowObserver for Watchers<'_, '_> {
             self.remember(cx, |memory, cx| memory.changed(cx, event));
             return;
         }
-        // Blocks of other files are judged when those files are checked.
+        // Blocks of other files are judged when those files are checked; what they did counts for what comes after them.
         if cx.origin.at.file != 0 {
+            for memory in self.shared.iter_mut() {
+                memory.moved_elsewhere(event);
+            }
             return;
         }
         let is_arc = matches!(event, Event::Arc(_));

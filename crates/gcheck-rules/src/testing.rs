@@ -117,6 +117,24 @@ impl World<'_> {
     }
 }
 
+/// A file with one program that others call: its number and its text.
+pub(crate) struct Called(pub(crate) u32, pub(crate) &'static str);
+
+impl Programs for Called {
+    fn has_number(&self, number: u32) -> bool {
+        number == self.0
+    }
+
+    fn has_name(&self, _: &str) -> bool {
+        false
+    }
+
+    fn source_of_number(&self, number: u32) -> Option<SourceFile> {
+        let source = || SourceFile { name: format!("O{number}.nc").into(), text: self.1.to_owned() };
+        (number == self.0).then(source)
+    }
+}
+
 /// A file with the program 9099.
 struct OtherFile;
 

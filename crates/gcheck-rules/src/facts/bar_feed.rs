@@ -5,9 +5,10 @@
 use std::ops::Range;
 
 use crate::PathCx;
+use crate::facts::units;
 use crate::{Finding, Severity};
 use gcheck_controls::{BarFeederRules, Effect, Letter};
-use gcheck_engine::{BarLengths, Event, Fact, Role};
+use gcheck_engine::{BarLengths, Event, Role};
 use gcheck_geometry::Mm;
 
 /// A length that a bar is fed by.
@@ -116,8 +117,7 @@ pub(crate) fn bar_feed_name(cx: &PathCx<'_>) -> String {
 
 /// The finding no more severe than the units that the block's lengths are read in.
 pub(crate) fn resting_on_units(cx: &PathCx<'_>, finding: Finding) -> Finding {
-    let is_told = cx.environment.machine.units_are_told;
-    if is_told || cx.definitions().set_by(Fact::Mode(Role::Units)).is_some() {
+    if units::are_stated(cx) {
         return finding;
     }
     let code = cx.code_name(Role::Units).map_or_else(String::new, |code| format!(" (`{code}`)"));

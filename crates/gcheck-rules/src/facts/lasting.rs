@@ -41,15 +41,21 @@ pub(crate) fn goes_by_way(file_index: &FileIndex, control: &Control, code: Code<
 
 /// Where the text first calls a program that is not in the file: from there on that program may have given any word.
 pub(crate) fn first_call_elsewhere(file_index: &FileIndex) -> Option<u32> {
+    calls_elsewhere(file_index).next()
+}
+
+/// Where the text calls programs that are not in the file, in its order.
+pub(crate) fn calls_elsewhere(file_index: &FileIndex) -> impl Iterator<Item = u32> {
     let programs = file_index.programs.iter().filter_map(|program| program.number);
     let here: HashSet<u32> = programs.chain(file_index.labels.iter().map(|label| label.number)).collect();
     let o_words: HashSet<_> = file_index.o_words.iter().map(|word| &word.label).collect();
-    let is_elsewhere = |target: &CallKind| match target {
+    let is_elsewhere = move |target: &CallKind| match target {
         CallKind::Program(number) => !here.contains(number),
         CallKind::OWord(label) => !o_words.contains(label),
         CallKind::Unknown => true,
     };
-    file_index.calls.iter().find(|call| is_elsewhere(&call.target)).map(|call| call.range.start)
+    let calls = file_index.calls.iter();
+    calls.filter(move |call| is_elsewhere(&call.target)).map(|call| call.range.start)
 }
 
 /// Does the control refuse the code where no block gives the word? Where the end of the program does not forget it, the word of

@@ -146,13 +146,13 @@ impl Pairs {
     }
 
     /// The pairs with one of these offsets, where tools have their own number otherwise: each belongs to a tool that works
-    /// nowhere. With each the offset.
+    /// nowhere. With each the offset. A number that is tens more than the tool's own is a second offset of the tool.
     pub(crate) fn take_of_absent(&mut self, offsets: &BTreeSet<u32>) -> Vec<(Finding, u32)> {
         let pairs = std::mem::take(&mut self.pairs);
         let has_scheme = pairs.iter().any(|pair| pair.step() == 0);
-        let (absent, others) = pairs
-            .into_iter()
-            .partition(|pair| has_scheme && pair.step() != 0 && offsets.contains(&pair.offset));
+        let (absent, others) = pairs.into_iter().partition(|pair| {
+            has_scheme && pair.step() != 0 && !pair.is_tens_more() && offsets.contains(&pair.offset)
+        });
         self.pairs = others;
         absent.into_iter().map(|pair: Pair| (pair.finding, pair.offset)).collect()
     }
@@ -175,12 +175,12 @@ impl Pairs {
         found
     }
 
-    /// The pairs with that is the number of another station of a turret, which no scheme explains. Second offsets of a tool are
+    /// The pairs with the number of another station of a turret, which no scheme explains. Second offsets of a tool are
     /// numbered past the stations, or ten or twenty more than the tool.
     pub(crate) fn take_strangers(&mut self) -> Vec<(Finding, u32)> {
         let pairs = std::mem::take(&mut self.pairs);
         let is_odd =
-            |pair: &&Pair| is_alone(pair, &pairs) && pair.offset <= MOST_STATIONS && pair.step() % 10 != 0;
+            |pair: &&Pair| is_alone(pair, &pairs) && pair.offset <= MOST_STATIONS && !pair.is_tens_more();
         pairs.iter().filter(is_odd).map(|pair| (pair.finding.clone(), pair.tool)).collect()
     }
 
@@ -221,6 +221,11 @@ impl Pair {
         let written = format!("{letter}{expected}");
         let fix = self.word.filter(|_| expected > 0);
         self.finding.fix_if(fix.map(|word| Fix::risky(format!("write `{written}`"), word, written)))
+    }
+
+    /// As shops number the second offset of a tool.
+    fn is_tens_more(&self) -> bool {
+        self.step() % 10 == 0 && self.step() > 0
     }
 
     fn step(&self) -> i64 {

@@ -1,6 +1,6 @@
 //! The cut that parts a turned part off.
 //!
-//! Knows: which move is one. Must not know: any rule.
+//! Knows: which move is one, and when it takes off something that was turned. Must not know: any rule.
 
 use crate::{PathCx, remembers};
 use gcheck_engine::{At, Axis, Event, TravelKind};
@@ -30,5 +30,39 @@ impl Parting {
         let is_across = from.raw(Axis::X) > 1e-3 && to.raw(Axis::X) <= 1e-3;
         let is_square = (from.raw(Axis::Z) - z).abs() < 1e-6;
         (is_across && is_square && z < -1e-3).then(|| Self { z: Mm(z), at: cx.origin().at })
+    }
+}
+
+/// How far along the part was turned, in work coordinates: millimetres.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Along {
+    least: f64,
+    most: f64,
+}
+
+remembers!(Along);
+
+/// The shortest part: millimetres. A cut to the centre that is nearer to `Z0` may face the part.
+const SHORT: f64 = 3.0;
+
+impl Along {
+    /// Nothing yet.
+    pub(crate) const NOTHING: Self = Self { least: f64::INFINITY, most: f64::NEG_INFINITY };
+
+    /// A cut along Z.
+    pub(crate) const fn add(&mut self, from: f64, to: f64) {
+        self.least = self.least.min(from.min(to));
+        self.most = self.most.max(from.max(to));
+    }
+
+    /// Was there turned what the cut takes off? What it faces at its end was not turned before.
+    pub(crate) fn is_turned(&self, parting: &Parting) -> bool {
+        let middle = parting.z.0 / 2.0;
+        self.least < middle && middle < self.most
+    }
+
+    /// Does the cut part off what was turned, for certain?
+    pub(crate) fn is_parted(&self, parting: &Parting) -> bool {
+        parting.z.0 < -SHORT && self.is_turned(parting)
     }
 }

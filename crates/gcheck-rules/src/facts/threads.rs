@@ -130,27 +130,60 @@ fn pieces(upper: &str) -> impl Iterator<Item = &str> {
     parts.filter(|piece| !piece.is_empty())
 }
 
+/// A drill for a tap, and a thread that is milled, are not taps. Several starts have a lead of several pitches.
+const OTHERS: [&str; 20] = [
+    "DRILL",
+    "MILL",
+    "PREDRILL",
+    "CHAMFER",
+    "SPOT",
+    "START",
+    "STARTS",
+    "LEAD",
+    "LEADS",
+    "TWIN",
+    "DOUBLE",
+    "TRIPLE",
+    "QUAD",
+    "QUADRUPLE",
+    "MULTI",
+    "MULTISTART",
+    "MULTIPLE",
+    "TWOSTART",
+    "DUAL",
+    "2START",
+];
+
+/// Words beside which two numbers are a thread.
+const THREADS: [&str; 10] =
+    ["THREAD", "THREADS", "THREADING", "THD", "TAP", "TAPS", "TAPPING", "UNC", "UNF", "UNEF"];
+
 /// The one thread that a comment names, and its pitch in millimetres.
 fn thread_in(comment: &str, wanted: Wanted) -> Option<(String, f64)> {
     let upper = comment.to_ascii_uppercase();
     let is_letter = |c: char| c.is_ascii_alphanumeric();
     let has = |names: &[&str]| upper.split(|c: char| !is_letter(c)).any(|word| names.contains(&word));
-    // A drill for a tap, and a thread that is milled, are not taps. Several starts have a lead of several pitches.
-    let is_other = has(&["DRILL", "MILL", "PREDRILL", "CHAMFER", "SPOT", "START", "STARTS", "LEAD"]);
-    if is_other || wanted == Wanted::Tap && !has(&["TAP", "TAPS", "TAPPING"]) {
+    // A holder or an insert may be named after the thread that it was bought for.
+    let is_holder = wanted == Wanted::Written && has(&["HOLDER", "INSERT"]);
+    if has(&OTHERS) || is_holder || wanted == Wanted::Tap && !has(&["TAP", "TAPS", "TAPPING"]) {
         return None;
     }
-    let is_thread =
-        has(&["THREAD", "THREADS", "THREADING", "THD", "TAP", "TAPS", "TAPPING", "UNC", "UNF", "UNEF"]);
+    let is_thread = has(&THREADS);
     let mut found: Vec<(String, f64)> = Vec::new();
     // Beside a thread that is not read, nothing tells which one is cut.
     if wanted == Wanted::Written && pieces(&upper).any(is_unread) {
         return None;
     }
-    for piece in pieces(&upper) {
-        // A size alone names a hole or a bolt as well, and two numbers name holes, drawings and dates.
+    let all: Vec<&str> = pieces(&upper).collect();
+    for (ix, piece) in all.iter().copied().enumerate() {
+        // A size alone names a hole or a bolt as well, and two numbers name holes, drawings and dates: `10-24` is a thread only
+        // right beside the word.
         let is_marked = piece.contains(['#', '/', 'M']) || piece.contains("UN") || piece.contains("NP");
-        let is_written = wanted == Wanted::Tap || piece.contains(['X', '-', '*']) && (is_marked || is_thread);
+        let is_word =
+            |ix: Option<usize>| ix.and_then(|ix| all.get(ix)).is_some_and(|word| THREADS.contains(word));
+        let is_beside = is_word(ix.checked_sub(1)) || is_word(ix.checked_add(1));
+        let is_pitch = piece.contains(['X', '-', '*']) && (is_marked || is_thread);
+        let is_written = (is_marked || is_beside) && (wanted == Wanted::Tap || is_pitch);
         if let Some(pitch) = metric(piece).or_else(|| inch(piece)).filter(|_| is_written) {
             found.push((piece.to_owned(), pitch));
         }
@@ -279,6 +312,9 @@ mod tests {
             ("(TAP 1-1/4 DEEP)", None),
             ("(TAP M6 OR M8)", None),
             ("(M6 THREAD MILL TAP)", None),
+            ("(10-24 TAP)", Some(25.4 / 24.0)),
+            ("(TAP M6 CHANGED 10-24)", Some(1.0)),
+            ("(TAP CHANGED 10-24)", None),
         ] {
             assert_eq!(thread_in(comment, Wanted::Tap).map(|(_, pitch)| pitch), expected, "{comment}");
         }
@@ -300,6 +336,13 @@ mod tests {
             ("(M20X1.5 OR M20X2)", None),
             ("(ADAPTER M20X1.5 - G3/4)", None),
             ("(1/2-14 NPT AND 3/4-16 UNF)", None),
+            ("(THREAD TOOL CHANGED 10-24)", None),
+            ("(THREAD 10-24)", Some(25.4 / 24.0)),
+            ("(10-24 UNC)", Some(25.4 / 24.0)),
+            ("(M30X2 TWIN)", None),
+            ("(M30X2 2-START)", None),
+            ("(M30X2 DOUBLE LEAD)", None),
+            ("(INSERT 3/8-16 THREAD HOLDER)", None),
         ] {
             assert_eq!(thread_in(comment, Wanted::Written).map(|(_, pitch)| pitch), expected, "{comment}");
         }

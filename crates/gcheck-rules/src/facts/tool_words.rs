@@ -1,4 +1,4 @@
-//! Kinds of tools by the words of their comments: a boring bar, a drill, a bar puller, a knife.
+//! Kinds of tools by the words of their comments: a boring bar, a drill, a tap, a bar puller, a knife.
 //!
 //! Knows: the words that shops use. Must not know: any rule, which comments belong to a tool.
 
@@ -35,6 +35,11 @@ impl ToolWords {
         ])
     }
 
+    /// Does the tool cut a thread by its own shape, so that it is fed by the pitch: a tap, a die, a chaser?
+    pub(crate) fn follows_its_pitch(&self) -> bool {
+        self.has(&["TAP", "TAPS", "TAPPING", "TAPPER", "DIE", "DIEHEAD", "DIESTOCK", "CHASER", "CHASERS"])
+    }
+
     /// Does the tool form the surface without a chip, or at the pitch of a pattern: a knurl, a burnisher, a roller?
     pub(crate) fn rolls(&self) -> bool {
         self.has(&[
@@ -50,8 +55,8 @@ impl ToolWords {
         ])
     }
 
-    /// Does the tool push, hold or touch the work, or cut it while the spindle is stopped: a bar puller, a bar stop, a probe, a
-    /// drag knife, a broach?
+    /// Does the tool push, hold or touch the work, or cut it while the spindle is stopped: a bar puller, a bar stop, a live centre, a
+    /// probe, a drag knife, a broach?
     pub(crate) fn needs_no_spindle(&self) -> bool {
         let holds = [
             "PULLER",
@@ -73,11 +78,15 @@ impl ToolWords {
             "SCRIBE",
             "SCRIBER",
             "SCRATCH",
+            "TAILSTOCK",
         ];
+        let is_centre = self.has(&["CENTER", "CENTRE", "CENTERS", "CENTRES"])
+            && self.has(&["LIVE", "REVOLVING", "ROTATING", "DEAD", "TAIL", "SUPPORT"])
+            && !self.has(&["DRILL", "DRILLING", "SPOT"]);
         let is_bar_stop = self.has(&["STOP"]) && !self.has(&["OPTIONAL", "OPT", "PROGRAM", "SPINDLE"]);
         let is_bar_feed = self.has(&["FEED"]) && self.has(&["BAR", "STOCK"]);
         let is_off = self.has(&["SPINDLE"]) && self.has(&["OFF", "NO", "STOPPED"]);
-        self.has(&holds) || is_bar_stop || is_bar_feed || is_off
+        self.has(&holds) || is_centre || is_bar_stop || is_bar_feed || is_off
     }
 
     fn has(&self, wanted: &[&str]) -> bool {

@@ -9,7 +9,8 @@ use std::ops::Range;
 use gcheck_controls::Effect;
 use gcheck_engine::{At, Axis, Event, Fact, Position, Role, Travel, TravelKind};
 
-use crate::facts::parting::Parting;
+use crate::facts::parting::{Along, Parting};
+use crate::facts::second_spindle::swaps;
 use crate::facts::tool_words::ToolWords;
 use crate::facts::turning::{is_roughing, turns, turns_the_part};
 use crate::{PathCx, SharedMemory, remembers};
@@ -117,8 +118,22 @@ impl SharedMemory for Turned {
             TravelKind::Thread => {}
             _ => self.cut(cx, from, to, is_expanded),
         }
-        if Parting::of(cx, event).is_some() {
+        if Parting::of(cx, event).is_some_and(|parting| self.along().is_turned(&parting)) {
             self.forget();
+        }
+    }
+
+    fn block(&mut self, cx: &PathCx<'_>) {
+        if swaps(cx) {
+            self.forget();
+        }
+    }
+
+    fn moved_elsewhere(&mut self, event: &Event) {
+        (self.chain, self.last) = (None, None);
+        // What was cut there is not known.
+        if !matches!(event, Event::Travel(travel) if travel.kind == TravelKind::Rapid) {
+            *self = Self { blind: true, ..Self::default() };
         }
     }
 
@@ -154,6 +169,7 @@ impl Turned {
         }
         turned
     }
+
     /// The radius at which the block began whose move is shown.
     pub(crate) fn block_begins(&self, cx: &PathCx<'_>) -> Option<f64> {
         match self.block {
@@ -216,6 +232,19 @@ impl Turned {
         is_across && is_from_outside && is_into && !self.is_opened_beside(to[1], to[0])
     }
 
+    /// Does this cut part off what was turned?
+    pub(crate) fn is_parted(&self, parting: &Parting) -> bool {
+        self.along().is_parted(parting)
+    }
+
+    fn along(&self) -> Along {
+        let mut along = Along::NOTHING;
+        for cut in self.cuts.iter().filter(|cut| cut.is_surface()) {
+            along.add(cut.ends[0][1], cut.ends[1][1]);
+        }
+        along
+    }
+
     /// The radius to which the part was faced down to its centre, and where that face is: below it the part is solid, as far
     /// as no hole was made.
     fn face(&self) -> Option<&Cut> {
@@ -258,22 +287,14 @@ impl Turned {
 
     /// A rapid move ends a chain of cuts; `out` is its way in X, if it is a move in X alone.
     fn close(&mut self, out: Option<f64>) {
+        let leaves = self.leaves(out);
         let Some(chain) = &self.chain else { return };
-        let Some(cuts) = self.cuts.get_mut(chain.first..).filter(|cuts| !cuts.is_empty()) else { return };
+        let Some(cuts) = self.cuts.get_mut(chain.first..) else { return };
         let Some([before, begins]) = chain.approach else { return };
-        let deep = cuts.iter().filter(|cut| is_deep(cut.ends[0], cut.ends[1]));
-        let radii = deep.flat_map(|cut| cut.ends.map(|[radius, _]| radius));
-        let (least, most) =
-            radii.fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), r| (least.min(r), most.max(r)));
-        let end = cuts.last().map_or(f64::NAN, |cut| cut.ends[1][0]);
-        let leaves_out = end > most + SLACK || end > most - SLACK && out.is_some_and(|out| out > SLACK);
-        let leaves_in = end < least - SLACK || end < least + SLACK && out.is_some_and(|out| out < -SLACK);
-        let side = if before > begins + SLACK && leaves_out {
-            Side::Outside
-        } else if before < begins - SLACK && leaves_in {
-            Side::Inside
-        } else {
-            return;
+        let side = match leaves {
+            Side::Outside if before > begins + SLACK => Side::Outside,
+            Side::Inside if before < begins - SLACK => Side::Inside,
+            _ => return,
         };
         for cut in cuts.iter_mut().filter(|cut| cut.side == Side::Unknown) {
             // Of an outside, only what is along Z is a surface.
@@ -281,6 +302,23 @@ impl Turned {
                 continue;
             }
             cut.side = side;
+        }
+    }
+
+    /// To which side a tool leaves what it cut since its last rapid move, by where the cuts end and by its way in X from there.
+    pub(crate) fn leaves(&self, out: Option<f64>) -> Side {
+        let cuts = self.chain.as_ref().and_then(|chain| self.cuts.get(chain.first..)).unwrap_or_default();
+        let deep = cuts.iter().filter(|cut| is_deep(cut.ends[0], cut.ends[1]));
+        let radii = deep.flat_map(|cut| cut.ends.map(|[radius, _]| radius));
+        let (least, most) =
+            radii.fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), r| (least.min(r), most.max(r)));
+        let end = cuts.last().map_or(f64::NAN, |cut| cut.ends[1][0]);
+        let leaves_out = end > most + SLACK || end > most - SLACK && out.is_some_and(|out| out > SLACK);
+        let leaves_in = end < least - SLACK || end < least + SLACK && out.is_some_and(|out| out < -SLACK);
+        match (leaves_out, leaves_in) {
+            (true, false) => Side::Outside,
+            (false, true) => Side::Inside,
+            _ => Side::Unknown,
         }
     }
 
@@ -354,12 +392,22 @@ impl Turned {
         })
     }
 
-    /// Is a way outward, in front of the zero of the part, or outside of what was turned along Z at its ends?
+    /// Is a way outward, off the wall of a bore, in front of the zero of the part or down to it, or outside of what was turned
+    /// along Z at its ends? Along a face it is not, unless that was cut.
     pub(crate) fn is_in_air(&self, from: Spot, to: Spot) -> bool {
+        let in_bore = self.bore(from[1]).is_some_and(|(wall, _)| from[0] < wall + SLACK);
         let is_outward = to[1] > from[1] + SLACK && to[0] > from[0] - SLACK;
-        let is_before_face = from[1] > SLACK && to[1] > SLACK;
+        let is_cut = || self.least_outside(to[1]).is_some_and(|(radius, _)| radius < from[0] + SLACK);
+        let is_up = is_level(from, to) && to[0] > from[0] + SLACK && (to[1] < -SLACK || is_cut());
+        let is_off_bore = in_bore && is_level(from, to) && to[0] < from[0] - SLACK;
+        let is_before_face = from[1] > SLACK && to[1] > -SLACK;
         let is_beside = |spot: Spot| self.outside_along(spot[1]).is_some_and(|wall| spot[0] > wall + SLACK);
-        is_outward || is_before_face || is_beside(from) && is_beside(to)
+        is_outward || is_up && !in_bore || is_off_bore || is_before_face || is_beside(from) && is_beside(to)
+    }
+
+    /// Was the part cut as near to the centre as this place, at the same level?
+    pub(crate) fn is_cut_at(&self, [radius, z]: Spot) -> bool {
+        self.least_outside(z).is_some_and(|(least, _)| least < radius + SLACK)
     }
 
     /// The face that a straight way goes through into solid material.

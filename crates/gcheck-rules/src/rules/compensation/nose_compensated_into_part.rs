@@ -1,18 +1,20 @@
 //! Compensation of a lathe tool's nose to the side on which the part is.
 
+use gcheck_controls::Effect;
 use gcheck_engine::{At, Event, Fact, Role, TravelKind};
 
 use crate::declare::declare_rule;
 use crate::facts::compensation::{is_left, is_on};
 use crate::facts::turned::{Side, Turned, end};
-use crate::facts::turning::is_turned;
-use crate::{MakeShared, PathCx, PathRule, Remembers, Report, Run, Uses, Watch, remembers};
+use crate::facts::turning::{is_turned, profile, profile_blocks, turns_the_part};
+use crate::{Finding, MakeShared, PathCx, PathRule, Remembers, Report, Run, Uses, Watch, remembers};
 
 declare_rule! {
     /// On a lathe the outside of the part is turned toward the chuck with the nose compensated to the left (`G41`), or a bore
     /// with the nose compensated to the right (`G42`): to the side on which the part is.
     ///
-    /// What is the outside shows by the side from which the tool or its cycle comes.
+    /// What is the outside shows by the side from which the tool or its cycle comes, and to which it leaves; of a profile for
+    /// `G71` and `G70` by its diameters.
     ///
     /// ## Why it matters
     /// The nose is shifted into the part by its radius, so tapers, radii and chamfers are cut too deep, by up to twice the
@@ -45,7 +47,10 @@ declare_rule! {
         severity: Warning,
         tier: Path,
         since: "0.1.0",
-        run: Run::Path { watch: Watch::MOVES, make: || Box::new(NoseCompensatedIntoPart::default()) },
+        run: Run::Path {
+            watch: Watch::MOVES.union(Watch::BLOCKS),
+            make: || Box::new(NoseCompensatedIntoPart::default()),
+        },
     }
 }
 
@@ -53,9 +58,23 @@ declare_rule! {
 struct NoseCompensatedIntoPart {
     /// The block that switches on what was reported.
     told: Option<At>,
+    /// A cut whose side the tool shows when it leaves.
+    waiting: Option<Waiting>,
 }
 
-remembers!(NoseCompensatedIntoPart: told);
+remembers!(NoseCompensatedIntoPart: told, waiting);
+
+#[derive(Clone, PartialEq)]
+struct Waiting {
+    on: At,
+    side: Side,
+    finding: Finding,
+}
+
+remembers!(Waiting: on, finding);
+
+/// Diameters that differ by less are one, in the units of the program.
+const SAME: f64 = 0.01;
 
 impl PathRule for NoseCompensatedIntoPart {
     fn memory(&mut self) -> Remembers<'_> {
@@ -70,33 +89,107 @@ impl PathRule for NoseCompensatedIntoPart {
         is_turned(program) && program.may(is_on)
     }
 
+    fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
+        if cx.has_effect(|effect| matches!(effect, Effect::RoughAlongZ | Effect::FinishProfile)) {
+            self.judge_profile(cx, report);
+        }
+    }
+
     fn moved(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
         let Some(turned) = Turned::of(cx) else { return };
         let Event::Travel(travel) = event else { return };
+        if travel.kind == TravelKind::Rapid {
+            let out = turned.here().map(|from| end(cx, travel)[0] - from[0]);
+            self.leave(turned.leaves(out), report);
+            return;
+        }
         let Some(is_left) = is_left(cx) else { return };
-        let Some(on) = cx.definitions().set_by(Fact::Mode(Role::Compensation)) else { return };
-        if travel.kind != TravelKind::Feed || self.told == Some(on) || !turned.knows(cx) {
+        let Some(on) = set_on(cx) else { return };
+        let is_new = self.told != Some(on) && self.waiting.is_none();
+        if travel.kind != TravelKind::Feed || !is_new || !turned.knows(cx) {
             return;
         }
         let Some(from) = turned.here() else { return };
         // The side is known of cuts toward the chuck alone.
         let side = turned.side_of(cx, [from, end(cx, travel)], travel.expanded);
-        let (what, right) = match side {
-            Side::Outside if is_left => ("the outside of the part is", "G42"),
-            Side::Inside if !is_left => ("the bore is", "G41"),
+        let is_wrong = matches!((side, is_left), (Side::Outside, true) | (Side::Inside, false));
+        let Some(name) = cx.code_name(Role::Compensation).filter(|_| is_wrong) else { return };
+        let Some(finding) = finding(cx, on, &name, side) else { return };
+        let finding = finding.also(cx.range(), "turned here, toward the chuck");
+        if travel.expanded {
+            // Where a cycle begins shows its side.
+            self.told = Some(on);
+            report.add(finding);
+        } else {
+            self.waiting = Some(Waiting { on, side, finding });
+        }
+    }
+}
+
+impl NoseCompensatedIntoPart {
+    /// The tool leaves what it cut, to this side as far as that shows. A bore may be approached from outside as well.
+    fn leave(&mut self, leaves: Side, report: &mut Report<'_>) {
+        let Some(waiting) = self.waiting.take() else { return };
+        let is_sure = match waiting.side {
+            Side::Inside => leaves != Side::Outside,
+            side => leaves == side,
+        };
+        if is_sure {
+            self.told = Some(waiting.on);
+            report.add(waiting.finding);
+        }
+    }
+
+    /// A profile that switches compensation on by itself: only its cycle moves along it.
+    fn judge_profile(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
+        let (Some((first, last)), Some(profile)) = (profile_blocks(cx), profile(cx)) else { return };
+        let own = (first.block..=last.block).find_map(|block| {
+            let at = At { block, ..first };
+            let place = cx.place_of(at)?;
+            let mut codes = place.table.words(place.block()).iter().map(|word| word.code);
+            Some((at, codes.rfind(|code| is_on(cx.model.effect(*code)))?))
+        });
+        let Some((on, code)) = own.filter(|(on, _)| self.told != Some(*on)) else { return };
+        let is_left =
+            matches!(cx.model.effect(code), Effect::CompensationLeft | Effect::CompensationLeftByDiameter);
+        // The tool begins where the cycle takes nothing off: outside of the largest diameter, or inside of the least.
+        let begins = profile.start.x;
+        let is_outside = profile.points.iter().all(|point| point.x < begins + SAME);
+        let is_inside = profile.points.iter().all(|point| point.x > begins - SAME);
+        let side = match profile.grows_to_chuck() {
+            Some(true) if is_outside => Side::Outside,
+            Some(false) if is_inside => Side::Inside,
             _ => return,
         };
+        if (side == Side::Outside) != is_left || !cx.is_certain() || !turns_the_part(cx) {
+            return;
+        }
+        let Some(finding) = finding(cx, on, &cx.name_of(code), side) else { return };
         self.told = Some(on);
-        let word = cx.find_word(on, |word| is_on(cx.model.effect(word.code)));
-        let Some(range) = word.or_else(|| cx.range_of(on)) else { return };
-        let name = cx.code_name(Role::Compensation).unwrap_or_default();
-        report.add(
-            cx.finding(&META, range, format!("the nose is compensated into the part (`{name}`)"))
-                .label(format!("{what} on that side of the path"))
-                .also(cx.range(), "turned here, toward the chuck")
-                .help(format!("check `G41` and `G42`: turned this way it takes `{right}`")),
-        );
+        report.add(finding.also(cx.range(), "turned by this cycle"));
     }
+}
+
+/// The block that switches on the compensation in effect.
+fn set_on(cx: &PathCx<'_>) -> Option<At> {
+    cx.definitions().set_by(Fact::Mode(Role::Compensation))
+}
+
+/// That what a block switches on is the wrong one for a cut on this side.
+fn finding(cx: &PathCx<'_>, on: At, name: &str, side: Side) -> Option<Finding> {
+    let (what, right) = match side {
+        Side::Outside => ("the outside of the part is", Effect::CompensationRight),
+        Side::Inside => ("the bore is", Effect::CompensationLeft),
+        Side::Unknown => return None,
+    };
+    let right = cx.name_of_effect(right)?;
+    let word = cx.find_word(on, |word| is_on(cx.model.effect(word.code)));
+    let range = word.or_else(|| cx.range_of(on))?;
+    Some(
+        cx.finding(&META, range, format!("the nose is compensated into the part (`{name}`)"))
+            .label(format!("{what} on that side of the path"))
+            .help(format!("check the code: turned this way it takes `{right}`")),
+    )
 }
 
 #[cfg(test)]
@@ -145,5 +238,48 @@ mod tests {
         for program in [outside("G42"), bore("G41"), outside("G40")] {
             check_rule(&RULE, "fanuc-lathe", &program, &expect![[""]]);
         }
+    }
+
+    #[test]
+    fn a_bore_that_is_approached_from_outside() {
+        for program in [
+            "G21 G18 G99 G40\nT0404\nG97 S800 M3\nG0 X50. Z5.\nZ2.\nG41 G0 X44.\nG1 Z-20. F.1\nX30.\nG40 G0 X28.\nZ50.\nM30\n",
+            "G20 G18 G99 G40 T0404\nG97 S800 M3\nG0 X2. Z.2\nG41 X1.75\nG1 Z-.8 F.005\nX1.25\nG40 G0 X1.2\nZ1.\nM30\n",
+            // Straight out: which side it was does not show.
+            "G20 G18 G99 G40 T0404\nG97 S800 M3\nG0 X2. Z.2\nG41 X1.75\nG1 Z-.8 F.005\nG40 G0 Z1.\nM30\n",
+        ] {
+            check_rule(&RULE, "fanuc-lathe", program, &expect![[""]]);
+        }
+    }
+
+    #[test]
+    fn in_the_profile_of_a_cycle() {
+        let program = |code: &str, cycle: &str| {
+            format!(
+                "G21 G18 G99 G40 T0101\nG97 S800 M3\nG0 X52. Z2.\n{cycle}N10 G0 {code} X26.\nG1 Z0. F.1\nX30. Z-2.\nZ-30.\nX40. Z-35.\nZ-50.\nN20 G40 X52.\nG0 X150. Z100.\nT0202\nG97 S1000 M3\nG0 X52. Z2.\nG70 P10 Q20\nG0 X150. Z100.\nM30\n"
+            )
+        };
+        let rough = "G71 U2. R.5\nG71 P10 Q20 U.4 W.1 F.25\n";
+        check_rule(
+            &RULE,
+            "fanuc-lathe",
+            &program("G41", rough),
+            &expect![[r#"
+            6 | N10 G0 G41 X26.
+              |        ^^^ warning[nose-compensated-into-part] the nose is compensated into the part (`G41`)
+        "#]],
+        );
+        check_rule(&RULE, "fanuc-lathe", &program("G42", rough), &expect![[""]]);
+        let bore = "G21 G18 G99 G40 T0101\nG97 S800 M3\nG0 X18. Z2.\nG71 U2. R.5\nG71 P10 Q20 U-.4 W.1 F.25\nN10 G0 G42 X40.\nG1 Z-20. F.1\nX30.\nZ-30.\nN20 G40 X18.\nG0 X150. Z100.\nM30\n";
+        check_rule(
+            &RULE,
+            "fanuc-lathe",
+            bore,
+            &expect![[r#"
+            6 | N10 G0 G42 X40.
+              |        ^^^ warning[nose-compensated-into-part] the nose is compensated into the part (`G42`)
+        "#]],
+        );
+        check_rule(&RULE, "fanuc-lathe", &bore.replace("G42", "G41"), &expect![[""]]);
     }
 }

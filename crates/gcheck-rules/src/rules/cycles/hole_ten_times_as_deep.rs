@@ -12,8 +12,8 @@ use crate::{Finding, FollowedCx, PathCx, PathRule, Report, Run, Uses, Watch};
 use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// The depths (`Z`) that a tool gives in one canned cycle are the same or nearly the same at two blocks or more, and exactly ten
-    /// times as much at one.
+    /// The depths (`Z`) that a tool gives in one canned cycle from one level `R` are the same or nearly the same at two blocks or
+    /// more, and exactly ten times as much at one.
     ///
     /// ## Why it matters
     /// The decimal point slipped: the drill goes through the part into the vise or the table.
@@ -67,6 +67,8 @@ struct Hole {
     at: At,
     cycle: CodeIx,
     tool: Option<At>,
+    /// The level that it begins at; `None` as the control has it.
+    r: Option<f64>,
     z: f64,
     bytes: Range<u32>,
     finding: Finding,
@@ -113,10 +115,12 @@ impl PathRule for HoleTenTimesAsDeep {
         // A level of its own for the start is another surface.
         let is_plain = own.is_some() || !cx.origin().letters.contains(Letter::of('R'));
         let Some(z) = cx.known_number('Z').filter(|z| *z < 0.0 && is_plain) else { return };
+        let before = self.holes.last().filter(|hole| hole.cycle == cycle);
+        let r = cx.known_number('R').or_else(|| before.and_then(|hole| hole.r));
         let bytes = cx.letter_range('Z');
         let finding = cx.finding(&META, bytes.clone(), "hole ten times as deep as the others of its tool");
         let tool = cx.definitions().set_by(Fact::Tool);
-        self.holes.push(Hole { at: cx.origin().at, cycle, tool, z, bytes, finding });
+        self.holes.push(Hole { at: cx.origin().at, cycle, tool, r, z, bytes, finding });
     }
 
     fn followed(&mut self, _: &FollowedCx<'_>, report: &mut Report<'_>) {
@@ -136,8 +140,10 @@ impl HoleTenTimesAsDeep {
             is_new
         });
         for hole in &holes {
-            let same =
-                |other: &&Hole| other.at != hole.at && other.cycle == hole.cycle && other.tool == hole.tool;
+            // From another level it is the hole of another surface.
+            let same = |other: &&Hole| {
+                (other.cycle, other.tool, other.r) == (hole.cycle, hole.tool, hole.r) && other.at != hole.at
+            };
             let others: Vec<&Hole> = holes.iter().filter(same).collect();
             let is_tenth = |other: &&Hole| (other.z * 10.0 - hole.z).abs() < 1e-6;
             let is_near = |other: &&Hole| other.z > hole.z / 5.0;
@@ -191,6 +197,8 @@ mod tests {
             "G99 G81 Z-12. R2. F100.\nX10. Z-60.\nX20. Z-12.\nX30. Z-120.",
             "G99 G81 Z-1. R2. F100.\nX10. Z-1.\nG80\nG83 Z-10. R2. Q2. F100.",
             "G99 G81 Z-1. R2. F100.\nX10. Z-1.\nG80\nG0 Z5.\nZ-10.",
+            // A surface further down.
+            "G98 G81 Z-12. R2. F100.\nX10. Z-12.\nG98 G81 X20. Z-120. R-105. F100.",
         ] {
             check_rule(&RULE, "fanuc-mill", &program(holes), &expect![[""]]);
         }

@@ -1,6 +1,6 @@
 //! A hole that takes hundreds of pecks.
 
-use gcheck_controls::Effect;
+use gcheck_controls::{Effect, Unpointed};
 use gcheck_engine::{At, Axis, Event, TravelKind};
 use gcheck_geometry::Mm;
 
@@ -13,8 +13,8 @@ declare_rule! {
     /// A cycle that drills in pecks (`G83`, `G73`; `G74` of lathes) makes more than 500 of them in one hole.
     ///
     /// ## Why it matters
-    /// Each peck rubs more than it cuts, and the hole takes an hour. Mostly the number has another unit: without a decimal point
-    /// `Q` counts the smallest step of the control on many controls, a thousandth of a millimetre.
+    /// Each peck rubs more than it cuts, and the hole takes very long. Mostly the number has another unit: without a decimal point
+    /// `Q` counts the smallest step on many controls, a thousandth of a millimetre.
     ///
     /// ## Reported
     /// ```nc,reported,fanuc-lathe
@@ -49,7 +49,7 @@ declare_rule! {
 struct PeckVeryShort {
     /// The block that pecks, and how often so far in the hole; with the bottom that was reached.
     pecks: Option<(At, u32, f64)>,
-    /// Blocks that gave the `Q` of what was reported.
+    /// A hole was reported. One finding is enough for a program: mostly all holes have the same `Q`.
     is_told: bool,
 }
 
@@ -81,23 +81,25 @@ impl PathRule for PeckVeryShort {
         }
         let at = cx.origin().at;
         // Back up at another hole, the bottom is above the last one.
-        let count = match self.pecks {
-            Some((before, count, bottom)) if before == at && to < bottom => count + 1,
-            _ => 1,
+        let (count, bottom) = match self.pecks {
+            Some((before, count, bottom)) if before == at && to < bottom => (count + 1, bottom),
+            _ => (1, from),
         };
         self.pecks = Some((at, count, to));
         if count != MOST + 1 {
             return;
         }
         self.is_told = true;
-        let way = cx.shown(Mm(from - to));
+        // The stroke begins above the bottom of the one before, by the clearance.
+        let way = cx.shown(Mm(bottom - to));
         let mut finding = cx
             .finding(&META, cycle_range(cx), format!("more than {MOST} pecks in one hole"))
             .label(format!("a peck goes {way} down"));
         let unpointed = cx.word('Q').is_some_and(|word| !word.shape.point && !word.is_computed());
-        if unpointed {
+        let counts_steps = cx.control().numbers().unpointed != Unpointed::AsWritten;
+        if unpointed && counts_steps {
             finding = finding
-                .also(cx.letter_range('Q'), "counts the smallest step of the control, without a point");
+                .also(cx.letter_range('Q'), "without a point it may count the smallest step of the control");
         }
         report.add(finding.help("check the unit and the decimal point of `Q`"));
     }
@@ -112,7 +114,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::testing::check_rule;
+    use crate::testing::{World, check_rule, findings, only, words};
 
     #[test]
     fn on_mills_and_in_series() {
@@ -141,5 +143,26 @@ mod tests {
         );
         check_rule(&RULE, "haas-mill", &program("Q.2"), &expect![[""]]);
         check_rule(&RULE, "fanuc-mill", &program("Q2000"), &expect![[""]]);
+    }
+
+    #[test]
+    fn how_far_a_peck_goes() {
+        let program = "G21 G90 G54 G17\nT1 M6\nS900 M3\nG0 X0 Y0 Z10\nG83 Z-600 R2 Q1 F100\nG80\nM2\n";
+        let found = findings(&only(&RULE), "linuxcnc", program, &World::default());
+        expect![[r#"
+            more than 500 pecks in one hole
+              here: a peck goes 1 mm down
+              help: check the unit and the decimal point of `Q`
+        "#]]
+        .assert_eq(&found.iter().map(words).collect::<String>());
+        let program = "G21 G90 G54 G0 X0. Y0. Z10. S900 M3\nG98 G83 Z-60. R2. Q30 F100.\nG80\nM30\n";
+        let found = findings(&only(&RULE), "fanuc-mill", program, &World::default());
+        expect![[r#"
+            more than 500 pecks in one hole
+              here: a peck goes 0.03 mm down
+              there: without a point it may count the smallest step of the control
+              help: check the unit and the decimal point of `Q`
+        "#]]
+        .assert_eq(&found.iter().map(words).collect::<String>());
     }
 }

@@ -7,6 +7,7 @@ use crate::declare::declare_rule;
 use crate::facts::boundary::is_before;
 use crate::facts::cycles::is_tapping;
 use crate::facts::threads::{Wanted, rounding, thread_in_block, thread_in_list, thread_of_tool, trimmed};
+use crate::facts::units;
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 use crate::{Remembers, remembers};
 
@@ -122,8 +123,7 @@ impl PathRule for TappingFeedOffPitch {
             return;
         }
         // A program without units has its feed in those that fit the pitch.
-        let are_written = cx.definitions().set_by(Fact::Mode(Role::Units)).is_some()
-            || cx.environment.machine.units_are_told;
+        let are_written = units::are_stated(cx);
         let in_others = a_turn / units.in_mm() * other(units).in_mm() / thread.pitch;
         if !are_written && (SHORT..=LONG).contains(&in_others) {
             return;

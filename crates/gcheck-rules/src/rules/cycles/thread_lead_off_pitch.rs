@@ -9,7 +9,8 @@ use gcheck_geometry::Mm;
 use crate::declare::declare_rule;
 use crate::facts::cutting::is_thread;
 use crate::facts::threads::{Thread, Wanted, names_unread_thread, thread_in_block, thread_of_tool, trimmed};
-use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
+use crate::facts::units;
+use crate::{Finding, FollowedCx, PathCx, PathRule, Report, Run, Uses, Watch};
 use crate::{Remembers, remembers};
 
 declare_rule! {
@@ -17,8 +18,9 @@ declare_rule! {
     /// that a comment names: the comment of the block, of its operation or its tool, or the title of the program.
     ///
     /// The comment has to give the pitch (`M20X1.5`, `1/2-13`); one nearer to the cut that names a thread in another form (`G3/4`)
-    /// counts before the others, and nothing is reported. Threads of several starts are not looked at: those whose
-    /// comment has the word `START` or `LEAD`, and those with an angle for the start (`Q`) and a lead of some pitches.
+    /// counts before the others, and nothing is reported. The title counts where the program cuts all its threads with one lead.
+    /// Threads of several starts are not looked at: those whose comment says so (`2 START`, `DOUBLE LEAD`, `TWIN`), and those with
+    /// an angle for the start (`Q`) and a lead of some pitches.
     ///
     /// ## Why it matters
     /// The thread has another pitch than the nut: the part is scrap. With a lead far too long, the axis cannot follow the
@@ -55,7 +57,10 @@ declare_rule! {
         severity: Warning,
         tier: Path,
         since: "0.1.0",
-        run: Run::Path { watch: Watch::BLOCKS, make: || Box::new(ThreadLeadOffPitch::default()) },
+        run: Run::Path {
+            watch: Watch::BLOCKS.union(Watch::FOLLOWED),
+            make: || Box::new(ThreadLeadOffPitch::default()),
+        },
     }
 }
 
@@ -63,9 +68,20 @@ declare_rule! {
 struct ThreadLeadOffPitch {
     /// The tools whose threads were reported, by the blocks that put them in.
     told: BTreeSet<Option<At>>,
+    /// Threads that only the title names.
+    by_title: Vec<ByTitle>,
+    /// The leads of the program's threads, as bits.
+    leads: BTreeSet<u64>,
 }
 
-remembers!(ThreadLeadOffPitch: told);
+remembers!(ThreadLeadOffPitch: told, by_title);
+
+#[derive(Clone, PartialEq)]
+struct ByTitle {
+    finding: Finding,
+}
+
+remembers!(ByTitle: finding);
 
 /// For pitches that were rounded.
 const SLACK: f64 = 0.006;
@@ -84,19 +100,19 @@ impl PathRule for ThreadLeadOffPitch {
             return;
         }
         let changed = cx.definitions().set_by(Fact::Tool);
+        let Some((letter, lead)) = lead(cx) else { return };
+        self.leads.insert(lead.to_bits());
         if self.told.contains(&changed) {
             return;
         }
-        let Some((letter, lead)) = lead(cx) else { return };
         let Some(units) = cx.state().units(cx.model) else { return };
-        let Some(thread) = thread(cx, changed) else { return };
+        let Some((thread, is_title)) = thread(cx, changed) else { return };
         let fits = |units: Units| {
             let right = thread.pitch / units.in_mm();
             (lead - right).abs() <= right * SLACK
         };
         // A program that does not state its units has the lead in those that fit the pitch.
-        let is_stated = cx.definitions().set_by(Fact::Mode(gcheck_engine::Role::Units)).is_some()
-            || cx.environment.machine.units_are_told;
+        let is_stated = units::are_stated(cx);
         let has_starts = cx.word('Q').is_some() && {
             let starts = lead * units.in_mm() / thread.pitch;
             starts.round() >= 2.0 && (starts - starts.round()).abs() <= starts * SLACK
@@ -118,7 +134,21 @@ impl PathRule for ThreadLeadOffPitch {
         if let Some(range) = cx.range_of(thread.at) {
             finding = finding.also(range, format!("names the thread: {}", thread.name));
         }
-        report.add(finding);
+        if is_title {
+            self.by_title.push(ByTitle { finding });
+        } else {
+            report.add(finding);
+        }
+    }
+
+    fn followed(&mut self, _: &FollowedCx<'_>, report: &mut Report<'_>) {
+        let by_title = std::mem::take(&mut self.by_title);
+        // With several leads the title's thread is one of them, and nothing tells which.
+        if self.leads.len() == 1 {
+            for thread in by_title {
+                report.add(thread.finding);
+            }
+        }
     }
 }
 
@@ -148,8 +178,8 @@ const ABOVE: u32 = 6;
 /// The title of a program is in its first blocks.
 const HEAD: u32 = 3;
 
-/// The thread that a comment names: the nearest comment counts.
-fn thread(cx: &PathCx<'_>, changed: Option<At>) -> Option<Thread> {
+/// The thread that a comment names, and whether only the title does: the nearest comment counts.
+fn thread(cx: &PathCx<'_>, changed: Option<At>) -> Option<(Thread, bool)> {
     let here = cx.origin().at;
     let begin = changed.filter(|at| at.file == here.file).map_or(0, |at| at.block);
     let is_alone =
@@ -184,7 +214,10 @@ fn thread(cx: &PathCx<'_>, changed: Option<At>) -> Option<Thread> {
         // A title with two threads does not tell which one is cut.
         named.next().filter(|_| named.next().is_none())
     };
-    named(here).or(of_operation).or_else(of_tool).or_else(title)?
+    match named(here).or(of_operation).or_else(of_tool) {
+        Some(thread) => thread.map(|thread| (thread, false)),
+        None => title()?.map(|thread| (thread, true)),
+    }
 }
 
 #[cfg(test)]
@@ -238,6 +271,16 @@ mod tests {
         };
         check_rule(&RULE, "fanuc-lathe", &program("12."), &expect![""]);
         check_rule(&RULE, "fanuc-lathe", &program("2."), &expect![[""]]);
+    }
+
+    #[test]
+    fn a_title_where_the_program_cuts_two_threads() {
+        check_rule(
+            &RULE,
+            "fanuc-lathe",
+            "O100 (SPINDLE NUT M20X1.5)\nG21 G99\nT0303 (THREAD TOOL OD)\nG97 S500 M3\nG0 X34. Z5.\nG92 X29. Z-20. F2.\nG0 X100. Z100.\nT0505 (THREAD TOOL ID)\nG97 S500 M3\nG0 X16. Z5.\nG92 X20. Z-20. F1.5\nG0 Z50.\nM30\n",
+            &expect![[""]],
+        );
     }
 
     #[test]

@@ -6,6 +6,7 @@ use gcheck_engine::{At, Event, Fact, Role};
 use crate::declare::declare_rule;
 use crate::facts::feed::goes_by_feed;
 use crate::facts::live_tool::builders_since;
+use crate::facts::offset_schemes::whole;
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 use crate::{Remembers, remembers};
 
@@ -13,7 +14,8 @@ declare_rule! {
     /// A tool cuts in a tilted working plane (`G68.2`), and neither `G53.1` nor a word for a rotary axis has turned anything: the
     /// plane only tilts the coordinates.
     ///
-    /// Where a rotary axis or an M code of the machine builder comes anywhere before the cut, nothing is reported.
+    /// Where a rotary axis or an M code of the machine builder comes anywhere before the cut, nothing is reported, nor for a plane
+    /// that is only turned about its normal, or that points or vectors give.
     ///
     /// ## Why it matters
     /// The tool keeps its direction, and its path is tilted: it drives into the part at an angle.
@@ -117,13 +119,19 @@ fn may_be_turned(cx: &PathCx<'_>) -> bool {
     builders_since(cx, 0) || (0..=here.block).any(turns)
 }
 
-/// Has the block an angle that is not zero?
+/// Does the block give angles that tilt the plane? Of three Euler angles the second one does, the others turn it about its normal;
+/// of roll, pitch and yaw (`P1`) the first two do. Other ways to give the plane are not read.
 fn tilts(cx: &PathCx<'_>, at: At) -> bool {
-    let is_angle = |word: &gcheck_program::Word| {
-        matches!(word.letter.ascii(), b'I' | b'J' | b'K' | b'R')
-            && word.number().is_some_and(|angle| angle != 0.0)
+    let has = |letter: u8, is: &dyn Fn(f64) -> bool| {
+        cx.find_word(at, |word| word.letter.ascii() == letter && word.number().is_some_and(is)).is_some()
     };
-    cx.find_word(at, is_angle).is_some()
+    let is_given = |letter: u8| cx.find_word(at, |word| word.letter.ascii() == letter).is_some();
+    let turns = |letter: u8| has(letter, &|angle| angle != 0.0);
+    if has(b'P', &|form| whole(form) == Some(1)) {
+        turns(b'I') || turns(b'J')
+    } else {
+        (!is_given(b'P') || has(b'P', &|form| form == 0.0)) && turns(b'J')
+    }
 }
 
 #[cfg(test)]
@@ -154,7 +162,10 @@ mod tests {
         {
             check_rule(&RULE, "fanuc-mill", &program(before, after), &expect![[""]]);
         }
-        let flat = program("", "").replace("J45.", "J0.");
-        check_rule(&RULE, "fanuc-mill", &flat, &expect![[""]]);
+        // Turned about the normal alone, or given by points.
+        for angles in ["I0. J0. K0.", "I0. J0. K45.", "I45. J0. K0.", "P1 I0. J0. K45.", "P2 Q0 R0. J45."] {
+            let flat = program("", "").replace("I0. J45. K0.", angles);
+            check_rule(&RULE, "fanuc-mill", &flat, &expect![[""]]);
+        }
     }
 }

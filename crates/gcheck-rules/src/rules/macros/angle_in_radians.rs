@@ -99,19 +99,22 @@ fn combined(operator: BinaryOp, left: Kind, right: Kind) -> Kind {
     // `57.3` is the number of degrees in a radian.
     let (to_radians, degrees) = (PI / 180.0, 180.0 / PI);
     let is_factor = |kind: Kind| is(kind, PI) || is(kind, to_radians) || kind == Kind::Radians;
+    // Times one of these, before or after pi divides, it is degrees again.
+    let to_degrees = [180.0, 360.0, degrees, degrees / PI];
+    let gives_degrees = |kind: Kind| to_degrees.into_iter().any(|factor| is(kind, factor));
     match operator {
         BinaryOp::Multiply if is_factor(left) != is_factor(right) => {
-            // Times 180, before or after pi divides, it is degrees again.
-            if is(left, 180.0) || is(right, 180.0) || is(left, 360.0) || is(right, 360.0) {
-                Kind::Other
-            } else {
-                Kind::Radians
-            }
+            if gives_degrees(left) || gives_degrees(right) { Kind::Other } else { Kind::Radians }
         }
         BinaryOp::Divide if left == Kind::Radians && !is_factor(right) => Kind::Radians,
         BinaryOp::Divide if is(left, PI) && is(right, 180.0) => Kind::Number(to_radians),
         BinaryOp::Divide if is(left, PI) && !is_factor(right) => Kind::Radians,
         BinaryOp::Divide if is(right, degrees) => Kind::Radians,
+        BinaryOp::Divide => match (left, right) {
+            // `[180./3.14159]` is the number of degrees in a radian.
+            (Kind::Number(left), Kind::Number(right)) => Kind::Number(left / right),
+            _ => Kind::Other,
+        },
         BinaryOp::Add | BinaryOp::Subtract if left == Kind::Radians || right == Kind::Radians => {
             Kind::Radians
         }
@@ -131,7 +134,7 @@ mod tests {
         check_rule(
             &RULE,
             "haas-mill",
-            "G0 X[10.*COS[#1*3.1416/180.]]\n#2=SIN[3.14159/180*#1]\n#3=TAN[#1*0.0174533]\n#4=SIN[#1/57.2958]\n#5=COS[2*3.14159*#6/#7]\nM30\n",
+            "G0 X[10.*COS[#1*3.1416/180.]]\n#2=SIN[3.14159/180*#1]\n#3=TAN[#1*0.0174533]\n#4=SIN[#1/57.2958]\n#5=COS[2*3.14159*#6/#7]\n#8=SIN[#1/[180./3.14159]]\nM30\n",
             &expect![[r#"
                 1 | G0 X[10.*COS[#1*3.1416/180.]]
                   |     ^^^^^^^^^^^^^^^^^^^^^^^^^ warning[angle-in-radians] the angle is converted to radians, and `COS` takes degrees
@@ -143,12 +146,14 @@ mod tests {
                   |    ^^^^^^^^^^^^^^^ warning[angle-in-radians] the angle is converted to radians, and `SIN` takes degrees
                 5 | #5=COS[2*3.14159*#6/#7]
                   |    ^^^^^^^^^^^^^^^^^^^^ warning[angle-in-radians] the angle is converted to radians, and `COS` takes degrees
+                6 | #8=SIN[#1/[180./3.14159]]
+                  |    ^^^^^^^^^^^^^^^^^^^^^^ warning[angle-in-radians] the angle is converted to radians, and `SIN` takes degrees
             "#]],
         );
         check_rule(
             &RULE,
             "linuxcnc",
-            "#2=[SIN[#1] * 3.14159 / 180]\n#3=[COS[#1*180/3.14159]]\n#4=[SIN[#1/[3.14159*50]*360]]\n#5=[SIN[#1/2]]\n#6=[SIN[3.15*#1]]\nM2\n",
+            "#2=[SIN[#1] * 3.14159 / 180]\n#3=[COS[#1*180/3.14159]]\n#4=[SIN[#1/[3.14159*50]*360]]\n#5=[SIN[#1/2]]\n#6=[SIN[3.15*#1]]\n#7=[10*SIN[#1*2*3.14159/#4*57.2958]]\n#8=[SIN[#3*3.14159/#4*57.29578/3.14159]]\n#9=[SIN[#1*3.14159*[180/9.8696]]]\nM2\n",
             &expect![[""]],
         );
     }

@@ -4,12 +4,13 @@ use gcheck_controls::Effect;
 use gcheck_engine::{At, Event, Fact, Role, Units};
 
 use crate::declare::declare_rule;
+use crate::facts::turned::goes_home;
 use crate::{PathCx, PathRule, Report, Run, Severity, Uses, Watch};
 use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// A program changes from inches to millimetres, or back, after it has moved; or a subprogram changes, and its caller
-    /// moves on in units that it did not choose.
+    /// A program changes from inches to millimetres, or back, after it has moved; or a subprogram changes the units that its caller
+    /// has chosen, and the caller moves on. Moves to places of the machine (`G53`, `G28`) do not count.
     ///
     /// ## Why it matters
     /// Everything after it counts 25.4 times as much or as little: positions, and on most controls the feed and the
@@ -114,6 +115,9 @@ impl PathRule for UnitsChanged {
 
 impl UnitsChanged {
     fn moves(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
+        if goes_home(cx) {
+            return;
+        }
         self.has_moved = true;
         let fact = Fact::Mode(Role::Units);
         if self.is_told || cx.depth() != 1 {
@@ -122,7 +126,8 @@ impl UnitsChanged {
         let Some(now) = cx.state().units(cx.model) else { return };
         let set = cx.definitions().set_by(fact);
         let (before, by) = (self.main.replace(now), std::mem::replace(&mut self.main_set, set));
-        let Some(old) = before.filter(|old| *old != now && by != set) else { return };
+        // What the control started with, the program has not chosen.
+        let Some(old) = before.filter(|old| *old != now && by.is_some() && by != set) else { return };
         // Chosen by the main program itself, it was told there.
         if set.is_none() || set == self.own || cx.is_called_only() {
             return;
@@ -181,6 +186,21 @@ mod tests {
         );
         check_rule(&RULE, "fanuc-mill", &program("G21\n", ""), &expect![[""]]);
         check_rule(&RULE, "fanuc-mill", &program("", "G21\n"), &expect![[""]]);
+    }
+
+    #[test]
+    fn a_subprogram_chooses_the_units_for_all() {
+        for first in ["G53 G0 Z0.", "G91 G28 Z0", "G0 Z50."] {
+            check_rule(
+                &RULE,
+                "haas-mill",
+                &format!(
+                    "O1\n{first}\nM98 P8000\nT1 M6\nG54 G0 X10. Y10.\nM30\nO8000\nG21 G90 G40 G80 G49\nM99\n"
+                ),
+                &expect![[""]],
+            );
+        }
+        check_rule(&RULE, "haas-mill", "G20 G53 G0 Z0.\nG21\nG0 X10.\nM30\n", &expect![[""]]);
     }
 
     #[test]

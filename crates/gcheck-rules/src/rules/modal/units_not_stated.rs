@@ -1,10 +1,11 @@
 //! A program that moves before its units are stated.
 
 use gcheck_controls::{Effect, LetterSet};
-use gcheck_engine::{Event, Fact, Role};
+use gcheck_engine::Event;
 
 use crate::declare::declare_rule;
 use crate::facts::modes::ignores_distance_mode;
+use crate::facts::units;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 use crate::{Remembers, remembers};
 
@@ -70,9 +71,7 @@ impl UnitsNotStated {
             return;
         }
         self.is_done = true;
-        let is_stated = cx.definitions().set_by(Fact::Mode(Role::Units)).is_some()
-            || cx.environment.machine.units_are_told
-            || cx.is_after_unknown_program();
+        let is_stated = units::are_stated(cx) || cx.is_after_unknown_program();
         if is_stated || cx.is_called_only() {
             return;
         }

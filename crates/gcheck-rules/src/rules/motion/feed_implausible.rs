@@ -8,13 +8,16 @@ use crate::declare::declare_rule;
 use crate::facts::feed::goes_by_feed;
 use crate::facts::tool_words::ToolWords;
 use crate::facts::turned::{Turned, end};
+use crate::facts::units;
 use crate::{MakeShared, PathCx, PathRule, Report, Run, Watch};
 use crate::{Remembers, remembers};
 
 declare_rule! {
     /// A cut at more than 10 mm (0.4 inch) per turn of the spindle, on a lathe at more than 1.4 mm (0.055 inch), or at less than
-    /// 1 mm (0.04 inch) per minute. On a lathe, moves in the air do not count: outward, before the face, and outside of what was
-    /// turned; nor do knurls and rollers.
+    /// 1 mm (0.04 inch) per minute. On a lathe, moves in the air do not count: outward, before the face, down to it, and outside of
+    /// what was turned; nor do knurls and rollers, bar pullers and live centres, nor taps and dies that are fed by their pitch.
+    ///
+    /// Where the program does not state its units, a feed is reported that is odd in both.
     ///
     /// ## Why it matters
     /// No tool cuts like this: the number is meant for the other feed mode. 300 mm per minute read as 300 mm per turn
@@ -73,6 +76,8 @@ const MOST_A_TURN: f64 = 10.0;
 const MOST_A_TURN_OF_THE_PART: f64 = 1.4;
 /// Millimetres per turn: above this the number is meant for the other mode, below it a point or a zero is wrong.
 const OTHER_MODE: f64 = 3.0;
+/// Millimetres per turn: no thread that a tap or a die cuts is coarser.
+const COARSEST: f64 = 6.5;
 /// Millimetres per minute: less than any useful feed.
 const LEAST_A_MINUTE: f64 = 1.0;
 
@@ -111,15 +116,18 @@ impl FeedImplausible {
         let state = cx.state();
         let Some(feed) = Abstract::known(state.feed()).filter(|feed| *feed > 0.0) else { return };
         let most = if cx.is_mill() { MOST_A_TURN } else { MOST_A_TURN_OF_THE_PART };
-        let is_fast = feed > most;
+        let [least, greatest] = units::range(cx, feed);
+        let is_fast = least > most;
         let (reads, other) = match state.feed_mode(cx.model) {
             Some(FeedMode::PerRevolution) if is_fast => ("per turn of the spindle", "per minute"),
-            Some(FeedMode::PerMinute) if feed < LEAST_A_MINUTE => ("per minute", "per turn of the spindle"),
+            Some(FeedMode::PerMinute) if greatest < LEAST_A_MINUTE => {
+                ("per minute", "per turn of the spindle")
+            }
             _ => return,
         };
         // A mode that the program does not set may differ on the machine; lathes usually start in feed per turn.
         let is_stated = cx.definitions().set_by(Fact::Mode(Role::FeedMode)).is_some();
-        if !is_stated && (cx.is_mill() || !is_fast) || taps(cx) || is_fast && ToolWords::of(cx).rolls() {
+        if !is_stated && (cx.is_mill() || !is_fast) || taps(cx) || is_fast && is_fed_fast(cx, least) {
             return;
         }
         let Some(given) = cx.definitions().set_by(Fact::Feed) else { return };
@@ -135,8 +143,11 @@ impl FeedImplausible {
             return;
         }
         let range = cx.find_word(given, word).unwrap_or_else(|| cx.range());
-        let (label, help) = if is_fast && feed <= OTHER_MODE {
-            ("more than an insert takes".to_owned(), "check the decimal point and the zeros of the number")
+        let (label, help) = if is_fast && least <= OTHER_MODE {
+            (
+                "more than a turning tool takes".to_owned(),
+                "check the decimal point and the zeros of the number",
+            )
         } else {
             (format!("looks meant for {other}"), "check the feed mode and the number")
         };
@@ -154,13 +165,22 @@ impl FeedImplausible {
     }
 }
 
+/// Is the tool one that is fed like this: a knurl, a bar puller, a tap in a floating holder?
+fn is_fed_fast(cx: &PathCx<'_>, feed: f64) -> bool {
+    let words = ToolWords::of(cx);
+    words.rolls() || words.needs_no_spindle() || words.follows_its_pitch() && feed < COARSEST
+}
+
 /// Does the tool of a lathe move in the air, as far as the program shows it?
 fn is_in_air(cx: &PathCx<'_>, event: &Event) -> bool {
     let Event::Travel(travel) = event else { return false };
     let Some(turned) = cx.shared::<Turned>() else { return false };
     // A place that is not known compares as nowhere.
     let from = turned.here().unwrap_or([f64::NAN; 2]);
-    travel.kind != TravelKind::Feed || !travel.expanded && turned.is_in_air(from, end(cx, travel))
+    let to = end(cx, travel);
+    // Outward, a tool for bores cuts.
+    let may_cut = to[0] > from[0] && to[1] < 0.0 && ToolWords::of(cx).may_bore();
+    travel.kind != TravelKind::Feed || !travel.expanded && turned.is_in_air(from, to) && !may_cut
 }
 
 /// A tap is fed by its pitch.
@@ -244,7 +264,54 @@ mod tests {
         ] {
             check_rule(&RULE, "fanuc-lathe", &program("", moves), &expect![[""]]);
         }
-        check_rule(&RULE, "fanuc-lathe", &program("(KNURL)", "G0 X37. Z2.\nG1 Z-20. F2."), &expect![[""]]);
+        for moves in [
+            // Off the diameter, and out of a groove.
+            "G0 X36. Z2.\nG1 Z-20. F.1\nX44. F2.",
+            "G0 X42. Z-30.\nG1 X26. F.1\nX42. F2.",
+            // Down to the face, and back over it.
+            "G0 X44. Z5.\nG1 Z0 F2.\nX-1.6 F.2\nX44. F3.",
+        ] {
+            check_rule(&RULE, "fanuc-lathe", &program("", moves), &expect![[""]]);
+        }
+        for (tool, moves) in [
+            ("(KNURL)", "G0 X37. Z2.\nG1 Z-20. F2."),
+            ("(TAP M12X1.75 FLOATING HOLDER)", "G0 X0. Z8.\nG1 Z-20. F1.75\nM5\nM4\nZ8."),
+            ("(1/2-13 DIE HEAD)", "G0 X0. Z8.\nG1 Z-20. F1.9538"),
+            ("(BAR PULLER)", "G0 X20. Z5.\nG1 Z-20. F5."),
+            ("(LIVE CENTER)", "G0 X0. Z5.\nG1 Z-2. F3."),
+        ] {
+            check_rule(&RULE, "fanuc-lathe", &program(tool, moves), &expect![[""]]);
+        }
+        // For a tap it is meant for the other mode.
+        check_rule(
+            &RULE,
+            "fanuc-lathe",
+            &program("(TAP M12X1.75)", "G0 X0. Z8.\nG1 Z-20. F175."),
+            &expect![[r#"
+                11 | G1 Z-20. F175.
+                   |          ^^^^^ warning[feed-implausible] feed of 175 mm per turn of the spindle (`F`)
+            "#]],
+        );
+        // Along the face.
+        check_rule(
+            &RULE,
+            "fanuc-lathe",
+            &program("", "G0 X44. Z0.\nG1 X-1.6 F2."),
+            &expect![[r#"
+                11 | G1 X-1.6 F2.
+                   |          ^^^ warning[feed-implausible] feed of 2 mm per turn of the spindle (`F`)
+            "#]],
+        );
+        // Outward in a bore.
+        check_rule(
+            &RULE,
+            "fanuc-lathe",
+            &program("(ID RECESS)", "G0 X20. Z2.\nZ-5.\nG1 X26. F2."),
+            &expect![[r#"
+                12 | G1 X26. F2.
+                   |         ^^^ warning[feed-implausible] feed of 2 mm per turn of the spindle (`F`)
+            "#]],
+        );
         // The feed of the approach stays on.
         check_rule(
             &RULE,
@@ -254,6 +321,23 @@ mod tests {
                 11 | G1 X36. Z1. F3.
                    |             ^^^ warning[feed-implausible] feed of 3 mm per turn of the spindle (`F`)
             "#]],
+        );
+    }
+
+    #[test]
+    fn units_that_the_program_does_not_state() {
+        let program =
+            |feed: &str| format!("G99 T0101\nG97 S800 M3\nG0 X42. Z1.\nG1 Z-30. F{feed}\nX44.\nM30\n");
+        // Where they are inches, it is plausible as millimetres.
+        check_rule(&RULE, "haas-lathe", &program(".15"), &expect![[""]]);
+        check_rule(
+            &RULE,
+            "haas-lathe",
+            &program("4."),
+            &expect![[r#"
+            4 | G1 Z-30. F4.
+              |          ^^^ warning[feed-implausible] feed of 4 in per turn of the spindle (`F`)
+        "#]],
         );
     }
 

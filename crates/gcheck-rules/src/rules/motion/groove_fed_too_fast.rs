@@ -1,6 +1,6 @@
 //! A groove that is cut faster than any grooving insert takes.
 
-use gcheck_controls::Letter;
+use gcheck_controls::{Effect, Letter};
 use gcheck_engine::{Abstract, At, Domain, Event, Fact, FeedMode, TravelKind};
 use gcheck_geometry::Mm;
 
@@ -9,11 +9,13 @@ use crate::facts::parting::Parting;
 use crate::facts::tool_words::ToolWords;
 use crate::facts::turned::{Turned, end};
 use crate::facts::turning::is_turned;
+use crate::facts::units;
 use crate::{MakeShared, PathCx, PathRule, Remembers, Report, Run, Uses, Watch, remembers};
 
 declare_rule! {
-    /// A tool of a lathe plunges straight across into a diameter that the program turned, or parts off, at more than 0.5 mm
-    /// (0.02 inch) per turn.
+    /// A tool of a lathe plunges straight across into a diameter that the program turned, by itself or in a cycle (`G75`), or parts
+    /// off what was turned, at more than 0.5 mm (0.02 inch) per turn. Back to the bottom of a groove that is cut already, any feed
+    /// is right.
     ///
     /// ## Why it matters
     /// Grooving and parting inserts take a fifth of that; the insert breaks, and often its holder. Mostly a zero is missing
@@ -89,19 +91,27 @@ impl PathRule for GrooveFedTooFast {
     fn moved(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
         let Some(turned) = Turned::of(cx) else { return };
         let Event::Travel(travel) = event else { return };
-        if travel.kind != TravelKind::Feed || travel.expanded || !turned.knows(cx) {
+        let is_cycle = cx.has_effect(|effect| effect == Effect::GrooveDiameter);
+        if travel.kind != TravelKind::Feed || travel.expanded && !is_cycle || !turned.knows(cx) {
             return;
         }
         let state = cx.state();
-        let is_fast = |feed: &f64| (MOST..=OF_NO_TOOL).contains(feed) && *feed > MOST;
+        let is_fast = |feed: &f64| {
+            let [least, _] = units::range(cx, *feed);
+            least > MOST && least <= OF_NO_TOOL
+        };
         let Some(feed) = Abstract::known(state.feed()).filter(is_fast) else { return };
         if state.feed_mode(cx.model) != Some(FeedMode::PerRevolution) {
             return;
         }
-        let is_groove = turned.here().is_some_and(|from| turned.plunges(from, end(cx, travel)));
-        let is_parting = Parting::of(cx, event).is_some();
+        let to = end(cx, travel);
+        // The strokes of a cycle begin inside the wall, all but the first.
+        let begins = turned.block_begins(cx).filter(|_| travel.expanded);
+        let from = turned.here().map(|[radius, z]| [begins.unwrap_or(radius), z]);
+        let is_groove = from.is_some_and(|from| turned.plunges(from, to)) && !turned.is_cut_at(to);
+        let is_parting = Parting::of(cx, event).is_some_and(|parting| turned.is_parted(&parting));
         let words = ToolWords::of(cx);
-        if !is_groove && !is_parting || words.bores() || words.needs_no_spindle() {
+        if !is_groove && !is_parting || words.bores() || words.rolls() || words.needs_no_spindle() {
             return;
         }
         let Some(given) = cx.definitions().set_by(Fact::Feed) else { return };
@@ -160,6 +170,39 @@ mod tests {
     }
 
     #[test]
+    fn in_pecks() {
+        check_rule(
+            &RULE,
+            "fanuc-lathe",
+            &program("G0 X42. Z-30.\nG75 R.5\nG75 X26. P1000 F.8\nG0 X42."),
+            &expect![[r#"
+                11 | G75 X26. P1000 F.8
+                   |                ^^^ warning[groove-fed-too-fast] a groove is cut at a feed of 0.8 mm per turn (`F`)
+            "#]],
+        );
+    }
+
+    #[test]
+    fn a_rough_face_below_zero() {
+        check_rule(
+            &RULE,
+            "fanuc-lathe",
+            "G21 G18 G99 T0101\nG50 S3000\nG96 S250 M3\nG0 X84. Z-4.\nG1 X-1.6 F.55\nG0 Z1.\nX78.\nG1 Z-60. F.4\nG0 X84.\nX150. Z50.\nM30\n",
+            &expect![[""]],
+        );
+    }
+
+    #[test]
+    fn units_that_the_program_does_not_state() {
+        check_rule(
+            &RULE,
+            "haas-lathe",
+            "G99 T101\nG97 S800 M3\nG0 X44. Z2.\nX38.\nG1 Z-60. F.15\nG0 X44.\nZ50.\nT303\nG0 X42. Z-30.\nG1 X26. F.05\nG0 X42.\nX150. Z50.\nM30\n",
+            &expect![[""]],
+        );
+    }
+
+    #[test]
     fn as_inserts_take_it() {
         for feed in [
             "G0 X42. Z-30.\nG1 X26. F.1\nG0 X42.",
@@ -169,6 +212,11 @@ mod tests {
             "G98\nG0 X42. Z-30.\nG1 X26. F1.2\nG0 X42.\nG99",
             // A finishing pass along the part.
             "G0 X36. Z2.\nG1 Z-40. F.6\nG0 X44.",
+            // Back to the bottom of the groove.
+            "G0 X42. Z-30.\nG1 X34. F.1\nG0 X42.\nG1 X34.2 F1.\nX26. F.1\nX42. F1.",
+            "G0 X42. Z-30.\nG75 R.5\nG75 X26. P2000 F.08\nG0 X42.",
+            // A face at the end of the part.
+            "G0 X42. Z-1.\nG1 X-1.6 F.6\nG0 Z2.",
         ] {
             check_rule(&RULE, "fanuc-lathe", &program(feed), &expect![[""]]);
         }

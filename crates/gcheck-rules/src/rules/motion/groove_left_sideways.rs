@@ -172,7 +172,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::testing::check_rule;
+    use crate::testing::{Called, World, check_rule, check_rule_in};
 
     fn program(plunge: &str, out: &str) -> String {
         format!(
@@ -219,6 +219,14 @@ mod tests {
     fn in_a_wide_groove_the_tool_may_move() {
         let wide = "G1 X26. F.08\nG0 X42.\nZ-32.5\nG1 X26. F.08\nG0 X42.\nZ-35.\nG1 X26. F.08";
         check_rule(&RULE, "fanuc-lathe", &program(wide, "G0 Z-34."), &expect![[""]]);
+    }
+
+    #[test]
+    fn a_program_of_another_file_drew_it_out() {
+        let retract = Called(9000, "O9000\nG0 X150.\nZ100.\nM99\n");
+        let world = World { programs: &retract, ..World::default() };
+        let program = program("G1 X26. F.08\nM98 P9000", "G0 Z50.");
+        check_rule_in(&RULE, "fanuc-lathe", &program, &world, &expect![[""]]);
     }
 
     #[test]

@@ -14,7 +14,8 @@ use crate::{Remembers, remembers};
 
 declare_rule! {
     /// A rapid move right after a cut lowers Z and leaves all other axes where they are, and the tool comes up again without a
-    /// cut. With the length along a tilting tool (`G143`, `G43.4`), the move is reported whatever follows.
+    /// cut. A stop of the program and a tool change between show that the operator has something to do there, and nothing is
+    /// reported. With the length along a tilting tool (`G143`, `G43.4`), the move is reported whatever follows.
     ///
     /// ## Why it matters
     /// A cut ends on the part, and below it is the part: the tool is driven into it at rapid. Mostly the point of a retract
@@ -71,7 +72,10 @@ declare_rule! {
         severity: Warning,
         tier: Path,
         since: "0.1.0",
-        run: Run::Path { watch: Watch::MOVES, make: || Box::new(RapidDownFromCut::default()) },
+        run: Run::Path {
+            watch: Watch::MOVES.union(Watch::CHANGES),
+            make: || Box::new(RapidDownFromCut::default()),
+        },
     }
 }
 
@@ -104,6 +108,14 @@ const SAME: f64 = 0.001;
 impl PathRule for RapidDownFromCut {
     fn memory(&mut self) -> Remembers<'_> {
         Remembers::All(self)
+    }
+
+    fn changed(&mut self, _: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
+        // Places of another work offset or shift are others.
+        let is_elsewhere = matches!(event, Event::WorkOffset { .. } | Event::Shift(_));
+        if is_elsewhere || matches!(event, Event::Stop(_) | Event::StartChange | Event::ToolChange(_)) {
+            (self.last, self.waiting) = (None, None);
+        }
     }
 
     fn moved(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
@@ -238,6 +250,9 @@ mod tests {
             "G1 Z9. X20.\nG0 Z2.\nZ25.",
             // After a feed move straight down.
             "G1 Z-6.\nG0 Z-8.\nZ25.",
+            // The operator moves a clamp, or another work offset counts.
+            "G0 Z-12.\nM0\nG0 Z50.",
+            "G0 G55 Z-8.\nZ50.",
             // What comes between is unknown.
             "G0 Z-8.\nG65 P9999\nG0 Z25.",
         ] {

@@ -183,7 +183,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::testing::check_rule;
+    use crate::testing::{Called, World, check_rule, check_rule_in};
 
     fn program(comment: &str, moves: &str) -> String {
         format!("G21 G99 G40\nT0101 {comment}\nG97 S900 M3\n{moves}\nG0 X150. Z100.\nM30\n")
@@ -328,5 +328,25 @@ mod tests {
         "#]],
         );
         check_rule(&RULE, "fanuc-lathe", &program("", &format!("{roughed}G0 Z-10.\nX30.")), &expect![[""]]);
+    }
+
+    #[test]
+    fn a_program_of_another_file_changes_or_cuts_the_part() {
+        let program = "G20 G18 G99 T101\nG97 S800 M3\nG0 X1.7 Z.1\nX1.5\nG1 Z-2.4 F.01\nG0 X1.7\nX4. Z4.\nM98 P9002\nG97 S800 M3\nT202\nG0 X1.6 Z.1\nX1. Z-.5\nG1 Z-.9 F.01\nG0 X4.\nZ4.\nM30\n";
+        for (text, expected) in [
+            ("O9002\nM5\nM11\nG4 P2.\nM10\nM99\n", expect![[""]]),
+            ("O9002\nG0 X1.6 Z-.5\nG1 X.9 F.01\nG0 X4.\nZ4.\nM99\n", expect![[""]]),
+            (
+                "O9002\nG0 X8. Z8.\nM99\n",
+                expect![[r#"
+                12 | X1. Z-.5
+                   | ^^^^^^^^ warning[rapid-into-turned-part] rapid move into the part, through a surface that was turned
+            "#]],
+            ),
+        ] {
+            let called = Called(9002, text);
+            let world = World { programs: &called, ..World::default() };
+            check_rule_in(&RULE, "haas-lathe", program, &world, &expected);
+        }
     }
 }

@@ -4,8 +4,10 @@ use gcheck_controls::{Effect, LetterSet};
 use gcheck_engine::{At, Event, Fact, TravelKind};
 
 use crate::declare::declare_rule;
+use crate::facts::lasting::calls_elsewhere;
 use crate::facts::live_tool::builders_since;
-use crate::facts::parting::Parting;
+use crate::facts::parting::{Along, Parting};
+use crate::facts::second_spindle::has_second_spindle;
 use crate::facts::tool_words::ToolWords;
 use crate::facts::turned::{Spot, end, is_other_part, spot};
 use crate::facts::turning::{is_turned, turns_the_part};
@@ -13,7 +15,8 @@ use crate::{PathCx, PathRule, Remembers, Report, Run, Uses, Watch, remembers};
 
 declare_rule! {
     /// A tool of a lathe turns a part that the program has turned and then cut off, with nothing between: no bar feed, no stop, no
-    /// chuck, no other work offset, no M code of the machine builder.
+    /// chuck, no other work offset, no M code of the machine builder, no program of another file. Programs with codes for a
+    /// second spindle are not judged: it may have taken the part over.
     ///
     /// ## Why it matters
     /// The part is gone. The tool cuts air, or runs at rapid into the bar if the bar was fed by hand.
@@ -67,24 +70,16 @@ declare_rule! {
     }
 }
 
-#[derive(Default, Clone, PartialEq)]
+#[derive(Clone, PartialEq)]
 struct TurnedAfterCutOff {
-    /// How far along the part was turned.
-    turned: Option<Turned>,
+    turned: Along,
     /// The cut that took it off, with the tool that made it.
     off: Option<(Parting, Option<At>)>,
 }
 
 remembers!(TurnedAfterCutOff: off);
 
-/// What was turned along Z: millimetres.
-#[derive(Clone, Copy, PartialEq)]
-struct Turned {
-    least: f64,
-    most: f64,
-}
-
-/// The shortest part, and the shortest cut along it that counts: millimetres.
+/// The shortest cut along the part that counts: millimetres.
 const SHORT: f64 = 3.0;
 /// Levels that differ by less are one: millimetres.
 const SLACK: f64 = 0.1;
@@ -95,14 +90,17 @@ impl PathRule for TurnedAfterCutOff {
     }
 
     fn concerns(&self, program: &Uses<'_>) -> bool {
-        is_turned(program)
+        is_turned(program) && !has_second_spindle(program)
     }
 
     fn block(&mut self, cx: &PathCx<'_>, _: &mut Report<'_>) {
         // What a shift by increments does is not in the positions.
         let shifts = cx.has_effect(|effect| effect == Effect::SpeedLimitOrSetPosition)
             && cx.origin().letters.intersects(LetterSet::of("XZUW"));
-        if shifts {
+        // What a program of another file does is not shown, and it may feed the bar.
+        let here = cx.range();
+        let leaves_file = || calls_elsewhere(cx.file_index).any(|at| here.contains(&at));
+        if shifts || self.off.is_some() && leaves_file() {
             self.forget();
         }
     }
@@ -144,15 +142,16 @@ impl PathRule for TurnedAfterCutOff {
             return;
         }
         if let Some(parting) = Parting::of(cx, event) {
-            // What is faced at its end was not turned before.
-            let is_turned = self
-                .turned
-                .is_some_and(|turned| turned.least < parting.z.0 / 2.0 && turned.most > parting.z.0 / 2.0);
-            self.off = Some((parting, tool)).filter(|_| is_turned && parting.z.0 < -SHORT);
+            self.off = Some((parting, tool)).filter(|_| self.turned.is_parted(&parting));
         } else if from[1] - to[1] > SHORT && to[0] > SHORT {
-            let before = self.turned.unwrap_or(Turned { least: 0.0, most: f64::NEG_INFINITY });
-            self.turned = Some(Turned { least: before.least.min(to[1]), most: before.most.max(from[1]) });
+            self.turned.add(from[1], to[1]);
         }
+    }
+}
+
+impl Default for TurnedAfterCutOff {
+    fn default() -> Self {
+        Self { turned: Along::NOTHING, off: None }
     }
 }
 
@@ -202,7 +201,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::testing::{World, check_rule, findings, only, words};
+    use crate::testing::{Called, World, check_rule, check_rule_in, findings, only, words};
 
     fn program(between: &str, after: &str) -> String {
         format!(
@@ -236,6 +235,36 @@ mod tests {
         for between in ["M11\nM10\n", "G105 J1.75\n"] {
             check_rule(&RULE, "haas-lathe", &program(between, cut), &expect![[""]]);
         }
+    }
+
+    #[test]
+    fn a_second_spindle_took_it_over() {
+        let program = |head: &str, between: &str| {
+            program(between, "G1 Z-20. F.1\nX40.")
+                .replace("G97 S800 M3\nG0 X38. Z2.", &format!("G97 S800 M3\n{head}G0 X38. Z2."))
+        };
+        for between in ["G14\n", "G199\n", "M110\n"] {
+            check_rule(&RULE, "haas-lathe", &program("", between), &expect![[""]]);
+            check_rule(&RULE, "haas-lathe", &program(between, ""), &expect![[""]]);
+        }
+        // In the safe line of a program for one spindle.
+        check_rule(
+            &RULE,
+            "haas-lathe",
+            &program("G15\n", ""),
+            &expect![[r#"
+            14 | G1 Z-20. F.1
+               | ^^^^^^^^^^^^ warning[turned-after-cut-off] the part is turned after it was cut off
+        "#]],
+        );
+    }
+
+    #[test]
+    fn another_file_may_feed_the_bar() {
+        let feed = Called(9000, "O9000\nM11\nG4 P1.\nM10\nM99\n");
+        let world = World { programs: &feed, ..World::default() };
+        let program = program("M98 P9000\n", "G1 Z-20. F.1\nX40.");
+        check_rule_in(&RULE, "fanuc-lathe", &program, &world, &expect![[""]]);
     }
 
     #[test]

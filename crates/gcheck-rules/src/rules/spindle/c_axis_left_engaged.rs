@@ -5,12 +5,13 @@ use gcheck_engine::At;
 
 use crate::declare::declare_rule;
 use crate::facts::cutting::starts_spindle;
+use crate::facts::second_spindle::swaps;
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 use crate::{Remembers, remembers};
 
 declare_rule! {
     /// The program starts the spindle for turning, and the C axis is still engaged: `M154` without `M155`. Controls whose data name
-    /// no such codes are not judged.
+    /// no such codes are not judged. On many machines the start of the spindle releases the axis by itself, so this is an information.
     ///
     /// ## Why it matters
     /// The spindle is an axis: it keeps its angle or stops with an alarm. What a machine does depends on its make and
@@ -45,7 +46,7 @@ declare_rule! {
     /// ```
     rule "c-axis-left-engaged" in "spindle" {
         summary: "spindle started for turning with the C axis engaged",
-        severity: Warning,
+        severity: Info,
         tier: Path,
         since: "0.1.0",
         run: Run::Path { watch: Watch::BLOCKS, make: || Box::new(CAxisLeftEngaged { engaged: None }) },
@@ -81,10 +82,10 @@ impl PathRule for CAxisLeftEngaged {
             if is_own && !code.entry().cancelled_by.is_empty() {
                 self.engaged = Some(cx.origin().at);
             }
-            // What the machine builder made of a code may release it.
+            // What the machine builder made of a code may release it. Another spindle has an axis of its own.
             is_released |= is_own && code.entry().cancelled_by.is_empty() || code.is_user();
         }
-        if is_released {
+        if is_released || swaps(cx) {
             self.engaged = None;
         }
         let starts = |effect| starts_spindle(effect) && effect != gcheck_controls::Effect::LiveToolOn;
@@ -136,11 +137,11 @@ mod tests {
             "haas-lathe",
             &program(""),
             &expect![[r#"
-            7 | G99 G97 S500 M3
-              |              ^^ warning[c-axis-left-engaged] the spindle starts with the C axis engaged (`M154`)
-        "#]],
+                7 | G99 G97 S500 M3
+                  |              ^^ info[c-axis-left-engaged] the spindle starts with the C axis engaged (`M154`)
+            "#]],
         );
-        for between in ["M155\n", "M98 P77\n"] {
+        for between in ["M155\n", "M98 P77\n", "G14\n"] {
             check_rule(&RULE, "haas-lathe", &program(between), &expect![[""]]);
         }
     }

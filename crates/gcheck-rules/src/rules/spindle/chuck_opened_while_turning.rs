@@ -1,14 +1,17 @@
 //! A chuck that opens while the spindle turns.
 
-use gcheck_controls::Effect;
-use gcheck_engine::{At, Event, Fact, Spindle};
+use gcheck_controls::{Code, Confidence, Effect};
+use gcheck_engine::{Event, Fact, Spindle};
 
 use crate::declare::declare_rule;
-use crate::{PathCx, PathRule, Remembers, Report, Run, Uses, Watch, remembers};
+use crate::facts::second_spindle::has_second_spindle;
+use crate::facts::tool_comment::comments_in;
+use crate::{PathCx, PathRule, Remembers, Report, Run, Severity, Uses, Watch, remembers};
 
 declare_rule! {
     /// The chuck opens (`M11`) while the spindle turns. Programs for two spindles are not judged: there the other chuck holds the
-    /// part, and both turn together.
+    /// part, and both turn together. Where the machine builder decides what the code does, the finding is an information, unless a
+    /// comment beside the code names something else: a parts catcher, a tailstock, a brake.
     ///
     /// ## Why it matters
     /// The part is thrown out of the jaws, or the machine stops with an alarm.
@@ -50,17 +53,13 @@ struct ChuckOpenedWhileTurning {
 
 remembers!(ChuckOpenedWhileTurning);
 
-/// The modal groups of the codes for a second spindle.
-const SECOND: [&str; 5] =
-    ["secondary-spindle", "secondary-chuck", "secondary-spindle-brake", "spindle-swap", "spindle-sync"];
-
 impl PathRule for ChuckOpenedWhileTurning {
     fn memory(&mut self) -> Remembers<'_> {
         Remembers::All(self)
     }
 
     fn concerns(&self, program: &Uses<'_>) -> bool {
-        program.may(opens)
+        program.may(opens) && !has_second_spindle(program)
     }
 
     fn changed(&mut self, _: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
@@ -75,16 +74,17 @@ impl PathRule for ChuckOpenedWhileTurning {
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
         let turns = matches!(cx.state().spindle(), Some(Spindle::Clockwise | Spindle::CounterClockwise));
         let is_known = cx.is_certain();
-        if !cx.has_effect(opens)
-            || !turns
-            || self.is_oriented
-            || !is_known
-            || stops_in_block(cx)
-            || has_second_spindle(cx)
-        {
+        if !cx.has_effect(opens) || !turns || self.is_oriented || !is_known || stops_in_block(cx) {
             return;
         }
-        let name = cx.name_of_effect(Effect::ChuckUnclamp).unwrap_or_default();
+        let codes = cx.codes();
+        let code = codes.iter().copied().find(|ix| opens(cx.model.effect(*ix)));
+        let Some(code) = code.and_then(|ix| cx.code_of(ix)) else { return };
+        let is_sure = !is_builders(code);
+        if !is_sure && names_something_else(cx) {
+            return;
+        }
+        let name = code.number().to_string();
         let stop = cx.name_of_effect(Effect::SpindleStop).unwrap_or_default();
         let finding = cx
             .finding(
@@ -94,7 +94,12 @@ impl PathRule for ChuckOpenedWhileTurning {
             )
             .label("lets the part go")
             .help(format!("stop the spindle with `{stop}` before this block"));
-        report.add(cx.resting_on(finding, Fact::Spindle, "the spindle"));
+        let finding = cx.resting_on(finding, Fact::Spindle, "the spindle");
+        report.add(if is_sure {
+            finding
+        } else {
+            finding.at_most(Severity::Info).assuming(format!("`{name}` opens the chuck on this machine"))
+        });
     }
 }
 
@@ -105,19 +110,39 @@ fn opens(effect: Effect) -> bool {
 /// The block may stop the spindle first, or its effect is unknown.
 fn stops_in_block(cx: &PathCx<'_>) -> bool {
     cx.has_effect(|effect| matches!(effect, Effect::SpindleStop | Effect::BarFeed))
-        || cx.codes().iter().filter_map(|ix| cx.code_of(*ix)).any(gcheck_controls::Code::is_user)
+        || cx.codes().iter().filter_map(|ix| cx.code_of(*ix)).any(Code::is_user)
 }
 
-fn has_second_spindle(cx: &PathCx<'_>) -> bool {
-    let here = cx.origin().at;
-    (0..here.block).any(|block| {
-        cx.place_of(At { block, ..here }).is_some_and(|place| {
-            let words = place.table.words(place.block());
-            words
-                .iter()
-                .filter_map(|word| cx.code_of(word.code))
-                .any(|code| SECOND.contains(&code.entry().group.as_str()))
-        })
+/// Does the machine builder decide what the code does?
+fn is_builders(code: Code<'_>) -> bool {
+    code.entry().group == "m-user" || code.entry().confidence == Confidence::Assumed
+}
+
+/// Does a comment of the block say that its code moves something else than the chuck?
+fn names_something_else(cx: &PathCx<'_>) -> bool {
+    const OTHERS: [&str; 18] = [
+        "CATCHER",
+        "CATCH",
+        "TRAY",
+        "CONVEYOR",
+        "TAILSTOCK",
+        "QUILL",
+        "CENTER",
+        "CENTRE",
+        "STEADY",
+        "REST",
+        "BRAKE",
+        "AXIS",
+        "DOOR",
+        "AIR",
+        "PROBE",
+        "ARM",
+        "SETTER",
+        "TURRET",
+    ];
+    comments_in(cx, cx.origin().at).is_some_and(|comment| {
+        let comment = comment.to_ascii_uppercase();
+        comment.split(|c: char| !c.is_ascii_alphanumeric()).any(|word| OTHERS.contains(&word))
     })
 }
 
@@ -144,6 +169,33 @@ mod tests {
         .assert_eq(&found.iter().map(words).collect::<String>());
         for before in ["M5\n", "M0\n", "M19\n", "M143 P1200\nG199\nM110\n", "G65 P9077\n"] {
             check_rule(&RULE, "haas-lathe", &program(before), &expect![[""]]);
+        }
+    }
+
+    #[test]
+    fn a_code_that_the_machine_builder_gave_its_meaning() {
+        let program =
+            |code: &str| format!("G21 G99 T0101\nG97 S800 M3\nG0 X42. Z2.\n{code}\nG0 X100. Z100.\nM30\n");
+        let found = findings(&only(&RULE), "fanuc-lathe", &program("M69"), &World::default());
+        expect![[r#"
+            the chuck opens while the spindle turns (`M69`)
+              here: lets the part go
+              there: the spindle set here
+              assuming: `M69` opens the chuck on this machine
+              help: stop the spindle with `M5` before this block
+        "#]]
+        .assert_eq(&found.iter().map(words).collect::<String>());
+        check_rule(
+            &RULE,
+            "fanuc-lathe",
+            &program("M11"),
+            &expect![[r#"
+            4 | M11
+              | ^^^ info[chuck-opened-while-turning] the chuck opens while the spindle turns (`M11`)
+        "#]],
+        );
+        for code in ["M11 (PARTS CATCHER IN)", "M69 (TAILSTOCK BACK)"] {
+            check_rule(&RULE, "fanuc-lathe", &program(code), &expect![[""]]);
         }
     }
 }

@@ -2,18 +2,22 @@
 
 use std::ops::Range;
 
-use gcheck_controls::Effect;
+use gcheck_controls::{Effect, Letter};
 use gcheck_engine::{At, Axis, Event, Fact, Role, Spindle, TravelKind};
 
 use crate::declare::declare_rule;
+use crate::facts::boundary::is_before;
 use crate::facts::live_tool::may_be_live;
+use crate::facts::tool_words::ToolWords;
+use crate::facts::turned::goes_home;
 use crate::facts::turning::{is_turned, turns_the_part};
 use crate::{Finding, PathCx, PathRule, Report, Run, Uses, Watch};
 use crate::{Remembers, remembers};
 
 declare_rule! {
     /// A lathe drills along its centre while the spindle keeps a constant surface speed (`G96`): a feed move along Z at `X0` into
-    /// the part, after which the tool comes straight out.
+    /// the part, after which the tool comes straight out. A limit of the speed that the tool gets after it came in (`G50 S800`) is
+    /// the drill's own speed, and nothing is reported.
     ///
     /// ## Why it matters
     /// The control computes the speed from the distance to the centre, and there it is as high as the limit allows: several
@@ -55,7 +59,10 @@ declare_rule! {
         severity: Warning,
         tier: Path,
         since: "0.1.0",
-        run: Run::Path { watch: Watch::MOVES, make: || Box::new(DrillAtSurfaceSpeed::default()) },
+        run: Run::Path {
+            watch: Watch::MOVES.union(Watch::BLOCKS),
+            make: || Box::new(DrillAtSurfaceSpeed::default()),
+        },
     }
 }
 
@@ -65,9 +72,11 @@ struct DrillAtSurfaceSpeed {
     told: Option<At>,
     /// The tool is in the part, on its centre: it may be a bar that turns outward from there.
     waiting: Option<Waiting>,
+    /// The block that last limited the speed.
+    limited: Option<At>,
 }
 
-remembers!(DrillAtSurfaceSpeed: told, waiting);
+remembers!(DrillAtSurfaceSpeed: told, waiting, limited);
 
 #[derive(Clone, PartialEq)]
 struct Waiting {
@@ -92,6 +101,13 @@ impl PathRule for DrillAtSurfaceSpeed {
         is_turned(program) && program.may(|effect| effect == Effect::SurfaceSpeed)
     }
 
+    fn block(&mut self, cx: &PathCx<'_>, _: &mut Report<'_>) {
+        let limits = |effect| effect == Effect::SpeedLimitOrSetPosition;
+        if cx.has_effect(limits) && cx.origin().letters.contains(Letter::of('S')) {
+            self.limited = Some(cx.origin().at);
+        }
+    }
+
     fn moved(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
         let waiting = self.waiting.take();
         let Event::Travel(travel) = event else { return };
@@ -101,7 +117,9 @@ impl PathRule for DrillAtSurfaceSpeed {
         let is_along = is_centre(from.raw(Axis::X)) && is_centre(to.raw(Axis::X));
         let down = from.raw(Axis::Z) - to.raw(Axis::Z);
         if let Some(waiting) = waiting.filter(|_| is_along) {
-            if down < 0.0 && travel.kind == TravelKind::Rapid {
+            // A bar that turns outward from the bottom of a bore does not come out along the centre.
+            let is_out = down < 0.0 && (travel.kind == TravelKind::Rapid || to.raw(Axis::Z) > -DEEP);
+            if is_out || goes_home(cx) {
                 self.told = waiting.tool;
                 report.add(waiting.finding);
             } else {
@@ -126,6 +144,10 @@ impl DrillAtSurfaceSpeed {
         let is_by_surface = state.effect(Role::SpindleMode, cx.model) == Some(Effect::SurfaceSpeed);
         let is_set = cx.definitions().set_by(fact).is_some();
         if !is_by_surface || !is_set || is_told || !turns || !turns_the_part(cx) || may_be_live(cx) {
+            return None;
+        }
+        let is_own_limit = self.limited.zip(tool).is_some_and(|(limited, tool)| is_before(tool, limited));
+        if is_own_limit || ToolWords::of(cx).needs_no_spindle() {
             return None;
         }
         let name = cx.code_name(Role::SpindleMode)?;
@@ -170,14 +192,43 @@ mod tests {
         check_rule(
             &RULE,
             "haas-lathe",
-            &program("G50 S3000\nG96 S150", "G83 Z-30. R2. Q5. F.1\nG80"),
+            &program("G96 S150", "G83 Z-30. R2. Q5. F.1\nG80"),
             &expect![[r#"
-                5 | G83 Z-30. R2. Q5. F.1
+                4 | G83 Z-30. R2. Q5. F.1
                   | ^^^^^^^^^^^^^^^^^^^^^ warning[drill-at-surface-speed] the centre is drilled at constant surface speed (`G96`)
             "#]],
         );
         for hole in ["G1 Z-10. F.1\nG0 Z1.", "G83 Z-30. R2. Q5. F.1\nG80"] {
             check_rule(&RULE, "haas-lathe", &program("G97 S900", hole), &expect![[""]]);
+        }
+    }
+
+    #[test]
+    fn however_the_drill_comes_out() {
+        for out in ["G1 Z5. F2.\nG0 X150. Z100.", "G28 W0.\nG28 U0."] {
+            check_rule(
+                &RULE,
+                "fanuc-lathe",
+                &format!("G21 G99 T0404\nG96 S150 M3\nG0 X0. Z3.\nG1 Z-40. F.1\n{out}\nM30\n"),
+                &expect![[r#"
+                    4 | G1 Z-40. F.1
+                      | ^^^^^^^^^^^^ warning[drill-at-surface-speed] the centre is drilled at constant surface speed (`G96`)
+                "#]],
+            );
+        }
+    }
+
+    #[test]
+    fn a_limit_of_its_own_and_a_live_centre() {
+        for (comment, limit) in [("(DRILL 20)", "G50 S800\n"), ("(LIVE CENTER)", "")] {
+            check_rule(
+                &RULE,
+                "fanuc-lathe",
+                &format!(
+                    "G21 G99 T0404 {comment}\n{limit}G96 S150 M3\nG0 X0. Z3.\nG1 Z-40. F.1\nG0 Z5.\nX150. Z100.\nM30\n"
+                ),
+                &expect![[""]],
+            );
         }
     }
 

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use gcheck_controls::Effect;
-use gcheck_engine::{Abstract, Domain, Event, Fact, Role};
+use gcheck_engine::{Abstract, At, Domain, Event, Fact, Role};
 
 use crate::declare::declare_rule;
 use crate::facts::boundary::is_before;
@@ -84,6 +84,7 @@ declare_rule! {
                 pairs: Pairs::new(),
                 listed: BTreeSet::new(),
                 called: Some(BTreeSet::new()),
+                own: None,
             }),
         },
     }
@@ -96,9 +97,11 @@ struct LengthOffsetOfAnotherTool {
     listed: BTreeSet<u32>,
     /// Tools that the program calls; `None` when it calls one whose number is not known.
     called: Option<BTreeSet<u32>>,
+    /// Where the tool came that last worked with the offset of its own number, and where its speed was given.
+    own: Option<(Option<At>, Option<At>)>,
 }
 
-remembers!(LengthOffsetOfAnotherTool: pairs);
+remembers!(LengthOffsetOfAnotherTool: pairs, own);
 
 impl PathRule for LengthOffsetOfAnotherTool {
     fn memory(&mut self) -> Remembers<'_> {
@@ -117,10 +120,16 @@ impl PathRule for LengthOffsetOfAnotherTool {
         }
         let (tool, offset) = (Abstract::known(state.tool()), Abstract::known(state.h()));
         let (Some(tool), Some(offset)) = (tool.and_then(whole), offset.and_then(whole)) else { return };
+        let now = (cx.definitions().set_by(Fact::Tool), cx.definitions().set_by(Fact::Speed));
+        // The same tool goes on at the same speed with a second offset. With a new speed it is meant to be another tool.
+        let is_second = self.own == Some(now);
+        if tool == offset {
+            self.own = Some(now);
+        }
         let letter = if by_t { 'T' } else { 'H' };
         let of_list = &mut self.listed;
         self.pairs.add(tool, offset, cx.definitions().set_by(Fact::Tool), || {
-            if tool != offset && listed(cx, offset).is_some() {
+            if tool != offset && !is_second && listed(cx, offset).is_some() {
                 of_list.insert(offset);
             }
             let (given, changed) =
@@ -178,8 +187,10 @@ impl PathRule for LengthOffsetOfAnotherTool {
             );
         }
         for (finding, scheme) in self.pairs.take_odd('H', !by_t) {
-            // A tool may have a second offset, but for one that a list at the head gives to another tool.
-            let is_listed = u32::try_from(scheme.owner).is_ok_and(|owner| self.listed.contains(&owner));
+            // A tool may have a second offset, but for one that a list at the head gives to another tool. Tens more than its own
+            // is how second offsets are numbered.
+            let is_listed = u32::try_from(scheme.owner).is_ok_and(|owner| self.listed.contains(&owner))
+                && (scheme.owner - scheme.expected) % 10 != 0;
             let is_unsure = scheme.is_unsure && !is_listed;
             let finding = finding.at_most(if is_unsure { Severity::Info } else { Severity::Warning });
             report.add(
@@ -266,6 +277,21 @@ mod tests {
                |     ^^ info[length-offset-of-another-tool] tool 3 works with length offset 4 (`H4`, `T3`)
         "#]],
         );
+    }
+
+    #[test]
+    fn a_second_offset_has_the_number_of_a_tool_of_the_list() {
+        let mill = |second: &str| {
+            format!(
+                "(T1 KEYSEAT CUTTER)\n(T2 DRILL)\n(T5 REAM)\n(T21 TAP M8)\nT1 M6\nG43 H1 Z1.\nG1 Z0. F5.\n{second}G1 Z-5.\nG0 Z50.\nT2 M6\nG43 H2 Z1.\nG1 Z0.\nM30\n"
+            )
+        };
+        // With its own number before it, or tens more.
+        for second in ["G43 H21 Z1.\n", "G43 H5 Z1.\n"] {
+            check_rule(&RULE, "haas-mill", &mill(second), &expect![[""]]);
+        }
+        let lathe = "(T1 GROOVE LEFT EDGE)\n(T2 TURN)\n(T11 DRILL)\nG21 G99\nT0202\nG1 Z-20. F.2\nT0101\nG1 X30. F.1\nT0111\nG1 X30. F.1\nM30\n";
+        check_rule(&RULE, "fanuc-lathe", lathe, &expect![[""]]);
     }
 
     #[test]
