@@ -4,11 +4,11 @@
 //! collects [`Evidence`] from comments, codes and forms of syntax.
 
 use crate::Hint;
-use crate::UnsupportedDialect;
 use crate::loader::all_control_files;
 use crate::schema::ControlFile;
 use crate::unsupported::{OtherControl, other_controls};
 use crate::whole_word::Words;
+use crate::{SyntaxForm, UnsupportedDialect};
 
 /// What a program shows of itself.
 #[derive(Debug, Clone, Default)]
@@ -17,8 +17,8 @@ pub struct Evidence {
     pub comments: Vec<String>,
     /// Codes the program uses, canonical (`G154`).
     pub codes: Vec<String>,
-    /// Forms of syntax the program uses, by the names that [`crate::Hint::form`] lists.
-    pub forms: Vec<String>,
+    /// Forms of syntax the program uses.
+    pub forms: Vec<SyntaxForm>,
     /// How the name of its file ends, without the dot, in lower case; `None` where it has no name.
     pub extension: Option<String>,
     /// It is of a dialect that no control here reads.
@@ -30,7 +30,7 @@ pub struct Evidence {
 pub struct Guess {
     /// The control's name.
     pub control: String,
-    /// The piece of the program that counted most, as written: a comment's text, a code, a form, or the end of its name.
+    /// The piece of the program that counted most: a comment, a code or the end of its name, as written, or a form in words.
     pub because: String,
     /// Another control that the program speaks for nearly as much.
     pub rival: Option<String>,
@@ -71,22 +71,27 @@ fn scores_with(evidence: &Evidence, comments: &Comments<'_>) -> Vec<Score> {
 }
 
 /// The comments of a program, made ready for many words to be looked for.
-struct Comments<'e>(Vec<(&'e str, Words)>);
+struct Comments<'e> {
+    all: Vec<(&'e str, Words)>,
+    forms: &'e [SyntaxForm],
+}
 
 impl<'e> Comments<'e> {
     fn of(evidence: &'e Evidence) -> Self {
-        Self(evidence.comments.iter().map(|comment| (comment.as_str(), Words::of(comment))).collect())
+        let all = evidence.comments.iter().map(|comment| (comment.as_str(), Words::of(comment))).collect();
+        Self { all, forms: &evidence.forms }
     }
 
     /// The first one that has a word, as written.
     fn with(&self, word: &str) -> Option<&'e str> {
-        self.0.iter().find(|(_, words)| words.have(word)).map(|(comment, _)| *comment)
+        self.all.iter().find(|(_, words)| words.have(word)).map(|(comment, _)| *comment)
     }
 
     /// The foreign control that one of them names, unless its programs are read as those of `control`.
     fn foreign_unlike(&self, control: &str) -> Option<Foreign> {
-        let mut others =
-            other_controls().iter().filter(|other| !other.like.iter().any(|like| like == control));
+        let is_possible = |other: &&OtherControl| !other.without.iter().any(|form| self.forms.contains(form));
+        let is_unlike = |other: &&OtherControl| !other.like.iter().any(|like| like == control);
+        let mut others = other_controls().iter().filter(is_possible).filter(is_unlike);
         let told = |other: &OtherControl| {
             let comment = other.comments.iter().find_map(|word| self.with(word))?;
             Some(Foreign { name: other.name.clone(), comment: format!("({comment})") })
@@ -103,7 +108,7 @@ fn score(control: &str, hints: &[Hint], evidence: &Evidence, comments: &Comments
         let found = match (&hint.comment, &hint.code, &hint.form) {
             (Some(text), _, _) => comments.with(text).map(|comment| format!("({comment})")),
             (None, Some(code), _) => evidence.codes.iter().find(|c| *c == code).cloned(),
-            (None, None, Some(form)) => evidence.forms.iter().find(|f| *f == form).cloned(),
+            (None, None, Some(form)) => evidence.forms.contains(form).then(|| form.to_string()),
             (None, None, None) => {
                 let same = hint.extension.is_some() && hint.extension == evidence.extension;
                 hint.extension.as_ref().filter(|_| same).map(|extension| format!(".{extension}"))
@@ -165,29 +170,27 @@ pub fn may_be_for(evidence: &Evidence, control: &str) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::{Evidence, foreign, guess, may_be_for};
+    use super::{Evidence, SyntaxForm, foreign, guess, may_be_for};
 
-    fn with_comment(text: &str, forms: &[&str]) -> Evidence {
-        Evidence {
-            comments: vec![text.to_owned()],
-            forms: forms.iter().map(|form| (*form).to_owned()).collect(),
-            ..Evidence::default()
-        }
+    fn with_comment(text: &str, forms: &[SyntaxForm]) -> Evidence {
+        Evidence { comments: vec![text.to_owned()], forms: forms.to_vec(), ..Evidence::default() }
     }
 
     #[test]
     fn a_builder_that_no_control_here_is_for_is_not_guessed_over() {
-        let mill = with_comment("MAZAK VTC-20", &["semicolon-comment", "lower-case"]);
+        let mill = with_comment("MAZAK VTC-20", &[SyntaxForm::SemicolonComment, SyntaxForm::LowerCase]);
         assert_eq!(guess(&mill), None);
         assert_eq!(foreign(&mill).map(|foreign| foreign.comment).as_deref(), Some("(MAZAK VTC-20)"));
-        let lathe = with_comment("MAZAK QT-15", &["packed-tool", "turning-words"]);
+        let lathe = with_comment("MAZAK QT-15", &[SyntaxForm::PackedTool, SyntaxForm::TurningWords]);
         assert_eq!(guess(&lathe).map(|guess| guess.control).as_deref(), Some("fanuc-lathe"));
         assert!(foreign(&with_comment("HAAS VF-2", &[])).is_none());
+        let subroutine = with_comment("x and y of the centroid", &[SyntaxForm::OWord]);
+        assert_eq!(guess(&subroutine).map(|guess| guess.control).as_deref(), Some("linuxcnc"));
     }
 
     #[test]
     fn a_guess_names_the_control_that_fits_nearly_as_well() {
-        let lathe = with_comment("", &["packed-tool"]);
+        let lathe = with_comment("", &[SyntaxForm::PackedTool]);
         assert_eq!(guess(&lathe).and_then(|guess| guess.rival).as_deref(), Some("haas-lathe"));
         assert_eq!(guess(&with_comment("VF-2", &[])).map(|guess| guess.is_clear), Some(true));
         let weak = guess(&Evidence { codes: vec!["M29".to_owned()], ..Evidence::default() });
@@ -196,7 +199,7 @@ mod tests {
 
     #[test]
     fn what_speaks_against_a_control_outweighs_its_neighbours() {
-        let named = with_comment("", &["named-parameter"]);
+        let named = with_comment("", &[SyntaxForm::NamedParameter]);
         assert!(!may_be_for(&named, "fanuc-mill"));
         assert!(may_be_for(&named, "linuxcnc"));
         assert!(may_be_for(&Evidence::default(), "fanuc-mill"));

@@ -408,6 +408,9 @@ pub struct Semantics {
     pub cut_repeats: Option<char>,
     /// `L0` calls nothing; else it calls once.
     pub zero_repeats_skip: bool,
+    /// A code that sets the position adds what the addresses of increments say (`G50 W-5.`); else what they do is not known.
+    #[serde(default)]
+    pub increments_set_position: bool,
     /// Loops (`DO`) nest this deep in one program.
     #[serde(default)]
     pub loop_depth: Option<u8>,

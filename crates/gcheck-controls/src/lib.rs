@@ -20,6 +20,7 @@ mod loader;
 mod machines;
 mod motion;
 mod schema;
+mod syntax_form;
 mod unsupported;
 mod validate;
 mod whole_word;
@@ -46,6 +47,7 @@ pub use schema::{
     Reference, Semicolon, SettingEntry, SettingValues, SyntaxRules, Unpointed, VariableEntry, VariableKind,
     WordEntry, WordKind,
 };
+pub use syntax_form::SyntaxForm;
 pub use unsupported::{UnsupportedDialect, unsupported_dialect};
 pub use validate::problems;
 pub use wording::{one_of, spans};

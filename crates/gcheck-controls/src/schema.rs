@@ -7,6 +7,8 @@ use std::collections::BTreeMap;
 
 use serde::Deserialize;
 
+use crate::SyntaxForm;
+
 /// `control.toml`: what kind of control this is, and how it reads text and numbers.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
@@ -428,17 +430,9 @@ pub struct Hint {
     /// A code that only this control (of those known) uses in this way, e.g. `G154`.
     #[serde(default)]
     pub code: Option<String>,
-    /// A form of syntax: `o-word`, `named-parameter`, `macro-statement`, `semicolon-comment`, `program-number`, `tape-mark`,
-    /// `packed-tool` (`T0101` or `T101` without a tool change code), `packed-tool-short` (`T101`), `incremental-words` (`U`, `W`),
-    /// `turning-cycle-one-block` (`G71 P Q D`, `G76 K D`), `turning-cycle-two-blocks` (`G71 U R`, `G76 P Q R`), `lower-case` (words in lower case),
-    /// `five-digit-program` (`O00123`), `packed-tool-with-change` (`T0707 M06`: station and offset alike), `turning-words`
-    /// (several blocks with `X` and with `Z`, none with `Y`, and `G50`, `G96` or `G97`), `system-command` (`$H`, `$110=500`),
-    /// `turning-system-b` and `turning-system-c` (turning words and `G95`, without codes that only system A of lathes has),
-    /// `milling-words` (several blocks with `Y`, at least half as many as with `X`), `tool-with-d` (`T1 D1` without a tool
-    /// change code), `tape-mark-with-number` (`%1234`), `long-program-number` (`O` and six to
-    /// eight digits), `speed-limit-by-g50` (`G50` and `S` in a block).
+    /// A form of syntax, e.g. `packed-tool`.
     #[serde(default)]
-    pub form: Option<String>,
+    pub form: Option<SyntaxForm>,
     /// How the name of the file ends, without the dot, in lower case: `ngc`.
     #[serde(default)]
     pub extension: Option<String>,

@@ -8,6 +8,7 @@ use std::sync::LazyLock;
 
 use serde::Deserialize;
 
+use crate::SyntaxForm;
 use crate::whole_word::Words;
 
 #[derive(Debug, Deserialize)]
@@ -28,6 +29,9 @@ pub(crate) struct OtherControl {
     /// Controls as which its programs may still be read: the nearest there is.
     #[serde(default)]
     pub(crate) like: Vec<String>,
+    /// Forms that it does not have: in a program with one of them its name is a word like others.
+    #[serde(default)]
+    pub(crate) without: Vec<SyntaxForm>,
     /// The source of the words.
     #[cfg_attr(not(test), expect(dead_code, reason = "for the reader of the data"))]
     source: String,

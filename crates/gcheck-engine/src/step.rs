@@ -157,6 +157,8 @@ pub(crate) struct Executor<'a, 'p, D: Domain, O: Observer<D>> {
         reason = "no subroutine is one thing, the one without a block of its own another"
     )]
     labels_defined: FxHashMap<(u32, Option<Option<u32>>, OLabel), u32>,
+    /// Labels of O-words, by file, where some are computed.
+    o_labels: FxHashMap<u32, Rc<o_words::OLabels>>,
     /// Names that assignments of the block brought into being, each with where its assignment begins in the chunk.
     created: Vec<(NameId, u32)>,
     /// Room for the strokes of a hole.
@@ -246,6 +248,7 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
             rest_is_lost: false,
             nested: FxHashMap::default(),
             labels_defined: FxHashMap::default(),
+            o_labels: FxHashMap::default(),
             created: Vec::new(),
             stroke_buffer: Vec::new(),
             pending: Vec::new(),

@@ -1060,3 +1060,21 @@ fn repeats_turn_the_work_on() {
             at x20 z5 c270"#]],
     );
 }
+
+#[test]
+fn increments_change_the_coordinates_of_the_present_position() {
+    two_blocks(
+        "G50 U-10. W-5.\nG0 U2. W1.",
+        &expect![[r#"
+        rapid x30 z5
+        rapid x30 z5
+        at x30 z5"#]],
+    );
+    one_block(
+        "G50 W-.2\nG0 X2. Z.1",
+        &expect![[r#"
+        rapid x27.94 z2.54
+        rapid x25.4 z2.54
+        at x25.4 z?"#]],
+    );
+}

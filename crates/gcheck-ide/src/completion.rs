@@ -310,6 +310,30 @@ const FUNCTIONS: u32 = 900_000;
 /// Other variables of the program; then those of the control.
 const OWN: u32 = 1_000_000;
 
+/// Bytes after the cursor that an entry takes the place of: what it would write once more, or the rest of the word that the
+/// cursor is in. `typed` is what is before the cursor, in lower case.
+fn overwritten(typed: &str, text: &str, rest: &str) -> usize {
+    let Some(new) = text.get(typed.len()..).filter(|new| !typed.is_empty() && !new.is_empty()) else {
+        return 0;
+    };
+    if rest.get(..new.len()).is_some_and(|same| same.eq_ignore_ascii_case(new)) {
+        return new.len();
+    }
+    let length = |is_part: &dyn Fn(char) -> bool| rest.find(|c| !is_part(c)).unwrap_or(rest.len());
+    let is_name = |c: char| c.is_ascii_alphanumeric() || matches!(c, '_' | '-' | '.');
+    let is_open = typed.contains('<') && !typed.contains('>');
+    if is_open || typed == "#" && rest.starts_with('<') {
+        let name = length(&|c| is_name(c) || c == '<');
+        return name + usize::from(rest.get(name..).is_some_and(|rest| rest.starts_with('>')));
+    }
+    let is_keyword = typed.len() > 1 && typed.bytes().all(|b| b.is_ascii_alphabetic());
+    if is_keyword {
+        length(&|c| c.is_ascii_alphabetic())
+    } else {
+        length(&|c| c.is_ascii_digit() || c == '.')
+    }
+}
+
 impl Items<'_, '_> {
     fn control(&self) -> &Control {
         self.typing.snapshot.control()
@@ -366,6 +390,10 @@ impl Items<'_, '_> {
             && is_typed(only)
         {
             return Vec::new();
+        }
+        let rest = self.typing.rest();
+        for (_, item) in &mut list {
+            item.edit.range.end += overwritten(&typed, &item.edit.text, &rest) as u32;
         }
         list.into_iter().map(|(_, item)| item).collect()
     }
@@ -783,7 +811,8 @@ impl Items<'_, '_> {
             }
             let is_same = match &word.label {
                 OLabel::Number(number) => {
-                    typed.get(1..).and_then(|digits| digits.trim().parse().ok()) == Some(*number)
+                    let digits = typed.get(1..).map(|digits| digits.trim().trim_matches(['<', '>']));
+                    digits.and_then(|digits| digits.parse().ok()) == Some(*number)
                 }
                 OLabel::Name(name) => {
                     let inner = typed.split_once('<').and_then(|(_, rest)| rest.split_once('>'));
@@ -948,6 +977,49 @@ mod tests {
                 Code g81 | drilling | g81
                 Snippet g81 … | drilling with its words | g81 x${1:10.} y${2:10.} z${3:-8.} r${4:2.} f${5:100.}
             "#]],
+        );
+    }
+
+    /// Takes the entry of a label in the place where the cursor is.
+    fn check_taken(control: &str, text: &str, label: &str, expected: &str) {
+        let mut fixture = Fixture::new(control, text);
+        let offset = fixture.offset;
+        let items =
+            completion(&mut fixture.database, &fixture.workspace, fixture.document, offset, None, &|| false);
+        let item = items.iter().find(|item| item.label == label);
+        let labels: Vec<&str> = items.iter().map(|item| item.label.as_str()).collect();
+        let Some(item) = item else { panic!("{label} is not in {labels:?}") };
+        let mut taken = text.replace("$0", "");
+        taken.replace_range(item.edit.range.start as usize..item.edit.range.end as usize, &item.edit.text);
+        assert_eq!(taken, expected, "{text}");
+    }
+
+    #[test]
+    fn an_entry_takes_the_place_of_the_whole_word_under_the_cursor() {
+        check_taken(
+            "haas-mill",
+            "O1\nGOTO 1$00\nN10 X1.\nN100 M30\n",
+            "100",
+            "O1\nGOTO 100\nN10 X1.\nN100 M30\n",
+        );
+        check_taken(
+            "linuxcnc",
+            "#<abc>=1\n#<axy>=2\ng0 x#<a$0bc>\n",
+            "#<axy>",
+            "#<abc>=1\n#<axy>=2\ng0 x#<axy>\n",
+        );
+        check_taken(
+            "linuxcnc",
+            "#<abc>=1\n#<axy>=2\ng0 x#<a$0bc>\n",
+            "#<abc>",
+            "#<abc>=1\n#<axy>=2\ng0 x#<abc>\n",
+        );
+        check_taken("haas-mill", "O1\nG0$01 X1.\n", "G04", "O1\nG04 X1.\n");
+        check_taken(
+            "haas-mill",
+            "O1\nWHILE [#1 LT 2] D$0O1\nEND1\n",
+            "DO1",
+            "O1\nWHILE [#1 LT 2] DO1\nEND1\n",
         );
     }
 
@@ -1238,36 +1310,36 @@ mod tests {
             "O1\nIF [#1 $0\n",
             20,
             &expect![[r#"
-            Keyword EQ | is true when both sides are equal | IF [#1 EQ
-            Keyword NE | is true when the sides differ | IF [#1 NE
-            Keyword GT | is true when the left side is greater than the right side | IF [#1 GT
-            Keyword LT | is true when the left side is less than the right side | IF [#1 LT
-            Keyword GE | is true when the left side is greater than the right side, or equal | IF [#1 GE
-            Keyword LE | is true when the left side is less than the right side, or equal | IF [#1 LE
-            Keyword AND | is true when both sides are true; of numbers, the bits that both have | IF [#1 AND
-            Keyword OR | is true when one side is true, or both; of numbers, the bits that either has | IF [#1 OR
-            Keyword XOR | is true when exactly one side is true; of numbers, the bits that one of them has | IF [#1 XOR
-            Keyword MOD | gives the remainder of a division | IF [#1 MOD
-        "#]],
+                Keyword EQ | is true when both sides are equal | IF [#1 EQ
+                Keyword NE | is true when the sides differ | IF [#1 NE
+                Keyword GT | is true when the left side is greater than the right side | IF [#1 GT
+                Keyword LT | is true when the left side is less than the right side | IF [#1 LT
+                Keyword GE | is true when the left side is greater than the right side, or equal | IF [#1 GE
+                Keyword LE | is true when the left side is less than the right side, or equal | IF [#1 LE
+                Keyword AND | is true when both sides are true | IF [#1 AND
+                Keyword OR | is true when one side is true, or both | IF [#1 OR
+                Keyword XOR | is true when exactly one side is true | IF [#1 XOR
+                Keyword MOD | gives the remainder of a division | IF [#1 MOD
+            "#]],
         );
         check(
             "haas-mill",
             "O1\nIF [#1 EQ 1 A$0]\n",
             20,
             &expect![[r#"
-            Keyword AND | is true when both sides are true; of numbers, the bits that both have | IF [#1 EQ 1 AND
-        "#]],
+                Keyword AND | is true when both sides are true | IF [#1 EQ 1 AND
+            "#]],
         );
         check(
             "haas-mill",
             "O1\n#1=[#2 $0]\n",
             20,
             &expect![[r#"
-            Keyword AND | is true when both sides are true; of numbers, the bits that both have | #1=[#2 AND
-            Keyword OR | is true when one side is true, or both; of numbers, the bits that either has | #1=[#2 OR
-            Keyword XOR | is true when exactly one side is true; of numbers, the bits that one of them has | #1=[#2 XOR
-            Keyword MOD | gives the remainder of a division | #1=[#2 MOD
-        "#]],
+                Keyword AND | is true when both sides are true | #1=[#2 AND
+                Keyword OR | is true when one side is true, or both | #1=[#2 OR
+                Keyword XOR | is true when exactly one side is true | #1=[#2 XOR
+                Keyword MOD | gives the remainder of a division | #1=[#2 MOD
+            "#]],
         );
         check(
             "linuxcnc",

@@ -10,7 +10,7 @@ use std::ops::Range;
 use gcheck_controls::{Code, CodeIx, Control, Effect, Letter, Need, Variable, WordEntry, WordKind};
 use gcheck_db::{BlockPlace, Cancelled, Database, DocumentId, Snapshot, StateAt};
 use gcheck_engine::{Abstract, AbstractValue, At, Axis, Domain as _, Look, Position, Role, State, Truth};
-use gcheck_program::{ExprIx, StatementKind, Value, Word};
+use gcheck_program::{ExprIx, OLabel, StatementKind, Value, Word};
 use gcheck_syntax::SyntaxKind;
 
 use crate::ReferenceKind;
@@ -230,7 +230,10 @@ impl Cx<'_> {
         let mut text = format!("**{written}** {does}");
         let condition = match statement.map(|statement| &statement.kind) {
             Some(StatementKind::If { condition } | StatementKind::Do { condition, .. }) => *condition,
-            Some(kind @ StatementKind::OWord { .. }) => kind.expressions().next(),
+            // The first expression of a computed label is the label's.
+            Some(kind @ StatementKind::OWord { label, .. }) => {
+                kind.expressions().nth(usize::from(*label == OLabel::Computed))
+            }
             _ => None,
         };
         let is_condition = matches!(kind, SyntaxKind::IF_KW | SyntaxKind::ELSEIF_KW | SyntaxKind::WHILE_KW);
@@ -245,7 +248,10 @@ impl Cx<'_> {
                 let _ = write!(text, "\n\n{verdict}");
             }
             Some(held) if kind == SyntaxKind::REPEAT_KW => {
-                let _ = write!(text, "\n\nhere: {} times", value(&held));
+                // A half goes to the even neighbour (observed).
+                let turns = Abstract::known(&held).map(|count| count.round_ties_even().max(0.0));
+                let count = turns.map_or_else(|| value(&held), |turns| turns.to_string());
+                let _ = write!(text, "\n\nhere: {count} times");
             }
             _ => {}
         }

@@ -17,13 +17,9 @@ pub(crate) fn does(kind: SyntaxKind, text: &str, is_o_word: bool) -> Option<&'st
         }
         (SyntaxKind::COMPARISON, "LT") => "is true when the left side is less than the right side",
         (SyntaxKind::COMPARISON, "LE") => "is true when the left side is less than the right side, or equal",
-        (SyntaxKind::AND_KW, _) => "is true when both sides are true; of numbers, the bits that both have",
-        (SyntaxKind::OR_KW, "XOR") => {
-            "is true when exactly one side is true; of numbers, the bits that one of them has"
-        }
-        (SyntaxKind::OR_KW, _) => {
-            "is true when one side is true, or both; of numbers, the bits that either has"
-        }
+        (SyntaxKind::AND_KW, _) => "is true when both sides are true",
+        (SyntaxKind::OR_KW, "XOR") => "is true when exactly one side is true",
+        (SyntaxKind::OR_KW, _) => "is true when one side is true, or both",
         (SyntaxKind::MOD_KW, _) => "gives the remainder of a division",
         (SyntaxKind::IF_KW, _) if is_o_word => {
             "executes the blocks up to `else`, `elseif` or `endif` when the condition holds"
@@ -90,7 +86,8 @@ pub(crate) fn after_label(opened: Option<OKeyword>) -> Vec<(OKeyword, SyntaxKind
         Some(OKeyword::If) => &[OKeyword::EndIf, OKeyword::Else, OKeyword::ElseIf],
         Some(OKeyword::While) => &[OKeyword::EndWhile, OKeyword::Break, OKeyword::Continue],
         Some(OKeyword::Do) => &[OKeyword::While, OKeyword::Break, OKeyword::Continue],
-        Some(OKeyword::Repeat) => &[OKeyword::EndRepeat, OKeyword::Break, OKeyword::Continue],
+        // The interpreter refuses `break` and `continue` in it.
+        Some(OKeyword::Repeat) => &[OKeyword::EndRepeat],
         _ => &[],
     };
     let place = |keyword: OKeyword| first.iter().position(|other| *other == keyword).unwrap_or(first.len());

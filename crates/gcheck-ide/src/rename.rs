@@ -11,7 +11,7 @@ use gcheck_program::OLabel;
 
 use crate::symbols::{
     Occurrence, Symbol, callers, computed_call, files_of, has_indirect_variables, is_elsewhere, kind_of,
-    leaves, occurrences, parameter_key, returned_to, stem_matches, subs, symbol_at,
+    leaves, o_name_range, occurrences, parameter_key, returned_to, stem_matches, subs, symbol_at,
 };
 use crate::{FileEdits, ReferenceKind, Workspace, WorkspaceFile};
 
@@ -168,9 +168,15 @@ fn check_symbol(workspace: &Workspace, file: &WorkspaceFile, symbol: &Symbol) ->
                     ));
                 }
             }
+            if let Symbol::Subroutine(label) = symbol {
+                for file in &workspace.files {
+                    check_written(&file.snapshot, label)?;
+                }
+            }
             named_by_file(workspace, file, symbol)
         }
-        Symbol::Branch { .. } => {
+        Symbol::Branch { label, .. } => {
+            check_written(&file.snapshot, label)?;
             let words = &file.snapshot.file_index().o_words;
             if words.iter().any(|word| word.label == OLabel::Computed) {
                 return refuse(
@@ -243,6 +249,18 @@ fn check_calls(workspace: &Workspace) -> Checked {
         }
     }
     Ok(())
+}
+
+/// A label that is computed from numbers alone (`O[50*2]`) has no text that can be replaced.
+fn check_written(snapshot: &Snapshot, label: &OLabel) -> Checked {
+    let words = &snapshot.file_index().o_words;
+    match words.iter().find(|word| word.label == *label && o_name_range(snapshot, word).is_none()) {
+        None => Ok(()),
+        Some(word) => {
+            let text = snapshot.slice(word.range.clone());
+            refuse(format!("`{}` computes the same label", text.trim()))
+        }
+    }
 }
 
 /// A file that is found by its name would no longer be.
@@ -329,12 +347,14 @@ fn check_new(workspace: &Workspace, file: &WorkspaceFile, symbol: &Symbol, new: 
             Symbol::Program(*number)
         }
         (Symbol::Subroutine(_), NewName::Number(number)) => Symbol::Subroutine(OLabel::Number(*number)),
-        (Symbol::Subroutine(_), NewName::Name(name)) => Symbol::Subroutine(OLabel::Name(parameter_key(name))),
+        (Symbol::Subroutine(_), NewName::Name(name)) => {
+            Symbol::Subroutine(OLabel::of_name(parameter_key(name)))
+        }
         (Symbol::Branch { part, .. }, NewName::Number(number)) => {
             Symbol::Branch { label: OLabel::Number(*number), part: part.clone() }
         }
         (Symbol::Branch { part, .. }, NewName::Name(name)) => {
-            Symbol::Branch { label: OLabel::Name(parameter_key(name)), part: part.clone() }
+            Symbol::Branch { label: OLabel::of_name(parameter_key(name)), part: part.clone() }
         }
         (Symbol::Variable { number: old, part }, NewName::Number(number)) => {
             if *number == 0 || kind_of(control, *number) != kind_of(control, *old) {

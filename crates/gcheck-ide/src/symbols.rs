@@ -503,10 +503,11 @@ fn o_word_occurrence(snapshot: &Snapshot, word: &OWord) -> Option<Occurrence> {
 
 /// Bytes of an O-word's label without `O` and brackets; `None` for a computed one.
 pub(crate) fn o_name_range(snapshot: &Snapshot, word: &OWord) -> Option<Range<u32>> {
+    let text = snapshot.slice(word.range.clone());
+    let is_named = text.get(1..).is_some_and(|rest| rest.trim_start().starts_with('<'));
     match &word.label {
-        OLabel::Number(number) => digits(snapshot, &word.range, *number),
-        OLabel::Name(_) => {
-            let text = snapshot.slice(word.range.clone());
+        OLabel::Number(number) if !is_named => digits(snapshot, &word.range, *number),
+        OLabel::Number(_) | OLabel::Name(_) => {
             let open = text.find('<')?;
             let close = text.find('>')?;
             (open < close).then(|| word.range.start + open as u32 + 1..word.range.start + close as u32)

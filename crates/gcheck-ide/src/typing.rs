@@ -56,6 +56,12 @@ impl<'s> Typing<'s> {
         self.snapshot.control()
     }
 
+    /// Text of the line after the cursor.
+    pub(crate) fn rest(&self) -> String {
+        let line = self.snapshot.line_range(self.snapshot.line_at(self.offset));
+        self.snapshot.slice(self.offset..line.end.max(self.offset)).into_owned()
+    }
+
     /// The text of the comment that the cursor is in, up to the cursor.
     pub(crate) fn comment(&self) -> Option<&str> {
         let lexeme = self

@@ -4,7 +4,7 @@
 //! their weights are data. The scan is lexical and reads only the head of a file, so that it can run before a control is
 //! chosen.
 
-use gcheck_controls::{CodeNumber, Evidence, Letter, LetterSet};
+use gcheck_controls::{CodeNumber, Evidence, Letter, LetterSet, SyntaxForm};
 
 /// Lines whose comments count: the machine is named at the top.
 const COMMENT_LINES: usize = 300;
@@ -34,14 +34,14 @@ pub fn evidence_of_file(text: &str, extension: Option<&str>) -> Evidence {
     }
     let [with_x, with_z, with_y] = scan.blocks_with;
     if scan.twin_tool_with_change && with_y * 2 <= with_x {
-        scan.form("packed-tool-with-change");
+        scan.form(SyntaxForm::PackedToolWithChange);
     }
     if with_y >= ENOUGH_BLOCKS && with_y * 2 >= with_x {
-        scan.form("milling-words");
+        scan.form(SyntaxForm::MillingWords);
     }
     let turns = [50, 96, 97].map(CodeNumber::g).iter().any(|code| scan.codes.contains(code));
     if with_x.min(with_z) >= ENOUGH_BLOCKS && with_y == 0 && turns {
-        scan.form("turning-words");
+        scan.form(SyntaxForm::TurningWords);
         if let Some(system) = scan.turning_system() {
             scan.form(system);
         }
@@ -49,7 +49,7 @@ pub fn evidence_of_file(text: &str, extension: Option<&str>) -> Evidence {
     Evidence {
         comments: scan.comments,
         codes: scan.codes.iter().map(ToString::to_string).collect(),
-        forms: scan.forms.iter().map(|form| (*form).to_owned()).collect(),
+        forms: scan.forms,
         unsupported: gcheck_controls::unsupported_dialect(text, extension.as_deref()),
         extension,
     }
@@ -59,7 +59,7 @@ pub fn evidence_of_file(text: &str, extension: Option<&str>) -> Evidence {
 struct Scan {
     comments: Vec<String>,
     codes: Vec<CodeNumber>,
-    forms: Vec<&'static str>,
+    forms: Vec<SyntaxForm>,
     keeps_comments: bool,
     /// Blocks with an `X` and a value, with a `Z`, with a `Y`.
     blocks_with: [usize; 3],
@@ -99,7 +99,7 @@ struct Seen {
 }
 
 impl Scan {
-    fn form(&mut self, form: &'static str) {
+    fn form(&mut self, form: SyntaxForm) {
         if !self.forms.contains(&form) {
             self.forms.push(form);
         }
@@ -107,14 +107,14 @@ impl Scan {
 
     /// The set of G codes that a turning program is written in, where what it uses leaves no other: feed per revolution is
     /// `G95` in systems B and C and not a code in A, and A has codes that the others do not.
-    fn turning_system(&self) -> Option<&'static str> {
+    fn turning_system(&self) -> Option<SyntaxForm> {
         let has = |numbers: &[u16]| numbers.iter().any(|n| self.codes.contains(&CodeNumber::g(*n)));
         let of_system_a = has(&[32, 50]) || has(&[98, 99]) && !has(&[83, 84, 85, 87, 88, 89]);
         if !has(&[95]) || of_system_a {
             return None;
         }
         let is_c = self.units_by_cycle_number || has(&[24]);
-        Some(if is_c { "turning-system-c" } else { "turning-system-b" })
+        Some(if is_c { SyntaxForm::TurningSystemC } else { SyntaxForm::TurningSystemB })
     }
 
     fn comment(&mut self, text: &str) {
@@ -128,14 +128,14 @@ impl Scan {
         let line = line.get(..line.floor_char_boundary(MAX_LINE)).unwrap_or(line);
         let mut rest = line.trim_matches([' ', '\t', '\u{FEFF}', '\0']);
         if let Some(after) = rest.strip_prefix('%') {
-            self.form("tape-mark");
+            self.form(SyntaxForm::TapeMark);
             if after.starts_with(|c: char| c.is_ascii_digit()) {
-                self.form("tape-mark-with-number");
+                self.form(SyntaxForm::TapeMarkWithNumber);
             }
             return;
         }
         if is_system_command(rest) {
-            self.form("system-command");
+            self.form(SyntaxForm::SystemCommand);
             return;
         }
         let whole = rest;
@@ -153,7 +153,7 @@ impl Scan {
                     if after.is_empty() {
                         ""
                     } else if rest.len() == whole.len() || is_prose(after) {
-                        self.form("semicolon-comment");
+                        self.form(SyntaxForm::SemicolonComment);
                         self.comment(after);
                         ""
                     } else {
@@ -163,7 +163,7 @@ impl Scan {
                 '[' => after_brackets(rest, self),
                 '#' => self.variable(rest),
                 ':' if seen.is_head && number(rest.get(1..).unwrap_or_default()).0 > 0 => {
-                    self.form("program-number");
+                    self.form(SyntaxForm::ProgramNumber);
                     seen.is_head = false;
                     rest.get(1..).unwrap_or_default()
                 }
@@ -172,9 +172,9 @@ impl Scan {
             };
         }
         if seen.packed_tool && !seen.tool_change {
-            self.form("packed-tool");
+            self.form(SyntaxForm::PackedTool);
             if seen.short_tool {
-                self.form("packed-tool-short");
+                self.form(SyntaxForm::PackedToolShort);
             }
         }
         self.twin_tool_with_change |= seen.twin_tool && seen.tool_change;
@@ -186,21 +186,21 @@ impl Scan {
             seen.unit_or_cycle && !seen.letters.intersects(LetterSet::of("DPQRUWXZ"));
         let is_one_block = seen.turning_cycle && has('P') && has('Q') || seen.threading_cycle && has('K');
         if is_one_block && has('D') {
-            self.form("turning-cycle-one-block");
+            self.form(SyntaxForm::TurningCycleOneBlock);
         }
         if seen.plain_tool && seen.valued.contains(Letter::of('D')) && !seen.tool_change {
-            self.form("tool-with-d");
+            self.form(SyntaxForm::ToolWithD);
         }
         let prepares = !seen.letters.intersects(LetterSet::of("XZUWKF"));
         let prepares_thread = seen.threading_cycle && has('P') && has('Q') && prepares;
         if seen.turning_cycle && !has('P') && has('R') && (has('U') || has('W')) || prepares_thread {
-            self.form("turning-cycle-two-blocks");
+            self.form(SyntaxForm::TurningCycleTwoBlocks);
         }
         if seen.g50 && seen.valued.contains(Letter::of('S')) {
-            self.form("speed-limit-by-g50");
+            self.form(SyntaxForm::SpeedLimitByG50);
         }
         if seen.increment && !seen.macro_call {
-            self.form("incremental-words");
+            self.form(SyntaxForm::IncrementalWords);
         }
     }
 
@@ -209,7 +209,7 @@ impl Scan {
         let after = rest.get(1..).unwrap_or_default();
         match after.strip_prefix('<').and_then(|name| name.split_once('>')) {
             Some((_, after)) => {
-                self.form("named-parameter");
+                self.form(SyntaxForm::NamedParameter);
                 after
             }
             None => after,
@@ -223,7 +223,7 @@ impl Scan {
         if word.len() > 1 {
             seen.is_head = false;
             if is_one_of(word, &["IF", "WHILE", "GOTO", "DO", "END", "DPRNT", "BPRNT", "POPEN", "PCLOS"]) {
-                self.form("macro-statement");
+                self.form(SyntaxForm::MacroStatement);
             }
             return after;
         }
@@ -252,7 +252,7 @@ impl Scan {
                     .and_then(|v| CodeNumber::from_value(letter, v));
                 if let Some(code) = code {
                     if written != letter {
-                        self.form("lower-case");
+                        self.form(SyntaxForm::LowerCase);
                     }
                     seen.turning_cycle |= [71, 72, 73].map(CodeNumber::g).contains(&code);
                     seen.threading_cycle |= code == CodeNumber::g(76);
@@ -313,14 +313,14 @@ impl Scan {
             "CONTINUE",
         ];
         if is_one_of(keyword, &keywords) {
-            self.form("o-word");
+            self.form(SyntaxForm::OWord);
             return next.get(keyword.len()..).unwrap_or_default();
         }
         if digits > 0 {
-            self.form("program-number");
+            self.form(SyntaxForm::ProgramNumber);
             match digits {
-                5 => self.form("five-digit-program"),
-                6..=8 => self.form("long-program-number"),
+                5 => self.form(SyntaxForm::FiveDigitProgram),
+                6..=8 => self.form(SyntaxForm::LongProgramNumber),
                 _ => {}
             }
         }
@@ -395,12 +395,15 @@ fn is_one_of(word: &str, list: &[&str]) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::collect_evidence;
     use expect_test::{Expect, expect};
+    use gcheck_controls::SyntaxForm;
+
+    use super::collect_evidence;
 
     fn check(program: &str, expected: &Expect) {
         let evidence = collect_evidence(program);
-        let lines = [evidence.comments.join(" | "), evidence.codes.join(" "), evidence.forms.join(" ")];
+        let forms: Vec<String> = evidence.forms.iter().map(|form| format!("{form:?}")).collect();
+        let lines = [evidence.comments.join(" | "), evidence.codes.join(" "), forms.join(" ")];
         expected.assert_eq(&lines.map(|l| format!("{l}\n")).concat());
     }
 
@@ -411,7 +414,7 @@ mod tests {
             &expect![[r#"
                 ST-20
                 G28 G96 M3 G71
-                tape-mark program-number incremental-words packed-tool
+                TapeMark ProgramNumber IncrementalWords PackedTool
             "#]],
         );
     }
@@ -423,7 +426,7 @@ mod tests {
             &expect![[r#"
                 drill plate | probe down
                 G0 G38.2
-                semicolon-comment o-word named-parameter
+                SemicolonComment OWord NamedParameter
             "#]],
         );
     }
@@ -435,7 +438,7 @@ mod tests {
             &expect![[r#"
 
                 M6 G65
-                macro-statement
+                MacroStatement
             "#]],
         );
     }
@@ -447,7 +450,7 @@ mod tests {
             &expect![[r#"
                 Y
                 M6 G99 G96 G0 G1
-                packed-tool-with-change
+                PackedToolWithChange
             "#]],
         );
         check(
@@ -455,7 +458,7 @@ mod tests {
             &expect![[r#"
                 Y1
                 M6 G97
-                turning-words
+                TurningWords
             "#]],
         );
     }
@@ -467,7 +470,7 @@ mod tests {
             &expect![[r#"
 
                 M6 G0 G1
-                tape-mark tape-mark-with-number milling-words
+                TapeMark TapeMarkWithNumber MillingWords
             "#]],
         );
     }
@@ -479,7 +482,7 @@ mod tests {
             &expect![[r#"
 
                 M6 G76
-                tool-with-d turning-cycle-one-block turning-cycle-two-blocks
+                ToolWithD TurningCycleOneBlock TurningCycleTwoBlocks
             "#]],
         );
     }
@@ -488,18 +491,18 @@ mod tests {
     fn feed_per_revolution_by_g95_tells_the_systems_of_codes_apart() {
         let body = "T0101\nG97 S800 M3\nG0 X60 Z5\nG1 X58 Z0\nX56 Z-1\nX54 Z-2\n";
         for (head, system) in [
-            ("G21 G95\n", Some("turning-system-b")),
-            ("G71 G95\n", Some("turning-system-c")),
-            ("G71 P10 Q20 U1 W1\nG95\n", Some("turning-system-b")),
-            ("G95\nG98 G83 Z-5 R2\n", Some("turning-system-b")),
+            ("G21 G95\n", Some(SyntaxForm::TurningSystemB)),
+            ("G71 G95\n", Some(SyntaxForm::TurningSystemC)),
+            ("G71 P10 Q20 U1 W1\nG95\n", Some(SyntaxForm::TurningSystemB)),
+            ("G95\nG98 G83 Z-5 R2\n", Some(SyntaxForm::TurningSystemB)),
             ("G21 G99\n", None),
             ("G95 G50 S2000\n", None),
             ("G95 G99\n", None),
             ("G95\nG0 Y1\n", None),
         ] {
             let forms = collect_evidence(&format!("{head}{body}")).forms;
-            let found = forms.iter().find(|form| form.starts_with("turning-system"));
-            assert_eq!(found.map(String::as_str), system, "{head}");
+            let systems = [SyntaxForm::TurningSystemB, SyntaxForm::TurningSystemC];
+            assert_eq!(forms.into_iter().find(|form| systems.contains(form)), system, "{head}");
         }
     }
 
@@ -509,7 +512,7 @@ mod tests {
             [("G50 S3000", true), ("G50", false), ("G50 M3 S#1", true), ("G92 S3000", false)]
         {
             let forms = collect_evidence(&format!("{block}\nG0 X1 Y1\n")).forms;
-            assert_eq!(forms.contains(&"speed-limit-by-g50".to_owned()), is_limit, "{block}: {forms:?}");
+            assert_eq!(forms.contains(&SyntaxForm::SpeedLimitByG50), is_limit, "{block}: {forms:?}");
         }
     }
 
@@ -520,7 +523,7 @@ mod tests {
             &expect![[r#"
 
                 G0
-                system-command
+                SystemCommand
             "#]],
         );
         check(
@@ -532,7 +535,7 @@ mod tests {
             "#]],
         );
         for line in ["$$", "$110=500.", " $J=G91 X1 F100", "$x"] {
-            assert_eq!(collect_evidence(line).forms, ["system-command"], "{line}");
+            assert_eq!(collect_evidence(line).forms, [SyntaxForm::SystemCommand], "{line}");
         }
     }
 

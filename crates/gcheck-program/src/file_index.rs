@@ -15,12 +15,12 @@ use crate::statement::{OKeyword, OLabel, StatementKind, Target};
 /// The part of a file that the control reads, as bytes.
 ///
 /// A `%` at the head of a line marks the beginning and the end of the tape. What is after the closing mark is not
-/// read; a single mark closes unless nothing but blanks comes before it.
+/// read; a single mark closes unless nothing but remarks comes before it.
 pub fn code_region(text: &str) -> Range<usize> {
     let marks: Vec<usize> =
         memchr::memchr_iter(b'%', text.as_bytes()).filter(|at| is_line_head(text, *at)).take(2).collect();
     match marks.as_slice() {
-        [only] if !is_blank(text.get(..*only).unwrap_or_default()) => 0..end_of_line(text, *only),
+        [only] if !is_remark(text.get(..*only).unwrap_or_default()) => 0..end_of_line(text, *only),
         [_, second] => 0..end_of_line(text, *second),
         _ => 0..text.len(),
     }
@@ -31,8 +31,8 @@ pub fn code_region(text: &str) -> Range<usize> {
 pub struct TapeMarks {
     /// The first two marks at the head of a line: where each line ends, in bytes of the chunk.
     line_ends: [Option<u32>; 2],
-    /// Nothing but blanks is before the first mark, or in the whole chunk.
-    is_blank: bool,
+    /// Nothing but blanks and comments is before the first mark, or in the whole chunk.
+    is_remark: bool,
 }
 
 impl TapeMarks {
@@ -45,22 +45,22 @@ impl TapeMarks {
             first = first.min(at);
             *slot = Some(end_of_line(text, at) as u32);
         }
-        Self { line_ends, is_blank: is_blank(text.get(..first).unwrap_or_default()) }
+        Self { line_ends, is_remark: is_remark(text.get(..first).unwrap_or_default()) }
     }
 
     /// Where the part of a file ends that the control reads, by its chunks: the offset of each and its marks, and the length
     /// of the file.
     pub fn region_end<'t>(chunks: impl Iterator<Item = (u32, &'t Self)>, len: u32) -> u32 {
-        let mut is_blank = true;
+        let mut is_remark = true;
         let mut only = None;
         for (base, marks) in chunks {
             for end in marks.line_ends.into_iter().flatten() {
                 if only.is_some() {
                     return base + end;
                 }
-                only = Some((base + end, is_blank && marks.is_blank));
+                only = Some((base + end, is_remark && marks.is_remark));
             }
-            is_blank &= marks.is_blank;
+            is_remark &= marks.is_remark;
         }
         match only {
             Some((end, false)) => end,
@@ -69,8 +69,14 @@ impl TapeMarks {
     }
 }
 
-fn is_blank(text: &str) -> bool {
-    text.trim_matches(['\u{FEFF}', ' ', '\t', '\r', '\n', '\0']).is_empty()
+/// Is each line empty, or a comment from its head to its end?
+fn is_remark(text: &str) -> bool {
+    text.split(['\n', '\r']).all(|line| {
+        let line = line.trim_matches(['\u{FEFF}', ' ', '\t', '\0']);
+        line.is_empty()
+            || line.starts_with(';')
+            || line.starts_with('(') && line.find(')') == Some(line.len() - 1)
+    })
 }
 
 fn is_line_head(text: &str, at: usize) -> bool {
@@ -646,6 +652,8 @@ mod tests {
     fn one_mark_opens_or_closes() {
         assert_eq!(region("%\nG0\nM30\n"), "%\nG0\nM30\n");
         assert_eq!(region("G0\nM30\n%\nnotes\n"), "G0\nM30\n%\n");
+        assert_eq!(region("(part 12)\n; rev B\n\n%\nG0\nM30\n"), "(part 12)\n; rev B\n\n%\nG0\nM30\n");
+        assert_eq!(region("(slot) G0 X1\n%\nnotes\n"), "(slot) G0 X1\n%\n");
     }
 
     #[test]

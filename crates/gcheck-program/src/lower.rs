@@ -619,7 +619,7 @@ impl<'t, 'd> LowerSink<'t, 'd> {
         // The expression of a computed label is in front of the arguments.
         let mut first_argument = self.table.exprs.len() as u32;
         let label = match named {
-            Some(Target::Named(range)) => OLabel::Name(name_key(self.slice(&range))),
+            Some(Target::Named(range)) => OLabel::of_name(name_key(self.slice(&range))),
             _ => match self.table.words.pop() {
                 Some(Word { value: Value::Expr(ix), .. }) => {
                     // `O[100*2]` is `O200`; its expression is not an argument then.

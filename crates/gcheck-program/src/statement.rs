@@ -2,7 +2,6 @@
 //!
 //! Knows: their parts by index. Must not know: which blocks they join (see [`crate::file index`]).
 
-use std::borrow::Cow;
 use std::ops::Range;
 
 use crate::expression::ExprIx;
@@ -62,7 +61,7 @@ pub enum StatementKind {
         /// Condition, count, arguments or result.
         arguments: Range<u32>,
     },
-    /// `DPRNT[…]`, `BPRNT[…]`, `POPEN`, `PCLOS`.
+    /// `DPRNT[…]`, `BPRNT[…]`, `POPEN`, `PCLOS`, `SETVN…[…]`.
     Print,
     /// `$H`, `$J=G91 X1`: a command to the firmware.
     Command,
@@ -106,7 +105,7 @@ pub enum Target {
 /// The label of an O-word.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum OLabel {
-    /// `O100`.
+    /// `O100`, `O<100>`.
     Number(u32),
     /// `O<name>`: lower case, blanks removed, as the interpreter compares names.
     Name(String),
@@ -115,14 +114,11 @@ pub enum OLabel {
 }
 
 impl OLabel {
-    /// The label as the control compares it with others: `O<100>` is `O100`, `O<0100>` is not.
-    pub fn compared(&self) -> Cow<'_, Self> {
-        match self {
-            Self::Name(name) => match name.parse::<u32>() {
-                Ok(number) if number.to_string() == *name => Cow::Owned(Self::Number(number)),
-                _ => Cow::Borrowed(self),
-            },
-            _ => Cow::Borrowed(self),
+    /// The label of a name in lower case without blanks: `O<100>` is `O100`, `O<0100>` is not.
+    pub fn of_name(name: String) -> Self {
+        match name.parse::<u32>() {
+            Ok(number) if number.to_string() == name => Self::Number(number),
+            _ => Self::Name(name),
         }
     }
 }

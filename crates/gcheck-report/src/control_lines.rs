@@ -32,7 +32,10 @@ pub fn control_lines(report: &Report) -> Vec<String> {
 fn line(name: &str, source: ControlSource, files: &[(&str, &str)]) -> String {
     let mut reasons: Vec<&str> = files.iter().map(|(_, reason)| *reason).filter(|r| !r.is_empty()).collect();
     reasons.sort_unstable();
-    reasons.dedup();
+    // What a reason adds after `;` holds for its file, not for all of the line.
+    reasons.dedup_by(|later, first| {
+        later.strip_prefix(*first).is_some_and(|rest| rest.is_empty() || rest.starts_with(';'))
+    });
     let reasons = if reasons.len() > REASONS { String::new() } else { reasons.join(", ") };
     let path = files.first().map_or("", |(path, _)| path);
     let more = match files.len() {
@@ -107,6 +110,18 @@ mod tests {
                 "a.nc and 2 more files: control haas-mill, detected from (VF-2), (VF-3)",
                 "b.nc: control fanuc-mill, set in gcheck.toml",
             ]
+        );
+    }
+
+    #[test]
+    fn what_a_reason_adds_for_one_file_is_not_told_of_all() {
+        let detected = |path, because| (path, "haas-lathe", ControlSource::Detected, Some(because));
+        assert_eq!(
+            lines(&[
+                detected("a.nc", "`$` lines; fanuc-lathe fits nearly as well"),
+                detected("b.nc", "`$` lines")
+            ]),
+            ["a.nc and 1 more file: control haas-lathe, detected from `$` lines"]
         );
     }
 

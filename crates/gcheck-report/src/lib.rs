@@ -32,5 +32,5 @@ pub use fold::folded;
 pub use formats::{Format, write};
 pub use line_index::{LineIndex, Position};
 pub use report::{Assumed, FailedRule, FileReport, RelatedFile, Report, Skipped, Summary};
-pub use shown::harmless;
+pub use shown::{harmless, one_line};
 pub use style::Colour;

@@ -29,7 +29,7 @@ fn steers(c: char) -> bool {
 }
 
 /// A message, a path: one line.
-pub(crate) fn one_line(text: &str) -> Cow<'_, str> {
+pub fn one_line(text: &str) -> Cow<'_, str> {
     shown(text, |c| if c == '\n' || c == '\t' { ' ' } else { message_char(c) })
 }
 

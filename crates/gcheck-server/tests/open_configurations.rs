@@ -120,3 +120,27 @@ fn a_client_that_asks_for_diagnostics_gets_the_same() {
     assert_eq!(places(&report["items"]), ["0:4 a fault", "2:5 a fault"]);
     end(client, server);
 }
+
+#[test]
+fn nothing_colours_formats_or_outlines_it_as_a_program() {
+    let (mut client, server) = session("toml", &json!({}));
+    let document = json!({ "uri": URI });
+    let whole = json!({ "start": { "line": 0, "character": 0 }, "end": { "line": 2, "character": 0 } });
+    let options = json!({ "tabSize": 4, "insertSpaces": true });
+    for (method, params) in [
+        ("semanticTokens/full", json!({ "textDocument": document })),
+        ("semanticTokens/range", json!({ "textDocument": document, "range": whole })),
+        ("documentSymbol", json!({ "textDocument": document })),
+        ("foldingRange", json!({ "textDocument": document })),
+        ("codeLens", json!({ "textDocument": document })),
+        ("documentLink", json!({ "textDocument": document })),
+        ("inlayHint", json!({ "textDocument": document, "range": whole })),
+        ("codeAction", json!({ "textDocument": document, "range": whole, "context": { "diagnostics": [] } })),
+        ("selectionRange", json!({ "textDocument": document, "positions": [{ "line": 0, "character": 0 }] })),
+        ("formatting", json!({ "textDocument": document, "options": options })),
+        ("rangeFormatting", json!({ "textDocument": document, "range": whole, "options": options })),
+    ] {
+        assert_eq!(client.request(&format!("textDocument/{method}"), params), Value::Null, "{method}");
+    }
+    end(client, server);
+}

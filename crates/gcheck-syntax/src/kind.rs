@@ -121,7 +121,7 @@ syntax_kinds! {
     CONTINUE_KW,
     /// `DPRNT`, `BPRNT`.
     PRINT_KW,
-    /// `POPEN`, `PCLOS`.
+    /// `POPEN`, `PCLOS`, `SETVN101[DEPTH]`.
     PORT_KW,
     /// `$H`, `$J=G91 X1`: a command to the firmware.
     COMMAND,
@@ -153,7 +153,7 @@ syntax_kinds! {
     O_STATEMENT,
     /// `DPRNT[…]`.
     PRINT_STATEMENT,
-    /// `POPEN`, `PCLOS`.
+    /// `POPEN`, `PCLOS`, `SETVN101[DEPTH]`.
     PORT_STATEMENT,
     /// `$H`, `$J=G91 X1`.
     COMMAND_STATEMENT,

@@ -147,6 +147,8 @@ pub(crate) enum Token {
     Print,
     #[token("POPEN", ignore(case))]
     #[token("PCLOS", ignore(case))]
+    // `SETVN101[DEPTH,RADIUS]` gives variables names that the operator sees.
+    #[regex(r"SETVN[ \t]*[0-9]+[ \t]*\[[^\[\]\r\n]*\]", ignore(case))]
     Port,
 
     /// `$H`, `$J=G91 X1`, `$110=500`: a command to the firmware, up to a comment or the end of the line.

@@ -9,6 +9,7 @@
 mod corner;
 mod curve;
 mod difference;
+mod digest;
 mod same;
 mod stands;
 
@@ -20,6 +21,7 @@ use gcheck_engine::{Axis, Position};
 use crate::trail::{Act, Doing, Driven, Feed, Move, Setting, Stand};
 use corner::{Leaving, Off};
 use curve::Curve;
+use digest::Digest;
 
 pub use difference::{Again, Aspect, Corner, Difference, Differences, Parting, Place, Value};
 use same::{corners_differ, known_differ, rate_differs, table_differs};
@@ -29,10 +31,13 @@ const MAX_STANDS: usize = 64;
 
 /// Compares two runs. Paths are the same while they stay within `tolerance` millimetres (degrees on rotary axes) of each other
 /// on every axis. Coordinates that are unknown in one of them are not compared.
+///
+/// Where they part for good, both are left there, or read to their ends, so that the digest is of all that they do.
 pub fn compare(
     a: impl IntoIterator<Item = Act>,
     b: impl IntoIterator<Item = Act>,
     tolerance: f64,
+    rest: Rest,
 ) -> Differences {
     let mut comparison = Comparison {
         a: Cursor::new(a.into_iter()),
@@ -42,7 +47,22 @@ pub fn compare(
         found: Differences::default(),
     };
     comparison.run();
+    if rest == Rest::Read {
+        let mut over = Digest::default();
+        comparison.a.read_on(&mut over);
+        comparison.b.read_on(&mut over);
+        comparison.found.pass_over(&over);
+    }
     comparison.found
+}
+
+/// What becomes of two runs after the place where their paths part for good.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Rest {
+    /// They are left there.
+    Leave,
+    /// They are read to their ends.
+    Read,
 }
 
 struct Comparison<A: Iterator<Item = Act>, B: Iterator<Item = Act>> {
@@ -134,9 +154,19 @@ impl<I: Iterator<Item = Act>> Cursor<I> {
         }
     }
 
+    /// Takes what is left into the digest.
+    fn read_on(&mut self, over: &mut Digest) {
+        if let Some(piece) = self.piece.take() {
+            over.add(&(piece.done, &piece.act.setting, &piece.act.doing));
+        }
+        for act in &mut self.acts {
+            over.add(&(&act.setting, &act.doing));
+        }
+    }
+
     /// Passes over what is before the next tool change, and over that; the tool, and where it comes. `None` when no tool comes
     /// whose number is known.
-    fn next_tool(&mut self) -> Option<(u32, Place)> {
+    fn next_tool(&mut self, over: &mut Digest) -> Option<(u32, Place)> {
         if let Some(passed) = self.passed.take() {
             if let Some(piece) = &mut self.piece
                 && let Doing::Move(made) = &piece.act.doing
@@ -146,8 +176,13 @@ impl<I: Iterator<Item = Act>> Cursor<I> {
             (self.at, self.started) = (Position::UNKNOWN, false);
             return Some(passed);
         }
-        self.piece = None;
-        let change = self.acts.find(|act| matches!(act.doing, Doing::Stand(Stand::ToolChange(_))))?;
+        if let Some(piece) = self.piece.take() {
+            over.add(&(piece.done, &piece.act.setting, &piece.act.doing));
+        }
+        let change = self.acts.find(|act| {
+            over.add(&(&act.setting, &act.doing));
+            matches!(act.doing, Doing::Stand(Stand::ToolChange(_)))
+        })?;
         (self.at, self.started, self.is_afresh) = (Position::UNKNOWN, false, true);
         let Doing::Stand(Stand::ToolChange(tool)) = change.doing else { return None };
         Some((tool?, change.place()))
@@ -162,6 +197,12 @@ impl<I: Iterator<Item = Act>> Cursor<I> {
     fn stands_next(&mut self) -> bool {
         self.piece.is_none() && self.acts.peek().is_some_and(|act| matches!(act.doing, Doing::Stand(_)))
     }
+}
+
+/// Acts up to the first change of the tool.
+fn before_change(stands: &[Act]) -> &[Act] {
+    let is_change = |act: &Act| matches!(act.doing, Doing::Stand(Stand::ToolChange(_)));
+    stands.split(is_change).next().unwrap_or_default()
 }
 
 /// The move, from wherever the run comes: where the paths had parted, both may come from different places.
@@ -197,10 +238,15 @@ impl<A: Iterator<Item = Act>, B: Iterator<Item = Act>> Comparison<A, B> {
                     stands.retain(|act| act.doing != Doing::Stand(Stand::End));
                 }
             }
-            let is_change = |act: &Act| matches!(act.doing, Doing::Stand(Stand::ToolChange(_)));
-            // One of them may have come to its next tool because the other one goes on where it does not.
-            let is_one_sided = before_a.iter().any(is_change) != before_b.iter().any(is_change);
-            let before = is_one_sided.then(|| self.found.clone());
+            // One of them may have come to its next tool because the other one goes on where it does not: then what comes with
+            // the tool is not compared here.
+            let [early_a, early_b] = [&before_a, &before_b].map(|stands| before_change(stands));
+            let is_one_sided = (early_a.len() < before_a.len()) != (early_b.len() < before_b.len());
+            let before = is_one_sided.then(|| {
+                let mut found = self.found.clone();
+                stands::compare(&mut found, early_a, early_b);
+                found
+            });
             if !before_a.is_empty() || !before_b.is_empty() {
                 self.stands(&before_a, &before_b);
                 if self.a.stands_next() || self.b.stands_next() {
@@ -211,11 +257,13 @@ impl<A: Iterator<Item = Act>, B: Iterator<Item = Act>> Comparison<A, B> {
                 (None, None) => return,
                 (Some(_), Some(_)) => {
                     if let Some(parting) = self.pieces() {
-                        let again = self.go_on();
+                        let mut over = Digest::default();
+                        let again = self.go_on(&mut over);
                         let is_over = again.is_none();
                         if let Some(before) = before.filter(|_| !is_over) {
                             self.found = before;
                         }
+                        self.found.pass_over(&over);
                         self.found.part(Parting { again, ..parting });
                         if is_over {
                             return;
@@ -251,9 +299,9 @@ impl<A: Iterator<Item = Act>, B: Iterator<Item = Act>> Comparison<A, B> {
     }
 
     /// Passes over what is before the next tool change of both runs, if they change to the same tool there.
-    fn go_on(&mut self) -> Option<Again> {
-        let (tool, a) = self.a.next_tool()?;
-        let (other, b) = self.b.next_tool()?;
+    fn go_on(&mut self, over: &mut Digest) -> Option<Again> {
+        let (tool, a) = self.a.next_tool(over)?;
+        let (other, b) = self.b.next_tool(over)?;
         self.leaving = None;
         (tool == other).then_some(Again { tool, a, b })
     }

@@ -31,7 +31,7 @@ mod values;
 
 pub use bar::BarFigures;
 pub use canonical::{Canonical, Ending, Start};
-pub use compare::{Again, Aspect, Corner, Difference, Differences, Parting, Place, Value, compare};
+pub use compare::{Again, Aspect, Corner, Difference, Differences, Parting, Place, Rest, Value, compare};
 pub use corner_mode::{Contour, CornerMode};
 pub use csv::{Csv, csv_cell};
 pub use jsonl::JsonLines;
@@ -41,7 +41,7 @@ pub use record::Kind;
 pub use slowest::{MAX_PLACES, Place as SlowPlace};
 pub use statistics::{Assumption, Feeds, MAX_SECTIONS, OffsetUse, Section, Statistics, Times, Unaccounted};
 pub use step::{Beside, Spot, Step, View, tip_of_posted};
-pub use summary::Names;
+pub use summary::{Names, clock, counts_in_hours};
 pub use text::Text;
 pub use time::{Clock, DEFAULT_RAPID, DEFAULT_ROTARY_RAPID, DEFAULT_TOOL_CHANGE, Timing, Untimed};
 pub use trail::{Act, Doing, Driven, Feed, Move, Setting, Stand, Trail};

@@ -176,7 +176,7 @@ impl Table<'_> {
     }
 
     fn has_hours(&self) -> bool {
-        self.total.times.total() >= Seconds(600.0)
+        counts_in_hours(self.total.times.total())
     }
 
     fn tools(&self, out: &mut String, sections: &[Section]) {
@@ -569,8 +569,13 @@ fn plain(value: f64) -> String {
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
-/// `1:23.4`, or `0:01:23` where hours matter.
-fn clock(time: Seconds, hours: bool) -> String {
+/// Is a time of the length that is told in hours?
+pub fn counts_in_hours(time: Seconds) -> bool {
+    time >= Seconds(600.0)
+}
+
+/// `1:23.4`, or `0:01:23` in hours.
+pub fn clock(time: Seconds, hours: bool) -> String {
     let seconds = time.0.max(0.0);
     #[expect(clippy::cast_sign_loss, reason = "not negative")]
     if hours {

@@ -12,7 +12,8 @@ mod settings_page;
 mod watch;
 
 use crate::args::{CheckOptions, Global};
-use crate::{Problem, discovery};
+use crate::console::say;
+use crate::{Problem, discovery, paths};
 use round::{Check, Looked};
 
 /// Are these bytes what the cache stores, without its heading and check sum?
@@ -26,6 +27,10 @@ pub(crate) fn run(global: &Global, options: &CheckOptions) -> Result<u8, Problem
     let options = match &options.files_from {
         Some(list) => {
             listed = CheckOptions { paths: discovery::listed(list)?, ..options.clone() };
+            // A change that touches no program is right, and still worth a word.
+            if listed.paths.is_empty() && !global.quiet {
+                say(&format!("{}: lists no files, so that nothing is checked", paths::shown(list)));
+            }
             &listed
         }
         None => options,

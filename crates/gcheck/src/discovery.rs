@@ -57,7 +57,7 @@ pub(crate) fn find(given: &[PathBuf], configs: &mut Configs) -> Found {
 /// The paths that a file lists, a line each, or each up to a NUL where there is one; `-` is standard input.
 ///
 /// # Errors
-/// The list cannot be read, or lists nothing.
+/// The list cannot be read.
 pub(crate) fn listed(list: &Path) -> Result<Vec<PathBuf>, Problem> {
     let source = if list.as_os_str() == "-" {
         reading::standard_input(Path::new("stdin"))?
@@ -65,18 +65,21 @@ pub(crate) fn listed(list: &Path) -> Result<Vec<PathBuf>, Problem> {
         reading::file(list)?
     };
     let text = source.text();
-    let ends: &[char] = if text.contains('\0') { &['\0'] } else { &['\n', '\r'] };
-    let paths: Vec<PathBuf> =
-        text.split(ends).map(str::trim).filter(|line| !line.is_empty()).map(PathBuf::from).collect();
-    if paths.is_empty() {
-        return Err(Problem::with_file(list, "lists no files"));
-    }
-    Ok(paths)
+    let names: Vec<&str> = if text.contains('\0') {
+        text.split('\0').collect()
+    } else {
+        text.split(['\n', '\r']).map(str::trim).collect()
+    };
+    Ok(names.into_iter().filter(|name| !name.is_empty()).map(PathBuf::from).collect())
 }
 
 /// Does the path hold a character of patterns? Shells expand patterns where they fit; some shells, and quotes, leave them.
-fn is_pattern(path: &Path) -> bool {
+pub(crate) fn is_pattern(path: &Path) -> bool {
     path.to_string_lossy().contains(['*', '?', '[', '{'])
+}
+
+fn unwalkable(error: &ignore::Error) -> Problem {
+    Problem::new(format!("cannot look into a folder: {error}"))
 }
 
 /// Takes the files that fit a pattern, whatever their names, as a shell would.
@@ -97,9 +100,14 @@ fn fit(pattern: &Path, found: &mut Found, seen: &mut BTreeSet<PathBuf>) {
     };
     let mut builder = WalkBuilder::new(folder);
     builder.follow_links(false).require_git(false).add_custom_ignore_filename(".gcheckignore");
-    let files = builder.build().flatten().map(ignore::DirEntry::into_path);
-    let mut fitting: Vec<PathBuf> =
-        files.filter(|path| path.is_file() && matcher.fits(&paths::absolute(path))).collect();
+    let mut fitting = Vec::new();
+    for entry in builder.build() {
+        match entry.map(ignore::DirEntry::into_path) {
+            Ok(path) if path.is_file() && matcher.fits(&paths::absolute(&path)) => fitting.push(path),
+            Ok(_) => {}
+            Err(error) => found.problems.push(unwalkable(&error)),
+        }
+    }
     if fitting.is_empty() {
         found.problems.push(Problem::with_file(pattern, "no file fits this pattern"));
     }
@@ -155,7 +163,7 @@ fn walk(folder: &Path, configs: &mut Configs, found: &mut Found, seen: &mut BTre
                 }
             }
             Ok(_) => {}
-            Err(error) => found.problems.push(Problem::new(format!("cannot look into a folder: {error}"))),
+            Err(error) => found.problems.push(unwalkable(&error)),
         }
     }
     // Without programs nobody else would read it, and its author would think it right.

@@ -158,6 +158,10 @@ impl Host for Surroundings {
             let rest = lines.concat();
             let Err(problem) = crate::config::check_text(path, &rest) else { break };
             let found = shown(&problem);
+            // One without a place of its own stays, whatever is blanked.
+            if problems.iter().any(|known: &ConfigurationProblem| known.message == found.message) {
+                break;
+            }
             let Some(line) = lines.get_mut(found.line as usize) else { break };
             let is_table = line.trim_start().starts_with('[');
             problems.push(ConfigurationProblem { path: Some(path.to_owned()), ..found });

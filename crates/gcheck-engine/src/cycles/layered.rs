@@ -243,7 +243,8 @@ impl Contour {
         let gap = CORNER_GAP * units.in_mm();
         let mut moved: Vec<Cut> = Vec::with_capacity(self.cuts.len() * 2);
         for cut in &self.cuts {
-            let Some(mut next) = beside(cut, way) else { return Err(CycleFault::Geometry.into()) };
+            // The interpreter goes on in a way that is not computed here.
+            let Some(mut next) = beside(cut, way) else { return Err(CycleError::Unknown) };
             if let Some(last) = moved.last_mut() {
                 let (end, begin) = (last.to(), next.from());
                 let lines = matches!((&last, cut), (Cut::Line { .. }, Cut::Line { .. }));
@@ -252,7 +253,7 @@ impl Contour {
                 } else if lines || distance(end, begin) > 1e-4 {
                     // Two lines in one direction have no corner that the control could find.
                     let Some(corner) = meeting(last, &next, cut.from()) else {
-                        return Err(CycleFault::Geometry.into());
+                        return Err(CycleError::Unknown);
                     };
                     set_to(last, corner);
                     set_from(&mut next, corner);
@@ -765,6 +766,6 @@ mod tests {
         check(&rough((22.0, 2.0), "10 1", words(1.0, 1.0)), &expect![[r#""#]]);
         check(&rough((22.0, 2.0), "10 1, 10 -10, 18 -12", words(1e-9, 1.0)), &expect!["TooManyStrokes"]);
         let collinear = LayeredRoughing { stock: Mm(0.5), ..words(2.0, 1.0) };
-        check(&rough((22.0, 2.0), "10 1, 10 0, 10 -10, 20 -12", collinear), &expect!["Fault(Geometry)"]);
+        check(&rough((22.0, 2.0), "10 1, 10 0, 10 -10, 20 -12", collinear), &expect!["Unknown"]);
     }
 }

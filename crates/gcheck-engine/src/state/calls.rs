@@ -210,7 +210,8 @@ impl<D: Domain> PartialEq for Frame<D> {
 pub(crate) struct ModalCall<D: Domain> {
     pub(crate) target: At,
     pub(crate) arguments: Vec<(u32, D::Value)>,
-    pub(crate) repeats: u32,
+    /// Turns of each call.
+    pub(crate) repeats: Flat<u32>,
 }
 
 impl<D: Domain> ModalCall<D> {
@@ -219,10 +220,11 @@ impl<D: Domain> ModalCall<D> {
         self.key().eq(other.key())
     }
 
-    fn key(&self) -> impl Iterator<Item = (At, u32, u32)> + '_ {
-        let call = (self.target, self.repeats, 0);
+    fn key(&self) -> impl Iterator<Item = (At, Option<u32>, u32)> + '_ {
+        let turns = self.repeats.known();
+        let call = (self.target, turns, 0);
         std::iter::once(call)
-            .chain(self.arguments.iter().map(|(number, _)| (self.target, self.repeats, *number)))
+            .chain(self.arguments.iter().map(move |(number, _)| (self.target, turns, *number)))
     }
 
     fn either(&self, other: &Self, merge: impl Fn(&D::Value, &D::Value) -> D::Value) -> Self {

@@ -50,15 +50,18 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         // The letter may be one of a length elsewhere; here it counts as it is written.
         let repeat = self.raw(rules.repeat, state);
         let repeats = match repeat.map(|n| Self::whole(Letter::of(rules.repeat), n)).transpose()? {
-            None => 1,
-            Some(Count::Known(n)) => n,
-            Some(Count::Unknown) => return Err(Fault::Undecidable),
+            None => Some(1),
+            Some(Count::Known(n)) => Some(n),
+            Some(Count::Unknown) => {
+                self.refuse(Fault::Undecidable)?;
+                None
+            }
         };
-        if repeats == 0 && self.refuses_incomplete() {
+        if repeats == Some(0) && self.refuses_incomplete() {
             return Err(Fault::Cycle(CycleFault::ZeroRepeats));
         }
         if let Effect::CycleAlongTool(stroke) = effect {
-            return self.cycle_along_tool(code, stroke, repeats, state);
+            return self.cycle_along_tool(code, stroke, repeats.unwrap_or(1), state);
         }
         if rules.needs_axis && !has_words && !names_code {
             return if self.refuses_incomplete() { Err(Fault::NoAxisWords) } else { Ok(()) };
@@ -71,7 +74,34 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             return Ok(());
         }
         self.check_cycle(state)?;
-        self.holes(effect, plane, repeats, state)
+        let drilled = self.holes(effect, plane, repeats.unwrap_or(1), state);
+        if repeats.is_none() {
+            self.lose_end_of_row(plane, state);
+        }
+        drilled
+    }
+
+    /// Nobody knows how many holes a row has: its first one is drilled, and where its increments lead is not known.
+    fn lose_end_of_row(&mut self, plane: Plane, state: &mut State<D>) {
+        let ([first, second, depth], _) = plane_axes(plane);
+        let is_absolute = state.is_incremental(self.model) == Some(false);
+        let present = self.words.present();
+        let named = present.iter().filter_map(|letter| self.model.axis_of(letter));
+        let mut moved: Vec<Axis> = named
+            .filter(|(axis, is_increment)| *axis != depth && (*is_increment || !is_absolute))
+            .map(|(axis, _)| axis)
+            .collect();
+        if present.intersects(super::POLAR) {
+            moved.extend([first, second]);
+        }
+        if moved.is_empty() {
+            return;
+        }
+        let mut end = *state.position();
+        for axis in moved {
+            end.set(axis, f64::NAN);
+        }
+        self.end_unfollowed(end, state);
     }
 
     /// A first block without a point may drill where the tool stands: a setting decides where there is one.

@@ -21,31 +21,39 @@ use crate::value::{Domain, Truth};
 pub(super) struct Callee<D: Domain> {
     kind: FrameKind,
     target: At,
+    /// Further turns to come; `None` unknown.
     repeats: Option<u32>,
+    /// The unknown number of turns may be none.
+    may_be_skipped: bool,
     arguments: Vec<(u32, D::Value)>,
     bar_feed: Perhaps<Rc<BarCommand>>,
 }
 
 impl<D: Domain> Callee<D> {
     /// A program that is called without words.
-    fn plain(kind: FrameKind, target: At, repeats: u32) -> Self {
-        Self { kind, target, repeats: Some(repeats), arguments: Vec::new(), bar_feed: Perhaps::No }
+    fn plain(kind: FrameKind, target: At, repeats: Option<u32>) -> Self {
+        Self { kind, target, repeats, may_be_skipped: false, arguments: Vec::new(), bar_feed: Perhaps::No }
     }
 
     /// A subroutine with the values of its arguments.
     pub(super) fn of_subroutine(target: At, arguments: Vec<(u32, D::Value)>) -> Self {
-        Self { arguments, ..Self::plain(FrameKind::OWord, target, 0) }
+        Self { arguments, ..Self::plain(FrameKind::OWord, target, Some(0)) }
     }
 
     /// A macro with the words of its call.
-    fn of_macro(target: At, repeats: u32, arguments: Vec<(u32, D::Value)>) -> Self {
+    fn of_macro(target: At, repeats: Option<u32>, arguments: Vec<(u32, D::Value)>) -> Self {
         Self { arguments, ..Self::plain(FrameKind::Macro, target, repeats) }
     }
 
     /// The macro of a modal call.
     fn of_modal(call: &ModalCall<D>) -> Self {
-        Self::of_macro(call.target, call.repeats.saturating_sub(1), call.arguments.clone())
+        Self::of_macro(call.target, further_turns(call.repeats.known()), call.arguments.clone())
     }
+}
+
+/// The turns that come after the first.
+fn further_turns(turns: Option<u32>) -> Option<u32> {
+    turns.map(|turns| turns.saturating_sub(1))
 }
 
 /// Labels that a computed jump is followed to: one more than an analysis keeps waiting, so that it gives up rather than
@@ -185,18 +193,12 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     pub(super) fn call_code(&mut self, effect: Effect, state: &mut State<D>) -> Step {
         let letter = Letter::of('P');
         let Some(count) = self.count(letter)? else { return self.call_by_comment(letter, state) };
-        let mut repeats = match self.call_repeats()? {
-            None => 1,
-            Some(Count::Known(n)) => n,
-            Some(Count::Unknown) => return Err(Fault::Undecidable),
-        };
-        if repeats == 0 {
-            if self.model.semantics().zero_repeats_skip {
-                return Ok(());
-            }
-            repeats = 1;
+        let mut turns = self.turns(self.call_repeats()?)?;
+        let zero_skips = self.model.semantics().zero_repeats_skip;
+        if turns == Some(0) && zero_skips {
+            return Ok(());
         }
-        let Count::Known(mut number) = count else { return self.lose_everything(state) };
+        let Count::Known(mut number) = count else { return self.call_unknown(state) };
         let at = self.origin.at;
         let (kind, target) = if effect == Effect::CallLocal {
             (FrameKind::Local, self.label(f64::from(number), at)?)
@@ -204,7 +206,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             let mut target = self.program.find_number(number, at.file);
             if target.is_none() && self.packs_repeats() && number > 9999 {
                 // Digits in front of the last four count the repeats.
-                repeats = (number / 10_000).max(1);
+                turns = Some(number / 10_000);
                 number %= 10_000;
                 target = self.program.find_number(number, at.file);
             }
@@ -213,8 +215,27 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let Some(target) = target else {
             return self.missing_program(number, effect == Effect::CallLocal, state);
         };
-        self.flow = Some(Flow::Call(Callee::plain(kind, target, repeats - 1)));
+        self.flow = Some(Flow::Call(Callee {
+            may_be_skipped: turns.is_none() && zero_skips,
+            ..Callee::plain(kind, target, further_turns(turns))
+        }));
         Ok(())
+    }
+
+    /// How many turns a call makes, `None` where nobody knows: a run cannot go on then, an analysis follows any number of them.
+    fn turns(&self, count: Option<Count>) -> Step<Option<u32>> {
+        match count {
+            None => Ok(Some(1)),
+            Some(Count::Known(turns)) => Ok(Some(turns)),
+            Some(Count::Unknown) if self.lenient => Ok(None),
+            Some(Count::Unknown) => Err(Fault::Undecidable),
+        }
+    }
+
+    /// A program whose number nobody knows is called: it may be any in the control's memory.
+    fn call_unknown(&mut self, state: &mut State<D>) -> Step {
+        self.refuse(Fault::Undecidable)?;
+        self.lose_everything(state)
     }
 
     /// A call without a number: some codes take the path of the program from a comment, and which program that is, nobody
@@ -283,18 +304,15 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             None => self.count(letter)?,
         };
         let Some(number) = number else { return Err(Fault::MissingWord(letter)) };
-        let repeats = match self.count(Letter::of('L'))? {
-            None => 1,
-            Some(Count::Known(n)) => n.max(1),
-            Some(Count::Unknown) => return Err(Fault::Undecidable),
-        };
+        let turns = self.turns(self.count(Letter::of('L'))?)?;
         let is_modal = effect == Effect::MacroModal;
         let Count::Known(number) = number else {
             if is_modal {
+                self.refuse(Fault::Undecidable)?;
                 state.calls.modal = ModalCalls::unknown();
                 return Ok(());
             }
-            return self.lose_everything(state);
+            return self.call_unknown(state);
         };
         let arguments = self.arguments(words, state);
         let Some(target) = self.program.find_number(number, self.origin.at.file) else {
@@ -306,10 +324,11 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             return self.missing_program(number, false, state);
         };
         if is_modal {
+            let repeats = turns.into();
             state.calls.modal = ModalCalls::on(ModalCall { target, arguments, repeats });
             return Ok(());
         }
-        self.flow = Some(Flow::Call(Callee::of_macro(target, repeats - 1, arguments)));
+        self.flow = Some(Flow::Call(Callee::of_macro(target, further_turns(turns), arguments)));
         Ok(())
     }
 
@@ -427,7 +446,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if state.calls.depth() > limit.min(DEEPEST) {
             return Err(Fault::TooDeep);
         }
-        let Callee { kind, target, repeats, arguments, bar_feed } = callee;
+        let Callee { kind, target, repeats, may_be_skipped, arguments, bar_feed } = callee;
+        let skipped = may_be_skipped.then(|| state.clone());
         let semantics = self.model.semantics();
         let own_locals = match kind {
             FrameKind::Macro | FrameKind::OWord => true,
@@ -448,14 +468,17 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             frame.locals = Perhaps::Yes(locals);
         }
         state.calls.push(frame);
-        Ok(Outcome::Jump(target))
+        Ok(match skipped {
+            None => Outcome::Jump(target),
+            Some(skipped) => Outcome::Fork(vec![(target, state.clone()), (self.origin.at.next(), skipped)]),
+        })
     }
 
     /// The cutoff program of a bar feed, which goes on when it comes back.
     pub(super) fn cut_off_then_feed(&mut self, target: At, feed: BarCommand) {
         self.flow = Some(Flow::Call(Callee {
             bar_feed: Perhaps::Yes(Rc::new(feed)),
-            ..Callee::plain(FrameKind::Subprogram, target, 0)
+            ..Callee::plain(FrameKind::Subprogram, target, Some(0))
         }));
     }
 

@@ -4,9 +4,11 @@
 //! decides), what a call does with its arguments.
 
 use std::ops::Range;
+use std::rc::Rc;
 
 use gcheck_controls::Letter;
 use gcheck_program::{BlockTable, ExprIx, OKeyword, OLabel, OWordLinks, Place, StatementKind};
+use rustc_hash::FxHashMap;
 
 use super::flow_control::Callee;
 use super::{Executor, Outcome, Step};
@@ -15,6 +17,7 @@ use crate::fault::Fault;
 use crate::lattice::{Flat, Perhaps};
 use crate::observer::Observer;
 use crate::origin::At;
+use crate::program::ProgramFile;
 use crate::state::{FrameKind, State};
 use crate::value::{Domain, Truth};
 
@@ -192,32 +195,66 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let begins = own_links.is_some_and(|links| links.keyword == OKeyword::Sub);
         let inside = if begins { Some(at.block) } else { own_links.and_then(|links| links.inside) };
         let blocks = if above { part.start..at.block } else { at.block + 1..part.end };
-        let words = graph.o_words_in(blocks).filter(|(block, keyword)| {
-            !matches!(keyword, OKeyword::Call | OKeyword::Return)
-                && graph.o_word(*block).is_some_and(|links| links.inside == inside)
-        });
-        let words: Vec<(u32, OKeyword)> = if above {
-            words.rev().take(MOST_LABELS + 1).collect()
-        } else {
-            words.take(MOST_LABELS + 1).collect()
-        };
-        if words.len() > MOST_LABELS {
+        let is_near = |block: u32| graph.o_word(block).is_some_and(|links| links.inside == inside);
+        let labels = self.o_labels(at.file);
+        let mut equal: Vec<(u32, OKeyword)> =
+            labels.written(own, &blocks).filter(|(block, _)| is_near(*block)).collect();
+        let computed: Vec<(u32, OKeyword)> =
+            labels.computed(&blocks).filter(|(block, _)| is_near(*block)).take(MOST_LABELS + 1).collect();
+        if computed.len() > MOST_LABELS {
             return Err(Fault::Undecidable);
         }
-        let mut equal = Vec::new();
-        for (block, keyword) in words {
-            let Some(place) = file.loaded.place(block, self.program.dialect()) else { continue };
-            let table = std::rc::Rc::clone(&place.table);
-            let label = table.statements(place.ix).find_map(|statement| match &statement.kind {
-                StatementKind::OWord { label, arguments, .. } => Some((label, arguments)),
-                _ => None,
-            });
-            let Some((label, arguments)) = label else { continue };
-            if self.label_value(&place, label, arguments, state)? == *own {
+        for (block, keyword) in computed {
+            if self.computed_label_of(&file, block, state)?.as_ref() == Some(own) {
                 equal.push((block, keyword));
             }
         }
+        equal.sort_unstable_by_key(|(block, _)| *block);
+        if above {
+            equal.reverse();
+        }
         Ok(equal)
+    }
+
+    /// The value of the computed label of a block.
+    fn computed_label_of(
+        &mut self,
+        file: &ProgramFile<'_>,
+        block: u32,
+        state: &State<D>,
+    ) -> Step<Option<OLabel>> {
+        let Some(place) = file.loaded.place(block, self.program.dialect()) else { return Ok(None) };
+        let table = Rc::clone(&place.table);
+        let computed = o_word_of(&table, &place).filter(|(label, _)| **label == OLabel::Computed);
+        let Some((label, arguments)) = computed else { return Ok(None) };
+        self.label_value(&place, label, arguments, state).map(Some)
+    }
+
+    /// The labels of a file, read once.
+    fn o_labels(&mut self, file: u32) -> Rc<OLabels> {
+        if let Some(labels) = self.o_labels.get(&file) {
+            return Rc::clone(labels);
+        }
+        let mut labels = OLabels::default();
+        if let Some(file) = self.file(file) {
+            let graph = file.loaded.flow_graph();
+            for (block, keyword) in graph.o_words_in(0..graph.blocks()) {
+                if matches!(keyword, OKeyword::Call | OKeyword::Return) {
+                    continue;
+                }
+                let Some(place) = file.loaded.place(block, self.program.dialect()) else { continue };
+                match o_word_of(&place.table, &place) {
+                    Some((OLabel::Computed, _)) => labels.computed.push((block, keyword)),
+                    Some((label, _)) => {
+                        labels.written.entry(label.clone()).or_default().push((block, keyword))
+                    }
+                    None => {}
+                }
+            }
+        }
+        let labels = Rc::new(labels);
+        self.o_labels.insert(file, Rc::clone(&labels));
+        labels
     }
 
     /// A label, with its number where it is computed.
@@ -237,7 +274,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 let number = D::known(&value).ok_or(Fault::Undecidable)?;
                 whole_label(number)
             }
-            _ => Ok(label.compared().into_owned()),
+            _ => Ok(label.clone()),
         }
     }
 
@@ -262,8 +299,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if scope.is_none() && is_called {
             return Ok(());
         }
-        let first =
-            *self.labels_defined.entry((at.file, scope, label.compared().into_owned())).or_insert(at.block);
+        let first = *self.labels_defined.entry((at.file, scope, label.clone())).or_insert(at.block);
         if first == at.block { Ok(()) } else { self.refuse(Fault::LoopMismatch) }
     }
 
@@ -344,16 +380,12 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if !graph.has_computed_o_labels() {
             return Ok(None);
         }
-        let subs = graph.o_words_in(0..graph.blocks()).filter(|(_, keyword)| *keyword == OKeyword::Sub);
+        let labels = self.o_labels(at.file);
+        let all = 0..graph.blocks();
+        let subs = labels.computed(&all).filter(|(_, keyword)| *keyword == OKeyword::Sub);
         for (block, _) in subs.take(MOST_LABELS) {
-            let Some(place) = file.loaded.place(block, self.program.dialect()) else { continue };
-            let table = std::rc::Rc::clone(&place.table);
-            for statement in table.statements(place.ix) {
-                if let StatementKind::OWord { label: OLabel::Computed, arguments, .. } = &statement.kind
-                    && self.label_value(&place, &OLabel::Computed, arguments, state)? == *label
-                {
-                    return Ok(Some(At { file: at.file, block }));
-                }
+            if self.computed_label_of(&file, block, state)?.as_ref() == Some(label) {
+                return Ok(Some(At { file: at.file, block }));
             }
         }
         Ok(None)
@@ -469,8 +501,45 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     }
 }
 
-/// O-words that are looked at for the partner of one whose label is computed.
-const MOST_LABELS: usize = 4_096;
+/// Computed labels that are looked at for the partner of an O-word: each is computed anew, every time.
+const MOST_LABELS: usize = 256;
+
+/// The labels of the O-words of a file that open, go on with or close a structure.
+#[derive(Debug, Default)]
+pub(super) struct OLabels {
+    /// Blocks by their label, in text order.
+    written: FxHashMap<OLabel, Vec<(u32, OKeyword)>>,
+    /// Blocks whose label is computed, in text order.
+    computed: Vec<(u32, OKeyword)>,
+}
+
+impl OLabels {
+    /// Those of a label that is written, among the blocks.
+    fn written(&self, label: &OLabel, blocks: &Range<u32>) -> impl Iterator<Item = (u32, OKeyword)> {
+        among(self.written.get(label).map_or(&[], Vec::as_slice), blocks)
+    }
+
+    /// Those whose label is computed, among the blocks.
+    fn computed(&self, blocks: &Range<u32>) -> impl Iterator<Item = (u32, OKeyword)> {
+        among(&self.computed, blocks)
+    }
+}
+
+fn among<'w>(
+    words: &'w [(u32, OKeyword)],
+    blocks: &Range<u32>,
+) -> impl Iterator<Item = (u32, OKeyword)> + use<'w> {
+    let at = |block: u32| words.partition_point(|(word, _)| *word < block);
+    words.get(at(blocks.start)..at(blocks.end)).unwrap_or_default().iter().copied()
+}
+
+/// The label of the O-word of a block, with its expressions.
+fn o_word_of<'t>(table: &'t BlockTable, place: &Place) -> Option<(&'t OLabel, &'t Range<u32>)> {
+    table.statements(place.ix).find_map(|statement| match &statement.kind {
+        StatementKind::OWord { label, arguments, .. } => Some((label, arguments)),
+        _ => None,
+    })
+}
 
 /// The label of a computed number.
 fn whole_label(number: f64) -> Step<OLabel> {

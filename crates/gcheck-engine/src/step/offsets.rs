@@ -101,13 +101,32 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         named.map(|axis| (*axis, values.raw(*axis))).collect()
     }
 
+    /// Axes that the block changes by an address of increments, with their steps in millimetres.
+    fn increments(&self, state: &State<D>) -> Vec<(Axis, f64)> {
+        let is_radius = state.is_diameter(self.model) != Some(true);
+        let unit = self.unit(state);
+        let present = self.words.present().and(self.model.axis_letters);
+        let steps = present.iter().filter_map(|letter| {
+            let (axis, _) = self.model.axis_of(letter).filter(|(_, is_increment)| *is_increment)?;
+            let step = self.words.number(letter)?;
+            let step = if axis.is_rotary() || step == 0.0 { step } else { step * unit };
+            Some((axis, if axis != Axis::X || is_radius { step } else { step / 2.0 }))
+        });
+        steps.collect()
+    }
+
     /// `G92`: the present position reads as programmed.
     pub(super) fn set_position(&mut self, state: &mut State<D>) -> Step {
-        let named = self.named(state);
+        let mut named = self.named(state);
+        let position = if state.compensation.is_followed() { *state.position() } else { *state.actual() };
+        let adds = self.model.semantics().increments_set_position;
+        let changed = self.increments(state).into_iter();
+        named.extend(
+            changed.map(|(axis, step)| (axis, if adds { position.raw(axis) + step } else { f64::NAN })),
+        );
         if named.is_empty() {
             return if self.refuses_incomplete() { Err(Fault::NoAxisWords) } else { Ok(()) };
         }
-        let position = if state.compensation.is_followed() { *state.position() } else { *state.actual() };
         for (axis, value) in &named {
             // Machine = work + shift stays, so the shift grows by what the position loses.
             let counts = if self.shifts_are_one() { state.offsets.shift_on } else { Truth::True };

@@ -16,7 +16,7 @@ use gcheck_edit::{
     witness,
 };
 use gcheck_engine::{Assumption, Axis, Ending, Machine, Options, Role, RunResult, Stopped, Units};
-use gcheck_toolpath::{Act, Aspect, Differences, compare};
+use gcheck_toolpath::{Act, Aspect, Differences, Rest, compare};
 
 use super::cycles::cycle_at;
 
@@ -258,7 +258,7 @@ impl Proving<'_> {
         if let Some(reason) = self.end(&ran.result) {
             return Ok(Err(reason));
         }
-        let differences = compare(promised.acts, made.acts, self.change.tolerance());
+        let differences = compare(promised.acts, made.acts, self.change.tolerance(), Rest::Leave);
         if let Some(reason) = different(&differences) {
             return Ok(Err(reason));
         }

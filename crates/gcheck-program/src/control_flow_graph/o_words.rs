@@ -113,7 +113,7 @@ impl OWords {
     }
 
     pub(super) fn sub(&self, label: &OLabel) -> Option<u32> {
-        self.subs.get(&*label.compared()).copied()
+        self.subs.get(label).copied()
     }
 
     /// The `sub` whose text holds the block, its own two blocks included; O-words before `first` do not count.
@@ -285,12 +285,11 @@ impl OWordBuilder {
         if *label == OLabel::Computed {
             return None;
         }
-        let label = label.compared();
-        if let Some(number) = self.labels.get(&*label) {
+        if let Some(number) = self.labels.get(label) {
             return Some(*number);
         }
         let number = self.labels.len() as u32;
-        self.labels.insert(label.into_owned(), number);
+        self.labels.insert(label.clone(), number);
         Some(number)
     }
 

@@ -124,6 +124,7 @@ pub(crate) mod five_axis {
 pub(crate) mod flow {
     pub(crate) mod alarm_reached;
     pub(crate) mod analysis_incomplete;
+    pub(crate) mod block_not_decided;
     pub(crate) mod calls_nested_too_deep;
     pub(crate) mod checked_past_alarm;
     pub(crate) mod endless_loop;
@@ -589,6 +590,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &five_axis::tool_direction_unknown::RULE,
     &flow::alarm_reached::RULE,
     &flow::analysis_incomplete::RULE,
+    &flow::block_not_decided::RULE,
     &flow::calls_nested_too_deep::RULE,
     &flow::checked_past_alarm::RULE,
     &flow::endless_loop::RULE,

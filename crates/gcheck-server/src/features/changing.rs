@@ -56,6 +56,9 @@ impl Owner {
             return Ok(None);
         }
         let uri = &params.text_document.uri;
+        if self.is_configuration(uri) {
+            return Ok(None);
+        }
         self.choose_settings(uri);
         let snapshot = self.snapshot(uri)?;
         let mut places = self.places(&snapshot);
@@ -215,6 +218,9 @@ impl Owner {
         uri: &Uri,
         edits: impl FnOnce(&Snapshot, &Places<'_>, &Style) -> Vec<gcheck_ide::Edit>,
     ) -> Result<Option<Vec<TextEdit>>> {
+        if self.is_configuration(uri) {
+            return Ok(None);
+        }
         self.choose_settings(uri);
         let snapshot = self.snapshot(uri)?;
         let mut places = self.places(&snapshot);

@@ -135,7 +135,11 @@ impl Owner {
         &mut self,
         params: &SelectionRangeParams,
     ) -> Result<Option<Vec<SelectionRange>>> {
-        let snapshot = self.indexed(&params.text_document.uri)?;
+        let uri = &params.text_document.uri;
+        if self.is_configuration(uri) {
+            return Ok(None);
+        }
+        let snapshot = self.indexed(uri)?;
         let mut places = self.places(&snapshot);
         let ranges = params.positions.iter().map(|position| {
             let offset = places.offset(*position);

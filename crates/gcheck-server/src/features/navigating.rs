@@ -101,6 +101,9 @@ impl Owner {
 
     pub(crate) fn links(&mut self, params: &DocumentLinkParams) -> Result<Option<Vec<DocumentLink>>> {
         let uri = &params.text_document.uri;
+        if self.is_configuration(uri) {
+            return Ok(None);
+        }
         let files = self.workspace_of(uri)?;
         let id = self.document(uri)?.id;
         let snapshot = self.snapshot(uri)?;

@@ -30,6 +30,9 @@ impl Owner {
         reply: Reply<Option<DocumentSymbolResponse>>,
     ) {
         let uri = params.text_document.uri.clone();
+        if self.is_configuration(&uri) {
+            return reply.send(Ok(None));
+        }
         self.choose_settings(&uri);
         let snapshot = match self.snapshot(&uri) {
             Ok(snapshot) => snapshot,
@@ -56,6 +59,9 @@ impl Owner {
         reply: Reply<Option<Vec<FoldingRange>>>,
     ) {
         let uri = params.text_document.uri.clone();
+        if self.is_configuration(&uri) {
+            return reply.send(Ok(None));
+        }
         self.choose_settings(&uri);
         let snapshot = match self.snapshot(&uri) {
             Ok(snapshot) => snapshot,
@@ -88,6 +94,9 @@ impl Owner {
         reply: Reply<Option<SemanticTokensResult>>,
     ) {
         let uri = &params.text_document.uri;
+        if self.is_configuration(uri) {
+            return reply.send(Ok(None));
+        }
         match self.snapshot(uri) {
             Ok(snapshot) if snapshot.len() > MOST_COLOURED => reply.send(Ok(None)),
             _ => self.tokens(uri, None, reply, |tokens| Some(SemanticTokensResult::Tokens(tokens))),
@@ -99,6 +108,9 @@ impl Owner {
         params: &SemanticTokensRangeParams,
         reply: Reply<Option<SemanticTokensRangeResult>>,
     ) {
+        if self.is_configuration(&params.text_document.uri) {
+            return reply.send(Ok(None));
+        }
         let whole = Some(params.range);
         self.tokens(&params.text_document.uri, whole, reply, |tokens| {
             Some(SemanticTokensRangeResult::Tokens(tokens))
@@ -161,6 +173,9 @@ impl Owner {
         stop: &dyn Fn() -> bool,
     ) -> Result<Option<Vec<InlayHint>>> {
         let uri = &params.text_document.uri;
+        if self.is_configuration(uri) {
+            return Ok(None);
+        }
         self.choose_settings(uri);
         self.look_ahead(uri, stop);
         let snapshot = self.snapshot(uri)?;
@@ -191,6 +206,9 @@ impl Owner {
     /// Lenses come from a run of the whole program: the ones of the last run are shown until the next is over.
     pub(crate) fn code_lenses(&mut self, params: &CodeLensParams, reply: Reply<Option<Vec<CodeLens>>>) {
         let uri = &params.text_document.uri;
+        if self.is_configuration(uri) {
+            return reply.send(Ok(None));
+        }
         self.choose_settings(uri);
         let snapshot = match self.snapshot(uri) {
             Ok(snapshot) => snapshot,

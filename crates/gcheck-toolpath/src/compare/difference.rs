@@ -6,6 +6,7 @@ use std::sync::Arc as Shared;
 
 use gcheck_engine::{Position, Spindle};
 
+use super::digest::Digest;
 use crate::corner_mode::CornerMode;
 use crate::trail::{Driven, Feed, Setting, Stand};
 
@@ -207,6 +208,7 @@ pub struct Differences {
     counts: [u64; Aspect::ALL.len()],
     /// The values that differ at the moment: that they differ still is not a further difference.
     current: [Option<[Option<Value>; 2]>; Aspect::ALL.len()],
+    digest: Digest,
 }
 
 impl Differences {
@@ -230,6 +232,15 @@ impl Differences {
         self.left_alone.is_some()
     }
 
+    /// A name for these very differences, all of them: it stays as long as they do, whatever else changes in the texts.
+    pub fn digest(&self) -> u64 {
+        let mut digest = self.digest.clone();
+        if let Some(Corner { a: _, at, off, count }) = &self.corner {
+            digest.add(&(at, off, count));
+        }
+        digest.value()
+    }
+
     /// Of which run was the rest left alone, because the paths had parted? How it ends says nothing.
     pub fn left_alone(&self) -> [bool; 2] {
         self.left_alone.unwrap_or_default()
@@ -238,6 +249,8 @@ impl Differences {
     /// The paths part, and are compared again from there if they are.
     pub(super) fn part(&mut self, parting: Parting) {
         self.partings += 1;
+        let Parting { a: _, b: _, at, to, apart, again } = &parting;
+        self.digest.add(&(at, to, apart, again.as_ref().map(|again| again.tool)));
         self.left_alone = parting.again.is_none().then(|| parting.to.map(|to| to.is_some()));
         if self.parting.is_none() {
             self.parting = Some(parting);
@@ -284,9 +297,16 @@ impl Differences {
 
     /// The aspect is the same again.
     pub(super) fn same(&mut self, aspect: Aspect) {
-        if let Some(current) = self.current.get_mut(aspect as usize) {
-            *current = None;
+        if let Some(current) = self.current.get_mut(aspect as usize)
+            && current.take().is_some()
+        {
+            self.digest.add(&(aspect, self.moves));
         }
+    }
+
+    /// What is passed over and not compared belongs to how the paths part.
+    pub(super) fn pass_over(&mut self, over: &Digest) {
+        self.digest.add(over);
     }
 
     pub(super) fn add_once(
@@ -297,6 +317,7 @@ impl Differences {
     ) {
         let Some(count) = self.counts.get_mut(aspect as usize) else { return };
         *count += 1;
+        self.digest.add(&(aspect, self.moves, &values));
         if *count <= KEPT as u64 {
             self.kept.push(Difference { aspect, a, b, values });
         }

@@ -15,6 +15,8 @@ pub(super) mod words;
 use std::path::Path;
 use std::sync::Arc;
 
+use gcheck_toolpath::Rest;
+
 use super::json as to_text;
 use crate::args::{DiffFormat, DiffOptions, Global};
 use crate::console::{FAILED, report, say};
@@ -50,7 +52,7 @@ pub(crate) fn run(global: &Global, options: &DiffOptions) -> Result<u8, Problem>
 
 /// Compares two programs.
 fn one(global: &Global, options: &DiffOptions) -> Result<u8, Problem> {
-    let compared = runs::both(global, options, [&options.a, &options.b], &Arc::default())?;
+    let compared = runs::both(global, options, [&options.a, &options.b], &Arc::default(), Rest::Leave)?;
     let text = if options.output_format == DiffFormat::Json {
         to_text(&compared.sides().json(&compared.differences))?
     } else {

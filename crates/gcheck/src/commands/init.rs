@@ -17,18 +17,20 @@ pub(crate) fn run(global: &Global) -> Result<u8, Problem> {
     if let Some(existing) = FILE_NAMES.iter().map(Path::new).find(|path| path.symlink_metadata().is_ok()) {
         return Err(Problem::with_file(existing, "is here already; it was left as it is"));
     }
-    let (line, remark) = match &global.control {
+    let (line, remark, control) = match &global.control {
         Some(name) => {
             validate_control(name).map_err(Problem::new)?;
-            (format!("control = \"{name}\""), format!("the control is {name}"))
+            (format!("control = \"{name}\""), format!("the control is {name}"), Some(name.clone()))
         }
         None => {
             let counts = detected()?;
-            (control_line(&counts), remark(&counts))
+            let control = agreed(&counts).map(|(name, _)| name.clone());
+            (control_line(&counts), remark(&counts), control)
         }
     };
     let names = gcheck_controls::names().join(", ");
-    let text = TEMPLATE.replace("{control}", &line).replace("{names}", &names);
+    let setting = setting_line(control.as_deref());
+    let text = TEMPLATE.replace("{control}", &line).replace("{setting}", &setting).replace("{names}", &names);
     let path = Path::new(FILE_NAMES.first().copied().unwrap_or_default());
     output::to_file(path, |out| out.write_all(text.as_bytes()))?;
     output::print(&format!("wrote {}: {remark}\nnext: `gcheck check`\n", path.display()))
@@ -70,6 +72,21 @@ fn remark(counts: &BTreeMap<String, usize>) -> String {
     }
 }
 
+/// A setting of the control as an example: the one that decides about decimal points, where there is one.
+fn setting_line(control: Option<&str>) -> String {
+    let control = gcheck_controls::load(control.unwrap_or_else(|| gcheck_controls::fallback())).ok();
+    let example = control.as_ref().and_then(|control| {
+        let decides = control.numbers().unpointed_setting.as_deref();
+        decides.and_then(|number| control.setting(number)).or_else(|| control.settings().first())
+    });
+    let Some(setting) = example else {
+        return "# gcheck reads none of this control.".to_owned();
+    };
+    let value = setting.as_written.as_ref().or(setting.default.as_ref()).or_else(|| setting.values.first());
+    let value = value.map_or("…", String::as_str);
+    format!("# \"{}\" = \"{value}\"  # {}", setting.number, setting.title)
+}
+
 /// Says the control where the programs agree on one. Where they do not, a line for all would be wrong for many of them.
 fn control_line(counts: &BTreeMap<String, usize>) -> String {
     if let Some((name, count)) = agreed(counts) {
@@ -105,7 +122,7 @@ const TEMPLATE: &str = r#"# Configuration of gcheck for the programs in this fol
 
 # Settings of the control that change what a program means, as its page words them.
 [settings]
-# 162 = true        # X1 is X1.
+{setting}
 
 # What is measured at the machine; `gcheck run` and `gcheck stats` say what they lack.
 [offsets]

@@ -21,7 +21,7 @@ use crate::args::{ExecutionOptions, Global, StatsFormat, StatsOptions};
 use crate::console::say;
 use crate::execution::{self, Rests, Session, Steps};
 use crate::programs::ProgramFolders;
-use crate::{Problem, output};
+use crate::{Problem, discovery, output};
 
 /// Version of the JSON's shape.
 const VERSION: u32 = 1;
@@ -29,8 +29,9 @@ const VERSION: u32 = 1;
 /// Runs the command; the exit code is its result.
 pub(crate) fn run(global: &Global, options: &StatsOptions) -> Result<u8, Problem> {
     output::refuse_to_replace(options.output_file.as_deref(), options.files.iter().map(|file| &**file))?;
+    let is_one = |file: &Path| !file.is_dir() && (file.exists() || !discovery::is_pattern(file));
     match options.files.as_slice() {
-        [file] if !file.is_dir() && options.output_format != StatsFormat::Csv => one(global, options, file),
+        [file] if is_one(file) && options.output_format != StatsFormat::Csv => one(global, options, file),
         _ => table::run(global, options, |file, folders| {
             figures(global, &options.conditions.of(file), folders)
         }),

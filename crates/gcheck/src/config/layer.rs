@@ -49,7 +49,8 @@ impl Layer {
         let base = Facts {
             control: file.control.as_ref().map(|c| c.value.clone()),
             machine: facts.machine(&file.machine)?,
-            settings: facts.settings(&file.settings)?,
+            settings: facts
+                .settings(&file.settings, file.overrides.iter().filter_map(|table| table.control.as_ref()))?,
             codes: facts.codes(&file.codes)?,
             execution: facts.execution(&file.machine, &file.variables, &file.offsets, &file.tools)?,
             search: text.search(&file.search)?,
@@ -117,7 +118,7 @@ fn overriding(
     let own = Facts {
         control: table.control.as_ref().map(|c| c.value.clone()),
         machine: facts.machine(&table.machine)?,
-        settings: facts.settings(&table.settings)?,
+        settings: facts.settings(&table.settings, None)?,
         codes: facts.codes(&table.codes)?,
         execution,
         search: text.search(&table.search)?,

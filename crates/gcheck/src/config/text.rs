@@ -42,7 +42,16 @@ impl Text<'_> {
         if let Some(path) = table.paths.get(MAX_SEARCHED) {
             return Err(self.problem(path, format!("more than {MAX_SEARCHED} folders to search")));
         }
-        Ok(table.paths.iter().map(|path| self.path(&path.value)).collect())
+        let folder = |written: &Placed<String>| {
+            let path = self.path(&written.value);
+            if path.is_dir() {
+                return Ok(path);
+            }
+            let message =
+                format!("`{}` is not a folder; programs that are called are looked for in it", written.value);
+            Err(self.problem(written, message).help("a path counts from the folder of this file"))
+        };
+        table.paths.iter().map(folder).collect()
     }
 
     /// A path that the text names.

@@ -239,13 +239,18 @@ impl<'t> Checked<'t> {
         Err(self.text.problem(name, format!("`{}` is not an axis{of}; the axes are {axes}", name.value)))
     }
 
-    /// Settings in the words of the control. One that the knowledge base does not list is kept: its list may have gaps.
-    pub(super) fn settings(
+    /// Settings in the words of the control. One that the control does not list must be of a control of `others`: what holds
+    /// for all programs of a folder may be meant for some of them.
+    pub(super) fn settings<'c>(
         &self,
         settings: &BTreeMap<Placed<String>, Placed<Scalar>>,
+        others: impl IntoIterator<Item = &'c Placed<String>>,
     ) -> Result<Vec<(String, String)>, Problem> {
+        let others: Vec<Arc<Control>> =
+            others.into_iter().filter_map(|name| gcheck_controls::load(&name.value).ok()).collect();
         for (number, value) in settings {
             let Some(entry) = self.control.as_ref().and_then(|control| control.setting(&number.value)) else {
+                self.is_of_another(number, &others)?;
                 continue;
             };
             let listed: Vec<&str> = entry.values.iter().map(String::as_str).collect();
@@ -260,6 +265,24 @@ impl<'t> Checked<'t> {
             }
         }
         Ok(settings.iter().map(|(number, value)| (number.value.clone(), value.value.0.clone())).collect())
+    }
+
+    /// Whether a setting that the control does not list is of one of these; of any control, where none is named.
+    fn is_of_another(&self, number: &Placed<String>, others: &[Arc<Control>]) -> Result<(), Problem> {
+        let lists = |control: &Arc<Control>| control.setting(&number.value).is_some();
+        let (is_known, of) = match &self.control {
+            Some(control) => (others.iter().any(lists), control.name()),
+            None => {
+                let mut all =
+                    gcheck_controls::names().iter().filter_map(|name| gcheck_controls::load(name).ok());
+                (all.any(|control| lists(&control)), "any control")
+            }
+        };
+        if is_known {
+            return Ok(());
+        }
+        let message = format!("gcheck reads no setting {} of {of}", number.value);
+        Err(self.text.problem(number, message).help("leave it out: it changes nothing here"))
     }
 
     pub(super) fn codes(

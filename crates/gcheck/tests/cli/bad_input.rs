@@ -398,6 +398,42 @@ fn names_that_do_not_exist() {
     "#]],
     );
     check_configuration(
+        "control = \"haas-mill\"\n[settings]\n126 = true\n",
+        &expect![[r#"
+        sound/a.nc:3:1: error[unknown-code] unknown code `G999`
+        ! error: shop/gcheck.toml:3:1: gcheck reads no setting 126 of haas-mill
+        !   |
+        ! 3 | 126 = true
+        !   | ^^^
+        !   help: leave it out: it changes nothing here
+        exit 2
+    "#]],
+    );
+    check_configuration(
+        "[settings]\n99999 = true\n",
+        &expect![[r#"
+        sound/a.nc:3:1: error[unknown-code] unknown code `G999`
+        ! error: shop/gcheck.toml:2:1: gcheck reads no setting 99999 of any control
+        !   |
+        ! 2 | 99999 = true
+        !   | ^^^^^
+        !   help: leave it out: it changes nothing here
+        exit 2
+    "#]],
+    );
+    check_configuration(
+        "[search]\npaths = [\".\", \"macros\"]\n",
+        &expect![[r#"
+        sound/a.nc:3:1: error[unknown-code] unknown code `G999`
+        ! error: shop/gcheck.toml:2:15: `macros` is not a folder; programs that are called are looked for in it
+        !   |
+        ! 2 | paths = [".", "macros"]
+        !   |               ^^^^^^^^
+        !   help: a path counts from the folder of this file
+        exit 2
+    "#]],
+    );
+    check_configuration(
         "control = \"haas-mill\"\n[settings]\n162 = \"perhaps\"\n",
         &expect![[r#"
         sound/a.nc:3:1: error[unknown-code] unknown code `G999`

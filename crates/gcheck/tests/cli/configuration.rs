@@ -271,7 +271,16 @@ missing-decimal-point = "info"
 files = ["lathe/**"]
 control = "haas-lathe"
 "##;
-    check_part(WARNED, configuration, &["missing-decimal-point"]);
+    let macros = ("macros/O9010.nc", "%\nO9010\nM99\n%\n");
+    let shop = Shop::with(&[("part.nc", WARNED), ("gcheck.toml", configuration), macros]);
+    let run = shop.gcheck("check part.nc --output-format concise --quiet");
+    assert_eq!((run.stderr.as_str(), run.rules()), ("", vec!["missing-decimal-point".to_owned()]));
+}
+
+#[test]
+fn a_setting_of_another_control_of_the_folder_is_taken() {
+    let lathe = "control = \"haas-mill\"\n[settings]\n99 = 0.01\n[[overrides]]\nfiles = [\"lathe/**\"]\ncontrol = \"haas-lathe\"\n";
+    check_part(WARNED, lathe, &["missing-decimal-point"]);
 }
 
 #[test]
@@ -283,6 +292,7 @@ fn what_is_in_force_is_shown() {
              [search]\npaths = [\"macros\"]\n[rules]\nselect = [\"unknown-code\", \"unknown-address\"]\nunknown-code = \"warning\"\n",
         ),
         ("part.nc", GOOD),
+        ("macros/readme.txt", ""),
     ]);
     expect![[r#"
         part.nc
@@ -334,6 +344,7 @@ fn the_machine_in_force_can_be_looked_at() {
              max_rpm = 8100\nmax_feed = 500.0\n[offsets]\nG54 = { X = -10.0 }\n[tools]\n1 = { length = 4.0 }\n2 = { length = 5.0 }\n",
         ),
         ("part.nc", GOOD),
+        ("macros/readme.txt", ""),
     ]);
     expect![[r#"
         part.nc

@@ -67,7 +67,7 @@ fn a_changed_tool_is_one_difference_and_the_next_tool_is_compared_again() {
     ]);
     let run = diff(&shop, "");
     expect![[r#"
-        plate.nc  differs: path, feed  [digest 7cb21382]
+        plate.nc  differs: path, feed  [digest 70c106c6]
             the paths part at X50 Y20 Z-1
               - old/plate.nc:10  to X50 Y20 Z50   | G0 Z50.
               + new/plate.nc:9  to X50 Y20.5 Z-1   | Y20.5
@@ -91,7 +91,7 @@ fn a_retract_of_another_height_is_a_difference_of_that_tool_alone() {
         .map(|end| program(1, SIDE, HOLE).replacen("Y20.\nG0 Z50.", &format!("Y20.\n{end}"), 1));
     let run = diff(&shop(&[("old/plate.nc", &stays), ("new/plate.nc", &moves)]), "");
     expect![[r#"
-        plate.nc  differs: path  [digest f429b07a]
+        plate.nc  differs: path  [digest 5afcdb37]
             the paths part at X50 Y20 Z50
               - old/plate.nc:13  to X0 Y0 Z50   | G0 X0. Y0. S900 M3
               + new/plate.nc:11  to X50 Y20 Z40   | G0 Z40.
@@ -116,7 +116,7 @@ fn what_is_accepted_passes_until_its_date() {
     };
     let run = accept("differences = [\"feed\"]");
     expect![[r#"
-        plate.nc  accepted: feed (drills run faster now)  [digest a0090805]
+        plate.nc  accepted: feed (drills run faster now)  [digest 84c0fc4c]
         1 pair of programs compared, within 0.001 mm: 0 the same, 1 accepted
     "#]]
     .assert_eq(&run.stdout);
@@ -252,6 +252,8 @@ fn no_output_replaces_what_is_read() {
         "diff old/plate.nc new/plate.nc -o old/plate.nc",
         "stats old/plate.nc -o old/plate.nc",
         "run old/plate.nc -o old/plate.nc",
+        "diff old new -o old/plate.nc",
+        "stats old -o old/plate.nc",
     ] {
         let run = shop.gcheck(&format!("{command} --control fanuc-mill"));
         assert!(run.code == 2 && run.stderr.contains("is read in this run"), "{command}: {}", run.stderr);

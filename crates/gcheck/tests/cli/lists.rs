@@ -205,7 +205,7 @@ fn init_chooses_no_control_for_a_mixed_folder() {
 #[test]
 fn what_init_leaves_in_comments_is_valid_too() {
     for control in ["haas-mill", "haas-lathe", "fanuc-mill", "fanuc-lathe", "linuxcnc", "generic-mill"] {
-        let shop = Shop::with(&[("part.nc", GOOD)]);
+        let shop = Shop::with(&[("part.nc", GOOD), ("macros/O9010.nc", GOOD)]);
         assert_eq!(shop.gcheck(&format!("init --control {control}")).code, 0);
         let text = shop.read("gcheck.toml").replace('…', control);
         let is_key =

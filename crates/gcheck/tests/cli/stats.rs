@@ -461,9 +461,9 @@ fn several_programs_are_a_table() {
     ]);
     let run = shop.gcheck("stats -q .");
     expect![[r#"
-        program    control    time    cutting  tools  changes  cut mm  X                Y                Z
-        a/part.nc  haas-mill  0:46.5  0:37.2   2      2        100     0.000 to 50.000  0.000 to 10.000  -10.000 to 25.000
-        b.nc       haas-mill  0:00.0  0:00.0   1      0        0       -                -                -
+        program    control    time min  cutting min  tools  changes  cut mm  X                Y                Z
+        a/part.nc  haas-mill  0:46.5    0:37.2       2      2        100     0.000 to 50.000  0.000 to 10.000  -10.000 to 25.000
+        b.nc       haas-mill  0:00.0    0:00.0       1      0        0       -                -                -
         2 programs, 0:46.5 min in all (lower bound); extents are of what is cut, in mm
     "#]].assert_eq(&run.stdout);
     assert_eq!(run.code, 2, "{}", run.stderr);

@@ -147,10 +147,10 @@ fn configurations_tables_and_called_programs_count() {
     let watching = Watching::start(&shop, "jobs --select missing-decimal-point,subprogram-missing");
     watching.until("2 warnings in 1 file");
     watching.round();
+    fs::create_dir(shop.path("macros")).unwrap();
     shop.file("gcheck.toml", "[rules]\nmissing-decimal-point = \"error\"\n[search]\npaths = [\"macros\"]\n");
     watching.until("1 error, 1 warning in 1 file");
     watching.round();
-    fs::create_dir(shop.path("macros")).unwrap();
     shop.file("gcheck.toml", "[rules]\n[search]\npaths = [\"macros\"]\n");
     watching.until("2 warnings in 1 file");
     watching.round();

@@ -40,7 +40,7 @@ fn turning(change: impl FnOnce(&mut TurningWords)) -> KeptTurningWords {
 
 fn modal_call(argument: f64) -> ModalCalls<Abstract> {
     let arguments = vec![(1, AbstractValue::Number(argument))];
-    ModalCalls::on(ModalCall { target: block(), arguments, repeats: 1 })
+    ModalCalls::on(ModalCall { target: block(), arguments, repeats: Flat::Known(1) })
 }
 
 /// Each field with a change of it alone.

@@ -300,7 +300,12 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             return Err(Fault::Cycle(CycleFault::Plane));
         }
         if self.compensates(state) {
-            return Err(Fault::Cycle(CycleFault::Compensated));
+            if effect != Effect::FinishProfile {
+                return Err(Fault::Cycle(CycleFault::Compensated));
+            }
+            // Carried out beside the profile (observed); where that leads is not computed.
+            self.opaque_operation(ix, state);
+            return Ok(());
         }
         let unit = self.unit(state);
         let units = state.units(self.model).unwrap_or(Units::Mm);

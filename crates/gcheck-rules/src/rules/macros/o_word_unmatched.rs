@@ -124,8 +124,10 @@ fn closes_later(opener: &OWord, rest: &[&OWord]) -> bool {
 
 fn written(cx: &FileCx<'_>, word: &OWord) -> String {
     let text = cx.slice(word.range.clone());
-    let label_end = match &word.label {
-        OLabel::Name(_) => text.find('>').map_or(text.len(), |at| at + 1),
+    let closed_by = |close: char| text.find(close).map_or(text.len(), |at| at + 1);
+    let label_end = match text.get(1..).and_then(|rest| rest.trim_start().chars().next()) {
+        Some('<') => closed_by('>'),
+        Some('[') => closed_by(']'),
         _ => 1 + text.bytes().skip(1).take_while(|b| b.is_ascii_digit() || *b == b' ').count(),
     };
     format!(

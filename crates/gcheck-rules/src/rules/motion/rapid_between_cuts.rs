@@ -101,7 +101,7 @@ declare_rule! {
         tier: Path,
         since: "0.1.0",
         run: Run::Path {
-            watch: Watch::MOVES.union(Watch::CHANGES).union(Watch::FOLLOWED),
+            watch: Watch::MOVES.union(Watch::CHANGES).union(Watch::ALL_BLOCKS).union(Watch::FOLLOWED),
             make: || Box::new(RapidBetweenCuts::default()),
         },
     }
@@ -146,8 +146,8 @@ struct Way {
     behind: Option<Cut>,
     /// The first block.
     bytes: Range<u32>,
-    /// The first block, and the last one.
-    blocks: [At; 2],
+    /// Where it begins.
+    begins: At,
     /// Where the first one goes, and where the last; none yet for a move straight down.
     heads: Option<[[f64; 2]; 2]>,
     to: [f64; 2],
@@ -158,9 +158,11 @@ struct Way {
     is_new: Option<bool>,
     /// The tool was lifted straight up at the end.
     is_lifted: bool,
+    /// A block that does not move has come since it began: the program does something there.
+    is_interrupted: bool,
 }
 
-remembers!(Way: bytes, blocks);
+remembers!(Way: bytes, begins);
 
 /// A suspicious way.
 #[derive(Clone, PartialEq)]
@@ -192,6 +194,12 @@ impl PathRule for RapidBetweenCuts {
 
     fn shares(&self) -> Option<MakeShared> {
         Some(Cuts::shared)
+    }
+
+    fn block(&mut self, cx: &PathCx<'_>, _: &mut Report<'_>) {
+        if let Some(way) = self.way.as_mut().filter(|_| !cx.names_axes()) {
+            way.is_interrupted = true;
+        }
     }
 
     fn changed(&mut self, _: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
@@ -259,25 +267,24 @@ impl RapidBetweenCuts {
         way: Option<Way>,
     ) -> Option<Way> {
         let heads = direction([x0, y0], [x1, y1]);
-        let at = cx.origin().at;
         let begin = |behind: Option<Cut>, is_new: Option<bool>| Way {
             z: z1,
             behind,
             bytes: cx.range(),
-            blocks: [at, at],
+            begins: cx.origin().at,
             heads: heads.map(|heads| [heads, heads]),
             to: [x1, y1],
             pieces: usize::from(heads.is_some()),
             compensated: usize::from(heads.is_some() && is_compensated(cx)),
             is_new,
             is_lifted: false,
+            is_interrupted: false,
         };
         if (z1 - z0).abs() < LEVEL {
             let heads = heads?;
             let is_new = cuts.map(|cuts| self.is_new(cx, cuts, [x0, y0], [x1, y1], z0));
             let way = match (way, last) {
                 (Some(way), _) if !way.is_lifted => Way {
-                    blocks: [way.blocks[0], at],
                     heads: Some([way.heads.map_or(heads, |[first, _]| first), heads]),
                     to: [x1, y1],
                     pieces: way.pieces + 1,
@@ -472,12 +479,8 @@ impl RapidBetweenCuts {
 
     /// Rapid moves down and up again.
     fn judge_dip(&mut self, cx: &PathCx<'_>, way: &Way) {
-        let [first, last] = way.blocks;
-        let at = cx.origin().at;
         // If the program does something else at depth, the move is deliberate.
-        let goes_on = first.file == at.file
-            && at.block == last.block + 1
-            && (last.block - first.block) as usize == way.pieces;
+        let goes_on = !way.is_interrupted && way.begins.file == cx.origin().at.file;
         let stands = cx.state().spindle() == Some(Spindle::Stopped)
             && cx.definitions().set_by(Fact::Spindle).is_some();
         if way.is_new == Some(true) && goes_on && !stands {

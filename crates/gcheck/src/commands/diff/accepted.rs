@@ -14,6 +14,9 @@ use crate::{Problem, paths, reading};
 /// A larger file is not a list of accepted differences.
 const MAX_BYTES: u64 = 1 << 20;
 
+/// Digits of a digest.
+pub(super) const DIGEST: usize = 8;
+
 /// The file as it is written.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -27,7 +30,7 @@ struct Text {
 struct EntryText {
     file: Placed<String>,
     differences: Option<Vec<Placed<String>>>,
-    digest: Option<String>,
+    digest: Option<Placed<String>>,
     reason: Placed<String>,
     until: Option<Placed<toml::value::Datetime>>,
 }
@@ -90,7 +93,7 @@ impl Accepted {
             let fits = |entry: &Entry| {
                 let is_named =
                     entry.differences.as_ref().is_none_or(|all| all.iter().any(|one| one == difference));
-                let is_same = entry.digest.as_ref().is_none_or(|of| digest.starts_with(of.as_str()));
+                let is_same = entry.digest.as_ref().is_none_or(|of| digest == of);
                 is_named && is_same && entry.pattern.fits(&Path::new("/").join(program))
             };
             let fitting = || self.entries.iter().enumerate().filter(|(_, entry)| fits(entry));
@@ -133,6 +136,17 @@ impl Entry {
         if reason.value.trim().is_empty() {
             return Err(problem(&reason.range, "an accepted difference needs a reason".to_owned()));
         }
+        if differences.as_ref().is_some_and(Vec::is_empty) {
+            let message = "`differences` is empty, so that nothing is accepted".to_owned();
+            return Err(problem(&file.range, message).help("leave it out to accept all"));
+        }
+        let is_digest = |of: &str| {
+            of.len() == DIGEST && of.bytes().all(|b| b.is_ascii_digit() || (b'a'..=b'f').contains(&b))
+        };
+        if let Some(of) = digest.as_ref().filter(|of| !is_digest(&of.value)) {
+            let message = format!("`{}` is not a digest: it has {DIGEST} digits, `0` to `f`", of.value);
+            return Err(problem(&of.range, message).help("take it from what `gcheck diff` prints"));
+        }
         for difference in differences.iter().flatten() {
             if !kinds.contains(&difference.value.as_str()) {
                 let message = format!("unknown difference `{}`", difference.value);
@@ -154,7 +168,7 @@ impl Entry {
             shown: file.value,
             line,
             differences: differences.map(|all| all.into_iter().map(|one| one.value).collect()),
-            digest,
+            digest: digest.map(|of| of.value),
             reason: reason.value,
             until,
         })

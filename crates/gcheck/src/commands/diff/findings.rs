@@ -5,15 +5,15 @@
 use std::path::Path;
 
 use gcheck_diagnostics::{Finding, Fixability, RuleMeta, Severity, Tier};
-use gcheck_report::{ControlChoice, ControlSource, FileReport, Format, Report};
+use gcheck_report::{ControlChoice, ControlSource, FileReport, Format, LineIndex, Report};
 use gcheck_syntax::SourceText;
 
 use super::outcome::{Outcome, Outcomes, Spot, Verdict};
 use super::runs::Compared;
 use crate::{Problem, output, paths, reading};
 
-/// The first difference of a comparison.
-pub(super) fn first(compared: &Compared) -> Spot {
+/// The first difference of a comparison; with the text, if findings will point into it.
+pub(super) fn first(compared: &Compared, with_text: bool) -> Spot {
     let differences = &compared.differences;
     let [_, b] = &compared.prepared;
     let own = |file: &str| file == b.shown;
@@ -21,7 +21,8 @@ pub(super) fn first(compared: &Compared) -> Spot {
     let of_others = differences.kept().iter().find_map(|difference| difference.b.as_ref());
     let lines = [of_parting, of_others].into_iter().flatten().filter(|place| own(&place.file));
     let line = lines.map(|place| place.line).min().unwrap_or(1);
-    Spot { line, control: b.chosen.choice.clone() }
+    let text = if with_text { b.source.clone() } else { SourceText::from("") };
+    Spot { line, control: b.chosen.choice.clone(), path: b.shown.clone(), text }
 }
 
 const fn rule(id: &'static str, summary: &'static str) -> RuleMeta {
@@ -59,12 +60,16 @@ pub(super) fn github(all: &Outcomes) -> Result<String, Problem> {
 fn written(all: &Outcomes, format: Format) -> Result<String, Problem> {
     let pairs = all.pairs.iter().map(|outcome| {
         let [_, file] = &outcome.pair.files;
-        // Without a finding nothing of the text is shown.
-        let is_same = outcome.verdict == Verdict::Same;
-        let text = if is_same { SourceText::from("") } else { text_of(file) };
+        let (path, text, control) = match &outcome.first {
+            Some(spot) => (spot.path.clone(), spot.text.clone(), Some(spot.control.clone())),
+            // Without a finding nothing of the text is shown.
+            None if outcome.verdict == Verdict::Same => {
+                (paths::shown_from_here(file), SourceText::from(""), None)
+            }
+            None => (paths::shown_from_here(file), text_of(file), None),
+        };
         let findings = finding(outcome, &text).into_iter().collect();
-        let control = outcome.first.as_ref().map(|spot| spot.control.clone());
-        report_of(paths::shown_from_here(file), text, control, findings)
+        report_of(path, text, control, findings)
     });
     let alone = all.alone.iter().filter(|alone| alone.is_open()).map(|alone| {
         let (rule, message) = match alone.side {
@@ -98,7 +103,7 @@ fn text_of(file: &Path) -> SourceText {
 
 fn finding(outcome: &Outcome, text: &SourceText) -> Option<Finding> {
     let line = outcome.first.as_ref().map_or(1, |spot| spot.line);
-    let range = line_range(text.text(), line);
+    let range = LineIndex::new(text.text()).line_range(text.text(), line);
     let finding = match &outcome.verdict {
         Verdict::Same => return None,
         Verdict::Different => Finding::new(&DIFFERS, range, outcome.words()),
@@ -107,17 +112,4 @@ fn finding(outcome: &Outcome, text: &SourceText) -> Option<Finding> {
     };
     let text = outcome.text.trim_end();
     Some(if text.is_empty() { finding } else { finding.note(text) })
-}
-
-/// The bytes of a line, from 1.
-fn line_range(text: &str, line: u32) -> std::ops::Range<u32> {
-    let mut start = 0;
-    for (number, content) in (1..).zip(text.split_inclusive('\n')) {
-        if number == line {
-            let end = start + content.trim_end().len();
-            return start as u32..end as u32;
-        }
-        start += content.len();
-    }
-    0..0
 }

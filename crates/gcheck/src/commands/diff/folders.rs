@@ -3,13 +3,14 @@
 //! Knows: the outcomes of pairs, exit codes, which format is written by whom. Must not know: how programs are paired or run.
 
 use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::thread;
 
-use gcheck_toolpath::Aspect;
+use gcheck_report::one_line;
+use gcheck_toolpath::{Aspect, Rest};
 use rayon::prelude::*;
 use serde_json::{Value as Json, json};
-use twox_hash::XxHash3_128;
 
 use super::accepted::{self, Accepted, Answer};
 use super::outcome::{Alone, DIFFERENT, Outcome, Outcomes, Verdict};
@@ -38,6 +39,12 @@ const POINTS: usize = 20_000;
 
 /// Compares the programs of two folders, or two programs as if each were the only one of its folder.
 pub(super) fn run(global: &Global, options: &DiffOptions) -> Result<u8, Problem> {
+    let is_standard_input = |path: &Path| path.as_os_str() == "-";
+    let reads_it = is_standard_input(&options.a) || is_standard_input(&options.b);
+    if options.output_format == DiffFormat::Html && reads_it {
+        return Err(Problem::new("a page draws both programs, and standard input can be read once")
+            .help("write the program into a file first"));
+    }
     let accepted = match &options.accepted {
         Some(file) => Accepted::read(file, &kinds())?,
         None => Accepted::default(),
@@ -60,6 +67,9 @@ pub(super) fn run(global: &Global, options: &DiffOptions) -> Result<u8, Problem>
             paths::shown(&options.b)
         )));
     }
+    let paired = pairs.iter().flat_map(|pair| &pair.files);
+    let read = paired.chain(alone.iter().flatten().map(|(_, file)| file)).chain(&options.accepted);
+    output::refuse_to_replace(options.output_file.as_deref(), read.map(PathBuf::as_path))?;
     let today = accepted::today();
     let outcomes = compare_all(global, options, pairs, |name, differences, digest| {
         accepted.of(name, differences, digest, today)
@@ -118,12 +128,13 @@ fn compare_all(
     let progress = Progress::new(pairs.len(), global.quiet);
     let pool = threads::pool(thread::available_parallelism().map_or(1, Into::into))?;
     let is_page = options.output_format == DiffFormat::Html;
+    let with_text = matches!(options.output_format, DiffFormat::Junit | DiffFormat::Github);
     let mut outcomes: Vec<Outcome> = pool.install(|| {
         let compared = pairs.into_par_iter().map(|pair| {
             progress.counting(|| {
                 let [a, b] = &pair.files;
-                match guarded(b, || runs::both(global, options, [a, b], &folders)) {
-                    Ok(compared) => Outcome::new(pair, &compared, &answer),
+                match guarded(b, || runs::both(global, options, [a, b], &folders, Rest::Read)) {
+                    Ok(compared) => Outcome::new(pair, &compared, with_text, &answer),
                     Err(problem) => Outcome::without(pair, problem),
                 }
             })
@@ -150,7 +161,12 @@ fn compare_all(
 }
 
 impl Outcome {
-    fn new(pair: Pair, compared: &Compared, answer: impl Fn(&str, &[&str], &str) -> Answer) -> Self {
+    fn new(
+        pair: Pair,
+        compared: &Compared,
+        with_text: bool,
+        answer: impl Fn(&str, &[&str], &str) -> Answer,
+    ) -> Self {
         let differences = &compared.differences;
         let mut names: Vec<&str> = Vec::new();
         if differences.parting.is_some() {
@@ -159,7 +175,7 @@ impl Outcome {
         names.extend(Aspect::ALL.into_iter().filter(|a| differences.count(*a) > 0).map(Aspect::name));
         let sides = compared.sides();
         let detail = sides.json(differences);
-        let digest = digest(&detail);
+        let digest = format!("{:016x}", differences.digest()).split_off(16 - accepted::DIGEST);
         let answer = answer(&pair.name, &names, &digest);
         let fault = compared.faults.iter().flatten().next();
         let verdict = match fault {
@@ -170,7 +186,7 @@ impl Outcome {
         };
         let text = if verdict == Verdict::Same { String::new() } else { sides.text(differences) };
         Self {
-            first: Some(findings::first(compared)),
+            first: (verdict != Verdict::Same).then(|| findings::first(compared, with_text)),
             differences: names.into_iter().map(str::to_owned).collect(),
             pair,
             verdict,
@@ -197,14 +213,6 @@ impl Outcome {
     }
 }
 
-/// A short name for these very differences: it stays as long as they do.
-fn digest(detail: &Json) -> String {
-    let of = |key: &str| detail.get(key).map(Json::to_string).unwrap_or_default();
-    let all = ["partings", "corner", "differences"].map(of).join("\n");
-    let digest = format!("{:032x}", XxHash3_128::oneshot(all.as_bytes()));
-    digest.get(..8).unwrap_or_default().to_owned()
-}
-
 impl Outcomes {
     fn code(&self) -> u8 {
         let differs = |verdict: &Verdict| *verdict == Verdict::Different;
@@ -222,8 +230,9 @@ impl Outcomes {
         for outcome in self.pairs.iter().filter(|outcome| outcome.verdict != Verdict::Same) {
             let digest =
                 if outcome.digest.is_empty() { "" } else { &format!("  [digest {}]", outcome.digest) };
+            let told = format!("{}  {}", outcome.pair.name, outcome.words());
             // Writing to a string cannot fail.
-            let _ = writeln!(out, "{}  {}{digest}", outcome.pair.name, outcome.words());
+            let _ = writeln!(out, "{}{digest}", one_line(&told));
             if outcome.verdict != Verdict::Accepted {
                 for line in outcome.text.lines() {
                     let _ = writeln!(out, "    {line}");
@@ -237,7 +246,8 @@ impl Outcomes {
             } else {
                 format!("  accepted ({})", alone.answer.reasons.join("; "))
             };
-            let _ = writeln!(out, "{}  only in {title}{accepted}", alone.name);
+            let told = format!("{}  only in {title}{accepted}", alone.name);
+            let _ = writeln!(out, "{}", one_line(&told));
         }
         out.push_str(&self.summary());
         out.push('\n');

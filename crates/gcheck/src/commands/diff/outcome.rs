@@ -6,6 +6,7 @@ use std::fmt::Write as _;
 use std::path::PathBuf;
 
 use gcheck_report::ControlChoice;
+use gcheck_syntax::SourceText;
 use serde_json::Value as Json;
 
 use super::accepted::Answer;
@@ -27,7 +28,7 @@ pub(super) struct Outcome {
     /// The differences in words.
     pub(super) text: String,
     pub(super) detail: Json,
-    /// File and line of the first difference in the second program, with its text.
+    /// Where the first difference is in the second program.
     pub(super) first: Option<Spot>,
     /// Both paths, as an SVG element.
     pub(super) picture: Option<String>,
@@ -82,6 +83,9 @@ pub(super) struct Outcomes {
 pub(super) struct Spot {
     pub(super) line: u32,
     pub(super) control: ControlChoice,
+    /// As messages call the program.
+    pub(super) path: String,
+    pub(super) text: SourceText,
 }
 
 impl Outcome {
@@ -124,7 +128,11 @@ impl Outcomes {
         part(self.count(|verdict| *verdict == Verdict::Accepted), "accepted");
         part(self.count(|verdict| matches!(verdict, Verdict::None(_))), "without a verdict");
         for (side, title) in self.titles.iter().enumerate() {
-            part(self.alone.iter().filter(|alone| alone.side == side).count(), &format!("only in {title}"));
+            for (is_open, accepted) in [(true, ""), (false, ", accepted")] {
+                let alone =
+                    self.alone.iter().filter(|alone| alone.side == side && alone.is_open() == is_open);
+                part(alone.count(), &format!("only in {title}{accepted}"));
+            }
         }
         let pairs = if count == 1 { "1 pair".to_owned() } else { format!("{count} pairs") };
         format!("{pairs} of programs compared, within {} mm: {}", self.tolerance, parts.join(", "))

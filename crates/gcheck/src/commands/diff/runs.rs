@@ -9,7 +9,7 @@ use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::{mem, thread};
 
 use gcheck_engine::Units;
-use gcheck_toolpath::{Act, Differences, Step, Trail, WorkCoordinates, compare};
+use gcheck_toolpath::{Act, Differences, Rest, Step, Trail, WorkCoordinates, compare};
 
 use super::words::{Sides, Stopped};
 use crate::Problem;
@@ -63,9 +63,10 @@ pub(super) fn both(
     options: &DiffOptions,
     files: [&Path; 2],
     folders: &Arc<ProgramFolders>,
+    rest: Rest,
 ) -> Result<Compared, Problem> {
     let [a, b] = prepared(global, options, files, folders)?;
-    let (differences, ran_a, ran_b) = run_both(&a, &b, options.tolerance)?;
+    let (differences, ran_a, ran_b) = run_both(&a, &b, options.tolerance, rest)?;
     // A run that was cut off because the paths had parted before ended nowhere of its own.
     let [a_is_left, b_is_left] = differences.left_alone();
     Ok(Compared {
@@ -110,7 +111,12 @@ struct Ran {
     units: Units,
 }
 
-fn run_both(a: &Prepared, b: &Prepared, tolerance: f64) -> Result<(Differences, Ran, Ran), Problem> {
+fn run_both(
+    a: &Prepared,
+    b: &Prepared,
+    tolerance: f64,
+    rest: Rest,
+) -> Result<(Differences, Ran, Ran), Problem> {
     thread::scope(|scope| {
         let start = |prepared| {
             let (sender, receiver) = sync_channel(WAITING);
@@ -123,7 +129,7 @@ fn run_both(a: &Prepared, b: &Prepared, tolerance: f64) -> Result<(Differences, 
         let (run_a, acts_a) = start(a)?;
         let (run_b, acts_b) = start(b)?;
         // With the receivers goes the reason to run on.
-        let differences = compare(acts(acts_a), acts(acts_b), tolerance);
+        let differences = compare(acts(acts_a), acts(acts_b), tolerance, rest);
         let end = |run: thread::ScopedJoinHandle<'_, Ran>, prepared: &Prepared| {
             run.join().map_err(|payload| Problem::own_mistake(payload.as_ref()).in_file(&prepared.path))
         };

@@ -10,7 +10,7 @@ use std::thread;
 use gcheck_edit::{Change, Refusal, Scope, expected, plainly};
 use gcheck_engine::{Options, RunResult, Units};
 use gcheck_syntax::SourceText;
-use gcheck_toolpath::{Act, Differences, compare};
+use gcheck_toolpath::{Act, Differences, Rest, compare};
 
 use super::refusing::problem;
 use crate::Problem;
@@ -162,7 +162,7 @@ fn both(
                 })
             })
             .map_err(failed)?;
-        let differences = compare(acts(promised), acts(made), tolerance);
+        let differences = compare(acts(promised), acts(made), tolerance, Rest::Leave);
         let panicked = |payload: Box<dyn std::any::Any + Send>| {
             Problem::own_mistake(payload.as_ref()).in_file(&before.path)
         };

@@ -7,7 +7,8 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::thread;
 
-use gcheck_toolpath::csv_cell;
+use gcheck_geometry::Seconds;
+use gcheck_toolpath::{clock, counts_in_hours, csv_cell};
 use rayon::prelude::*;
 use serde_json::{Value, json};
 
@@ -39,12 +40,17 @@ pub(super) fn run(
     figures: impl Fn(&Path, &Arc<ProgramFolders>) -> Result<Value, Problem> + Sync,
 ) -> Result<u8, Problem> {
     let mut configs = Configs::new(&global.config, global.isolated)?;
-    let found = discovery::find(&options.files, &mut configs);
+    let (standard_input, named): (Vec<PathBuf>, Vec<PathBuf>) =
+        options.files.iter().cloned().partition(|file| file.as_os_str() == "-");
+    let mut found = discovery::find(&named, &mut configs);
+    // It can be read once.
+    found.files.extend(standard_input.into_iter().take(1));
     let mut problems = found.problems;
     if found.files.is_empty() && problems.is_empty() {
         let named: Vec<String> = options.files.iter().map(|path| paths::shown(path)).collect();
         return Err(Problem::new(format!("no programs in {}", named.join(", "))));
     }
+    output::refuse_to_replace(options.output_file.as_deref(), found.files.iter().map(PathBuf::as_path))?;
     let rows = gather(global, &found.files, figures)?;
     let text = match options.output_format {
         StatsFormat::Text => text(&rows),
@@ -127,26 +133,16 @@ impl Row {
     }
 }
 
-/// Minutes and seconds, and hours where there are some.
-fn clock(seconds: f64) -> String {
-    let tenths = (seconds * 10.0).round();
-    let whole = (tenths / 10.0).floor();
-    let (hours, rest) = ((whole / 3600.0).floor(), whole % 3600.0);
-    let (minutes, seconds) = ((rest / 60.0).floor(), rest % 60.0 + tenths % 10.0 / 10.0);
-    if hours > 0.0 {
-        format!("{hours:.0}:{minutes:02.0}:{seconds:04.1}")
-    } else {
-        format!("{minutes:.0}:{seconds:04.1}")
-    }
-}
-
 fn text(rows: &[Row]) -> String {
-    let heads = ["program", "control", "time", "cutting", "tools", "changes", "cut mm", "X", "Y", "Z"];
+    let hours = rows.iter().filter_map(Row::seconds).any(|seconds| counts_in_hours(Seconds(seconds)));
+    let [time_head, cutting_head] = if hours { ["time h", "cutting h"] } else { ["time min", "cutting min"] };
+    let heads = ["program", "control", time_head, cutting_head, "tools", "changes", "cut mm", "X", "Y", "Z"];
     let mut table = vec![heads.map(str::to_owned).to_vec()];
     let whole = |number: Option<f64>| number.map_or_else(|| "?".to_owned(), |number| format!("{number:.0}"));
-    let time = |number: Option<f64>| number.map_or_else(|| "?".to_owned(), clock);
+    let time =
+        |number: Option<f64>| number.map_or_else(|| "?".to_owned(), |number| clock(Seconds(number), hours));
     for row in rows {
-        let name = gcheck_report::harmless(&row.file).into_owned();
+        let name = gcheck_report::one_line(&row.file).into_owned();
         if row.figures.is_err() {
             table.push(vec![name, "no figures".to_owned()]);
             continue;
@@ -162,12 +158,17 @@ fn text(rows: &[Row]) -> String {
         table.push(cells);
     }
     let mut out = columns(&table);
-    let total: f64 = rows.iter().filter_map(Row::seconds).sum();
+    let total = Seconds(rows.iter().filter_map(Row::seconds).sum());
+    let hours = counts_in_hours(total);
+    let unit = if hours { "h" } else { "min" };
     let programs = if rows.len() == 1 { "1 program".to_owned() } else { format!("{} programs", rows.len()) };
     let bound = if rows.iter().any(Row::is_lower_bound) { " (lower bound)" } else { "" };
     // Writing to a string cannot fail.
-    let _ =
-        writeln!(out, "{programs}, {} min in all{bound}; extents are of what is cut, in mm", clock(total));
+    let _ = writeln!(
+        out,
+        "{programs}, {} {unit} in all{bound}; extents are of what is cut, in mm",
+        clock(total, hours)
+    );
     out
 }
 
@@ -230,16 +231,7 @@ fn as_json(rows: &[Row]) -> Value {
 
 #[cfg(test)]
 mod tests {
-    use super::{clock, quoted};
-
-    #[test]
-    fn times_read_as_on_a_clock() {
-        for (seconds, expected) in
-            [(0.0, "0:00.0"), (31.26, "0:31.3"), (59.96, "1:00.0"), (125.0, "2:05.0"), (8_399.0, "2:19:59.0")]
-        {
-            assert_eq!(clock(seconds), expected);
-        }
-    }
+    use super::quoted;
 
     #[test]
     fn cells_with_commas_are_quoted() {
