@@ -334,6 +334,23 @@ fn overwritten(typed: &str, text: &str, rest: &str) -> usize {
     }
 }
 
+/// A snippet's text with what its places hold before they are filled in: `DO1` of `DO${1:1}`.
+fn filled_in(snippet: &str) -> String {
+    let mut text = String::with_capacity(snippet.len());
+    let mut rest = snippet;
+    while let Some((before, place)) = rest.split_once('$') {
+        text.push_str(before);
+        rest = match place.strip_prefix('{').and_then(|place| place.split_once('}')) {
+            Some((held, after)) => {
+                text.push_str(held.split_once(':').map_or("", |(_, held)| held));
+                after
+            }
+            None => place.trim_start_matches(|c: char| c.is_ascii_digit()),
+        };
+    }
+    text + rest
+}
+
 impl Items<'_, '_> {
     fn control(&self) -> &Control {
         self.typing.snapshot.control()
@@ -393,7 +410,8 @@ impl Items<'_, '_> {
         }
         let rest = self.typing.rest();
         for (_, item) in &mut list {
-            item.edit.range.end += overwritten(&typed, &item.edit.text, &rest) as u32;
+            let text = if item.is_snippet { filled_in(&item.edit.text) } else { item.edit.text.clone() };
+            item.edit.range.end += overwritten(&typed, &text, &rest) as u32;
         }
         list.into_iter().map(|(_, item)| item).collect()
     }
@@ -1018,8 +1036,8 @@ mod tests {
         check_taken(
             "haas-mill",
             "O1\nWHILE [#1 LT 2] D$0O1\nEND1\n",
-            "DO1",
-            "O1\nWHILE [#1 LT 2] DO1\nEND1\n",
+            "DO",
+            "O1\nWHILE [#1 LT 2] DO${1:1}\nEND1\n",
         );
     }
 
