@@ -1066,9 +1066,9 @@ fn increments_change_the_coordinates_of_the_present_position() {
     two_blocks(
         "G50 U-10. W-5.\nG0 U2. W1.",
         &expect![[r#"
-        rapid x30 z5
-        rapid x30 z5
-        at x30 z5"#]],
+            rapid x30 z5
+            rapid x26 z1
+            at x26 z1"#]],
     );
     one_block(
         "G50 W-.2\nG0 X2. Z.1",
