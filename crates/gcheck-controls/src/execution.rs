@@ -618,9 +618,9 @@ pub struct Refusals {
     /// Axes of a machine that nobody described; all of the control's when not given.
     #[serde(default)]
     pub axes: Option<String>,
-    /// Spindles of such a machine; any number when not given.
+    /// The setting that says how many spindles a machine has; any number when not given.
     #[serde(default)]
-    pub spindles: Option<u8>,
+    pub spindles: Option<String>,
     /// The highest number of a variable.
     #[serde(default)]
     pub last_variable: Option<u32>,

@@ -113,8 +113,8 @@ pub(crate) struct BlockContract {
     m_codes: usize,
     /// Axes that only a machine's configuration gives.
     absent_axes: LetterSet,
-    /// Spindles of a machine that nobody described.
-    spindles: Option<f64>,
+    /// The setting that says how many spindles the machine has.
+    spindles: Option<String>,
     block_delete_first: bool,
     block_delete_plain: bool,
 }
@@ -265,7 +265,7 @@ impl BlockContract {
             trouble,
             m_codes: control.limits().m_codes_per_block.map_or(usize::MAX, usize::from),
             absent_axes,
-            spindles: rules.spindles.filter(|_| strict).map(f64::from),
+            spindles: rules.spindles.clone().filter(|_| strict),
             block_delete_first: sure_of_delete && !syntax.block_delete_inside,
             block_delete_plain: sure_of_delete && !syntax.block_delete_levels,
         }
@@ -493,7 +493,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     /// A spindle that the machine has, where the word that chooses one is read; -1 means all of them.
     pub(super) fn check_spindle(&self) -> Step {
-        let Some(spindles) = self.model.contract.spindles else { return Ok(()) };
+        let Some(setting) = &self.model.contract.spindles else { return Ok(()) };
+        let told = self.machine.setting(self.model.control(), setting);
+        let Some(spindles) = told.and_then(|told| told.parse::<f64>().ok()) else { return Ok(()) };
         match self.words.number(Letter::DOLLAR) {
             Some(number)
                 if !self.leaves_to_rules()

@@ -70,8 +70,8 @@ fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
         let is_sign = word.shape.minus && !facts.negative;
         if (low || high) && !is_sign && facts.kind != WordKind::Flag && cx.is_plain(&facts) {
             report.add(finding(cx, word, &facts, high));
-        } else if is_no_spindle(cx, word.letter, value) && cx.is_plain(&facts) {
-            report.add(no_spindle(cx, word, &facts));
+        } else if let Some(assumed) = is_no_spindle(cx, word.letter, value).filter(|_| cx.is_plain(&facts)) {
+            report.add(no_spindle(cx, word, &facts, assumed));
         } else if is_in_gap(value, &facts) && !is_sign && cx.is_plain(&facts) {
             report.add(in_gap(cx, word, &facts));
         } else if is_count(facts.kind) && value.fract() != 0.0 {
@@ -128,22 +128,33 @@ fn fraction(cx: &BlockCx<'_>, word: &Word, facts: &WordFacts<'_>, value: f64) ->
     if facts.kind == WordKind::Program || is_refused { finding } else { finding.at_most(Severity::Warning) }
 }
 
-/// Does the word name a spindle that a machine has only when its configuration says so?
-fn is_no_spindle(cx: &BlockCx<'_>, letter: Letter, value: f64) -> bool {
-    let spindles = cx.control().semantics().refusals.spindles;
-    letter == Letter::DOLLAR && spindles.is_some_and(|spindles| value >= f64::from(spindles))
+/// A number of spindles that is told or assumed.
+struct Spindles {
+    setting: String,
+    /// The assumption to state.
+    assumed: Option<String>,
 }
 
-fn no_spindle(cx: &BlockCx<'_>, word: &Word, facts: &WordFacts<'_>) -> Finding {
+/// Does the word name a spindle that the machine does not have?
+fn is_no_spindle(cx: &BlockCx<'_>, letter: Letter, value: f64) -> Option<Spindles> {
+    let setting = cx.control().semantics().refusals.spindles.as_ref().filter(|_| letter == Letter::DOLLAR)?;
+    let (told, assumed) = cx.environment.setting(setting)?;
+    let spindles: f64 = told.parse().ok()?;
+    (value >= spindles).then(|| Spindles { setting: setting.clone(), assumed })
+}
+
+fn no_spindle(cx: &BlockCx<'_>, word: &Word, facts: &WordFacts<'_>, spindles: Spindles) -> Finding {
     let text = cx.text(word);
-    Finding::new(&META, cx.range(word), format!("the machine has no such spindle: `{text}`"))
+    let finding = Finding::new(&META, cx.range(word), format!("the machine has no such spindle: `{text}`"))
         .label(facts.is)
-        .note(format!(
-            "without a configuration that gives it more, a machine has spindle 0 alone  [{}]",
-            facts.source
-        ))
-        .help("give the number of a spindle that the machine has")
-        .at_most(Severity::Warning)
+        .note(format!("spindles are numbered from 0  [{}]", facts.source));
+    match spindles.assumed {
+        None => finding.help("give the number of a spindle that the machine has").at_most(Severity::Warning),
+        Some(assumed) => finding
+            .assuming(assumed)
+            .help(format!("if it has more spindles, say so: `[settings] {} = 3`", spindles.setting))
+            .at_most(Severity::Info),
+    }
 }
 
 fn in_gap(cx: &BlockCx<'_>, word: &Word, facts: &WordFacts<'_>) -> Finding {

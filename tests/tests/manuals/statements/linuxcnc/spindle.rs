@@ -40,10 +40,10 @@ const STATEMENTS: &[Statement] = &[
             &["START_SPINDLE_CLOCKWISE(0)", "STOP_SPINDLE_TURNING(0)", "START_SPINDLE_CLOCKWISE(0)"],
         )],
     ),
-    gap(
+    held(
         "#mcode:m3-m4-m5",
         "$ names one of the machine's spindles (up to 8); another is refused",
-        "setting `SPINDLES` in `[settings]` says how many there are, and `run` and `check` follow it: a `$` beyond is refused (with the default of one: a warning in `check`)",
+        "setting `SPINDLES`; with the default of one `check` gives an info and the assumption",
         &[
             Proof::AsInterpreter {
                 program: ngc("S100 $1\nM3 $1\nM2\n")
@@ -51,8 +51,8 @@ const STATEMENTS: &[Statement] = &[
                     .beside(&[("machine.ini", "[TRAJ]\nSPINDLES=3\n")]),
                 prints: &["SET_SPINDLE_SPEED(1, 100.0000)", "START_SPINDLE_CLOCKWISE(1)"],
             },
-            refused("warning[number-out-of-range]", "M3 $1\nM2\n", "M3 $0\nM2\n"),
-            refused("warning[number-out-of-range]", "S100 $1\nM2\n", "S100 $0\nM2\n"),
+            refused("info[number-out-of-range]", "M3 $1\nM2\n", "M3 $0\nM2\n"),
+            refused("info[number-out-of-range]", "S100 $1\nM2\n", "S100 $0\nM2\n"),
         ],
     ),
     held(
