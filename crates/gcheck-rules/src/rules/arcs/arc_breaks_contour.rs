@@ -4,9 +4,10 @@ use std::ops::Range;
 
 use gcheck_controls::Effect;
 use gcheck_engine::{ArcMove, Axis, Event, Position, TravelKind};
-use gcheck_geometry::Plane;
+use gcheck_geometry::{ArcDirection, Plane};
 
 use crate::declare::declare_rule;
+use crate::facts::arcs::by_its_words;
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 use crate::{Remembers, remembers};
 
@@ -230,19 +231,30 @@ struct Forms {
 impl Forms {
     fn of(cx: &PathCx<'_>, arc: &ArcMove, start: [f64; 3], end: [f64; 3]) -> Option<Self> {
         let (start, end) = (point(start, arc.plane), point(end, arc.plane));
-        let centre = [arc.centre.0.0, arc.centre.1.0];
+        let way = f64::from(arc.turns.signum());
+        // The offset of a cutter of unknown size hides the centre.
+        let of_words = || {
+            let direction = if arc.turns < 0 { ArcDirection::Cw } else { ArcDirection::Ccw };
+            by_its_words(cx, [start, end], direction).filter(|_| arc.plane == Plane::Xy)
+        };
+        let (centre, sweep) = if arc.centre.0.0.is_finite() && arc.centre.1.0.is_finite() {
+            (arc.centre, arc.sweep)
+        } else {
+            let arc = of_words()?;
+            (arc.centre(), arc.sweep())
+        };
+        let centre = [centre.0.0, centre.1.0];
         let chord = [end[0] - start[0], end[1] - start[1]];
         let straight = Way::between(start, end)?;
-        if arc.turns.abs() != 1 || centre.iter().any(|number| !number.is_finite()) {
+        if arc.turns.abs() != 1 {
             return None;
         }
-        let way = f64::from(arc.turns.signum());
         let directions = |centre: Vector, way: f64| [start, end].map(|at| tangent(at, centre, way));
         let others = if cx.word('R').is_some() {
             // The centre on the other side of the chord.
             let mirrored = mirror(centre, start, chord);
             vec![(Other::Way, directions(mirrored, -way)), (Other::Sign, directions(mirrored, way))]
-        } else if arc.sweep.abs() > std::f64::consts::PI {
+        } else if sweep.abs() > std::f64::consts::PI {
             vec![(Other::Way, directions(centre, -way))]
         } else {
             // A path that comes back on the arc before it would be smooth the long way round.
@@ -412,6 +424,37 @@ mod tests {
                 "G21 G17 G90 G94 G54 S3000 M3\nT1 M6\nG0 X-10. Y-10. Z-2.\nG41 D1 G1 X0. Y0. F300.\nY40.\nG2 X10. Y50. {radius}\nG1 X40.\nG40 X60.\nG0 Z50.\nM30\n"
             );
             check_rule_in(&RULE, "fanuc-mill", &program, &World::of_group("machine"), &expected);
+        }
+    }
+
+    #[test]
+    fn beside_a_cutter_of_unknown_size() {
+        let around = |first: &str, second: &str| {
+            format!(
+                "G21 G17 G90 G94 G54 S3000 M3\nG0 X-10. Y-20. Z-2.\nG41 D12 G1 X0. Y-15. F500.\nY60.\n{first}\nG1 X90.\n{second}\nG1 Y10.\nG2 X90. Y0. R10.\nG1 X10.\nG2 X0. Y10. R10.\nG1 Y15.\nG40 X-10.\nG0 Z50.\nM30\n"
+            )
+        };
+        let by_radius = "G2 X100. Y60. R10.";
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            &around("G3 X10. Y70. I10. J0.", by_radius),
+            &expect![[r#"
+            5 | G3 X10. Y70. I10. J0.
+              | ^^^^^^^^^^^^^^^^^^^^^ warning[arc-breaks-contour] the arc breaks the contour: corners before and after it
+        "#]],
+        );
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            &around("G2 X10. Y70. R10.", "G3 X100. Y60. R10."),
+            &expect![[r#"
+            7 | G3 X100. Y60. R10.
+              | ^^^^^^^^^^^^^^^^^^ warning[arc-breaks-contour] the arc breaks the contour: corners before and after it
+        "#]],
+        );
+        for first in ["G2 X10. Y70. R10.", "G2 X10. Y70. I10. J0."] {
+            check_rule(&RULE, "fanuc-mill", &around(first, by_radius), &expect![""]);
         }
     }
 

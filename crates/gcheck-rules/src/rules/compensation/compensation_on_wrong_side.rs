@@ -76,6 +76,10 @@ struct Contour {
     /// The height at which it is cut: millimetres.
     height: f64,
     points: Vec<Vector>,
+    /// Where it began: millimetres.
+    top: f64,
+    /// It goes down in turns: the tool comes above what it cuts, and leaves at the depth of it.
+    winds_down: bool,
     /// The tool has left it at rapid, or upward.
     is_over: bool,
 }
@@ -98,6 +102,7 @@ struct Way {
     points: Vec<Vector>,
     height: f64,
     is_rapid: bool,
+    is_arc: bool,
 }
 
 impl PathRule for CompensationOnWrongSide {
@@ -143,7 +148,9 @@ impl PathRule for CompensationOnWrongSide {
             // At rapid the tool comes in the air.
             from: from.filter(|_| way.as_ref().is_some_and(|way| !way.is_rapid)),
             height: way.as_ref().map_or(f64::INFINITY, |way| way.height),
+            top: way.as_ref().map_or(f64::INFINITY, |way| way.height),
             points: Vec::new(),
+            winds_down: false,
             is_over: false,
         });
         contour.goes(way.as_ref());
@@ -155,15 +162,19 @@ impl CompensationOnWrongSide {
         if self.told == Some(contour.on) {
             return;
         }
-        let (Some(from), Some(around)) = (contour.from, contour.loop_of()) else { return };
-        let away = edges(&around).map(|edge| from_edge(from, edge)).fold(f64::INFINITY, f64::min);
+        let outside = if contour.winds_down { contour.points.last().copied() } else { contour.from };
+        let (Some(beside), Some(around)) = (outside.filter(|_| contour.from.is_some()), contour.loop_of())
+        else {
+            return;
+        };
+        let away = edges(&around).map(|edge| from_edge(beside, edge)).fold(f64::INFINITY, f64::min);
         if away <= NEAR {
             return;
         }
         // Counter-clockwise, the inside is on the left.
         let to_inside = contour.is_left == (area(&around) > 0.0);
-        let comes_from_inside = goes_around(&around, from);
-        if to_inside == comes_from_inside {
+        let is_inside = goes_around(&around, beside);
+        if to_inside == is_inside {
             return;
         }
         self.told = Some(contour.on);
@@ -174,15 +185,18 @@ impl CompensationOnWrongSide {
             words.map(|word| word.code).find(|code| is_on(cx.model.effect(*code)))
         });
         let name = name.map(|code| format!(" (`{}`)", cx.name_of(code))).unwrap_or_default();
-        let (comes, goes) = if comes_from_inside { ("inside", "outside") } else { ("outside", "inside") };
+        let (there, goes) = if is_inside { ("inside", "outside") } else { ("outside", "inside") };
+        let (way, moves) = if contour.winds_down { ("out", "leaves to the") } else { ("in", "comes from") };
         report.add(
             cx.finding(
                 &META,
                 range,
-                format!("compensation to the {goes}, but the tool comes from {comes}{name}"),
+                format!("compensation to the {goes}, but the tool {moves} {there}{name}"),
             )
-            .label("on its way in the tool crosses the closed contour")
-            .help("check `G41` and `G42`, and the direction of the contour"),
+            .label(format!("on its way {way} the tool crosses the closed contour"))
+            .help(
+                "check `G41` and `G42`, the direction of the contour, and the signs of the centres of its arcs (`I`, `J`)",
+            ),
         );
     }
 }
@@ -194,6 +208,11 @@ impl Contour {
             self.from = None;
             return;
         };
+        // A thread or a bore is milled in turns that rise or go down.
+        if way.is_arc && way.height.is_finite() && !self.is_over && (way.height - self.height).abs() > 0.0 {
+            self.winds_down |= way.height < self.top - NEAR;
+            self.height = way.height;
+        }
         // False for a height that is not known.
         self.is_over |= !self.points.is_empty() && (way.is_rapid || way.height > self.height + NEAR);
         if self.is_over {
@@ -231,13 +250,15 @@ fn way(cx: &PathCx<'_>, event: &Event, from: Option<Vector>) -> Option<Way> {
             points: vec![end(event)?],
             height: travel.programmed.raw(Axis::Z),
             is_rapid: travel.kind == TravelKind::Rapid,
+            is_arc: false,
         }),
         Event::Arc(arc) if !arc.expanded => {
-            Some(Way { points: pieces(cx, arc, from)?, height: arc.programmed.raw(Axis::Z), is_rapid: false })
+            let (points, height) = (pieces(cx, arc, from)?, arc.programmed.raw(Axis::Z));
+            Some(Way { points, height, is_rapid: false, is_arc: true })
         }
         // Around a corner the tool stays at it.
         Event::Travel(_) | Event::Arc(_) => {
-            Some(Way { points: vec![from?], height: f64::NAN, is_rapid: false })
+            Some(Way { points: vec![from?], height: f64::NAN, is_rapid: false, is_arc: false })
         }
         _ => None,
     }
@@ -415,6 +436,55 @@ mod tests {
                 check_rule(&RULE, "fanuc-mill", &program(from, side, contour), &expect![[""]]);
             }
         }
+    }
+
+    #[test]
+    fn turns_of_a_thread_rise() {
+        let thread = |side: &str, way: &str| {
+            program(
+                "X0. Y0.",
+                side,
+                &format!(
+                    "X7.5 Y-7.5 F600.\n{way} X15. Y0. Z-1.625 R7.5\n{way} I-15. Z-.5\n{way} X7.5 Y7.5 Z-.1 R7.5\nG1 "
+                ),
+            )
+        };
+        check_rule(&RULE, "fanuc-mill", &thread("G41", "G3"), &expect![[""]]);
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            &thread("G42", "G3"),
+            &expect![[r#"
+            3 | G42 D1 G1 X7.5 Y-7.5 F600.
+              | ^^^ warning[compensation-on-wrong-side] compensation to the outside, but the tool comes from inside (`G42`)
+        "#]],
+        );
+        let outside = "X-15. Y-30. F600.\nG2 X-30. Y0. Z-1.6 R30.\nG2 X-30. Y0. I30. J0. Z-.5\nG2 X-15. Y30. Z-.1 R30.\nG1 ";
+        check_rule(&RULE, "fanuc-mill", &program("X-50. Y0.", "G41", outside), &expect![[""]]);
+    }
+
+    #[test]
+    fn turns_of_a_bore_go_down() {
+        let bore = |side: &str| {
+            program(
+                "X0. Y0.",
+                side,
+                "X15. Y-15. F600.\nG3 X30. Y0. R15. F300.\nG3 I-30. Z-5.\nG3 I-30. Z-8.\nG3 I-30.\nG3 X15. Y15. R15.\nG1 ",
+            )
+        };
+        check_rule(&RULE, "fanuc-mill", &bore("G41"), &expect![[""]]);
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            &bore("G42"),
+            &expect![[r#"
+            3 | G42 D1 G1 X15. Y-15. F600.
+              | ^^^ warning[compensation-on-wrong-side] compensation to the outside, but the tool leaves to the inside (`G42`)
+        "#]],
+        );
+        // Above a stud the tool may cross it, and leaves beside it.
+        let stud = "X-30. Y0. F600.\nG2 X-30. Y0. I30. J0. Z-5.\nG2 X-30. Y0. I30. J0.\nG1 X-30. Y40.\n";
+        check_rule(&RULE, "fanuc-mill", &program("X-10. Y0.", "G41", stud), &expect![[""]]);
     }
 
     #[test]

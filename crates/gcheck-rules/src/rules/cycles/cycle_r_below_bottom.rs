@@ -12,7 +12,7 @@ use crate::{Finding, PathCx, PathRule, Report, Run, Severity, Uses, Watch, limit
 use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// The retract plane (`R`) of a canned cycle lies below the bottom of its hole (`Z`).
+    /// The retract plane (`R`) of a canned cycle lies below the bottom of its hole (`Z`): the bottom is above `R`.
     ///
     /// ## Why it matters
     /// The control stops with an alarm, or the tool moves at rapid to below the bottom and feeds upward. The sign of
@@ -99,9 +99,9 @@ fn finding(cx: &PathCx<'_>) -> Finding {
     let words = cx.state().cycle();
     let name = cycle_name(cx);
     let what = if is_own_operation(cx) {
-        "`R` is below the bottom of the cut"
+        "the bottom of the cut is above `R`"
     } else {
-        "canned cycle with `R` below the bottom of the hole"
+        "canned cycle with the bottom of its hole above `R`"
     };
     let above = words.z - words.r;
     let finding = cx
@@ -129,7 +129,7 @@ mod tests {
             "G21 G90 G0 X0 Y0 Z50.\nG81 X10. Z5. R2. F100.\nX20.\nX30.\nG80\nG81 Z-5. R2.\nX40. Z2.\nG80\nM30\n",
             &expect![[r#"
                 2 | G81 X10. Z5. R2. F100.
-                  | ^^^ warning[cycle-r-below-bottom] canned cycle with `R` below the bottom of the hole (`G81`)
+                  | ^^^ warning[cycle-r-below-bottom] canned cycle with the bottom of its hole above `R` (`G81`)
             "#]],
         );
     }
@@ -142,7 +142,7 @@ mod tests {
             "G21 G90 G0 X0 Y0 Z0\nG91 G81 X10. R-10. Z-20. F100.\nG81 X10. R-10. Z20.\nG80\nM30\n",
             &expect![[r#"
                 3 | G81 X10. R-10. Z20.
-                  | ^^^ warning[cycle-r-below-bottom] canned cycle with `R` below the bottom of the hole (`G81`)
+                  | ^^^ warning[cycle-r-below-bottom] canned cycle with the bottom of its hole above `R` (`G81`)
             "#]],
         );
     }

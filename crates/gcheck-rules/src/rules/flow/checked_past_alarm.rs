@@ -82,7 +82,7 @@ impl PathRule for CheckedPastAlarm {
                     Fault::NoSuchLabel(_) => "the control stops when it takes this jump",
                     _ => "the control stops here",
                 })
-                .note("what follows is checked as if this block were corrected")
+                .note("the rest is checked as if this block were corrected")
                 .help("correct this block first");
         report.add(finding);
     }

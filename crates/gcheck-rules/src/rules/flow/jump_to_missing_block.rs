@@ -68,14 +68,21 @@ impl PathRule for JumpToMissingBlock {
         if literal || is_elsewhere {
             return;
         }
+        let is_return = cx.has_effect(|effect| effect == Effect::Return);
         let message = format!("jump to `N{number}`, which does not exist");
         let finding = cx
             .finding(&META, block, message)
-            .label(format!("looks for `N{number}` here"))
+            .label(if is_return {
+                format!("looks for `N{number}` in the program that made the call")
+            } else {
+                format!("looks for `N{number}` here")
+            })
             .note("the control searches for the number when the block runs, and stops with an alarm if it is not found")
-            .help(format!(
-                "add `N{number}` to the target block, or correct the expression of the number"
-            ));
+            .help(if is_return {
+                format!("add `N{number}` to a block of the calling program, or correct the number")
+            } else {
+                format!("add `N{number}` to the target block, or correct the number")
+            });
         report.add(finding);
     }
 }

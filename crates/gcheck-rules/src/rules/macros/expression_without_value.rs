@@ -74,6 +74,11 @@ impl PathRule for ExpressionWithoutValue {
                 "the base is below zero here",
                 "check the values in the power",
             ),
+            ValueFault::NotFinite if converts(cx) => (
+                "number that has no decimal digits to convert (`BIN`, `BCD`)",
+                "the number is below zero, too large, or not in BCD here",
+                "check the values in the function: `BIN` takes a BCD number, each four bits of which are a digit from 0 to 9",
+            ),
             ValueFault::NotFinite => (
                 "number too large to compute with",
                 "the result is infinite",
@@ -94,6 +99,16 @@ impl PathRule for ExpressionWithoutValue {
         }
         report.add(finding);
     }
+}
+
+/// Does the block convert from or to decimal digits in four bits each?
+fn converts(cx: &PathCx<'_>) -> bool {
+    cx.place().is_some_and(|place| {
+        place.expressions().any(|ix| {
+            let ops = place.table.ops(place.table.expr(ix));
+            ops.iter().any(|op| matches!(op, Op::Call(Function::Bin | Function::Bcd, _)))
+        })
+    })
 }
 
 /// The expression, if the block has only one candidate.
@@ -142,6 +157,19 @@ mod tests {
                 6 | G0 Z[SQRT[0-1]]
                   |     ^^^^^^^^^^^ error[expression-without-value] root of a negative number (`SQRT`)
             "#]],
+        );
+    }
+
+    #[test]
+    fn a_number_that_is_not_in_bcd() {
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "#1=BIN[10]\n#2=BIN[16]\nM30\n",
+            &expect![[r#"
+            1 | #1=BIN[10]
+              |    ^^^^^^^ error[expression-without-value] number that has no decimal digits to convert (`BIN`, `BCD`)
+        "#]],
         );
     }
 

@@ -1,6 +1,5 @@
 //! A label of O-word flow control that is defined twice.
 
-use std::collections::hash_map::Entry;
 use std::collections::{HashMap, HashSet};
 
 use gcheck_program::{OKeyword, OLabel, OWord};
@@ -9,7 +8,8 @@ use crate::declare::declare_rule;
 use crate::{FileCx, Finding, Report, Run};
 
 declare_rule! {
-    /// A label opens two structures of one subroutine, or names two subroutines of the file.
+    /// A label opens two structures of one subroutine, or names two subroutines of the file. Structures in different branches of
+    /// one `if` may share a label, because only one of them runs.
     ///
     /// ## Why it matters
     /// The control keeps one place for each label and stops when the second definition runs.
@@ -52,38 +52,83 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
     let mut local: Known<'_> = Known::new();
     let mut in_sub = false;
     let mut open_dos: HashSet<&OLabel> = HashSet::new();
+    // The open `if`s around a word, from the outside.
+    let mut branches: Vec<Branch<'_>> = Vec::new();
     for word in &cx.file_index.o_words {
         match word.keyword {
             OKeyword::Sub => {
-                define(cx, &mut subs, word, report);
+                define(cx, &mut subs, word, &[], report);
                 in_sub = true;
                 local.clear();
+                branches.clear();
             }
-            OKeyword::EndSub => in_sub = false,
+            OKeyword::EndSub => {
+                in_sub = false;
+                branches.clear();
+            }
+            OKeyword::ElseIf | OKeyword::Else => {
+                close(&mut branches, &word.label, |branch| branch.number += 1);
+            }
+            OKeyword::EndIf => {
+                close(&mut branches, &word.label, |_| {});
+                branches.pop_if(|branch| branch.opened.label == word.label);
+            }
             OKeyword::While if open_dos.remove(&word.label) => {}
             OKeyword::If | OKeyword::While | OKeyword::Do | OKeyword::Repeat => {
                 if word.keyword == OKeyword::Do {
                     open_dos.insert(&word.label);
                 }
-                define(cx, if in_sub { &mut local } else { &mut main }, word, report);
+                define(cx, if in_sub { &mut local } else { &mut main }, word, &branches, report);
+                if word.keyword == OKeyword::If {
+                    branches.push(Branch { opened: word, number: 0 });
+                }
             }
             _ => {}
         }
     }
 }
 
-/// Structures by label.
-type Known<'s> = HashMap<&'s OLabel, &'s OWord>;
+/// Structures by label, each with the branches that it is in.
+type Known<'s> = HashMap<&'s OLabel, Vec<(&'s OWord, Vec<Branch<'s>>)>>;
 
-fn define<'s>(cx: &FileCx<'_>, known: &mut Known<'s>, word: &'s OWord, report: &mut Report<'_>) {
+/// A branch of an `if`.
+#[derive(Clone, Copy)]
+struct Branch<'s> {
+    /// The word that opens the `if`.
+    opened: &'s OWord,
+    /// The first is 0, and each `elseif` and `else` begins another.
+    number: u32,
+}
+
+/// A word of the `if` with this label: those inside of it that have no end are over.
+fn close<'s>(branches: &mut Vec<Branch<'s>>, label: &OLabel, then: impl FnOnce(&mut Branch<'s>)) {
+    if let Some(at) = branches.iter().rposition(|branch| branch.opened.label == *label) {
+        branches.truncate(at + 1);
+        branches.last_mut().map(then);
+    }
+}
+
+/// Are they in different branches of one `if`?
+fn exclude(one: &[Branch<'_>], other: &[Branch<'_>]) -> bool {
+    one.iter()
+        .zip(other)
+        .any(|(one, other)| one.opened.range == other.opened.range && one.number != other.number)
+}
+
+fn define<'s>(
+    cx: &FileCx<'_>,
+    known: &mut Known<'s>,
+    word: &'s OWord,
+    branches: &[Branch<'s>],
+    report: &mut Report<'_>,
+) {
     if word.label == OLabel::Computed {
         return;
     }
-    match known.entry(&word.label) {
-        Entry::Occupied(first) => report.add(finding(cx, first.get(), word)),
-        Entry::Vacant(place) => {
-            place.insert(word);
-        }
+    let before = known.entry(&word.label).or_default();
+    match before.iter().find(|(_, others)| !exclude(others, branches)) {
+        Some((first, _)) => report.add(finding(cx, first, word)),
+        None => before.push((word, branches.to_vec())),
     }
 }
 
@@ -116,6 +161,35 @@ mod tests {
             &expect![[r#"
             4 | o1 while [#1 LT 9]
               | ^^^^^^^^^^^^^^^^^^ warning[o-word-label-reused] label `o1` is defined twice
+        "#]],
+        );
+    }
+
+    #[test]
+    fn of_two_branches_only_one_runs() {
+        let program = |middle: &str, end: &str| {
+            format!(
+                "o150 if [#1]\no175 if [#2]\no175 endif\n{middle}o175 if [#3]\no175 endif\no150 endif\n{end}M2\n"
+            )
+        };
+        check_rule(&RULE, "linuxcnc", &program("o150 else\n", ""), &expect![[""]]);
+        check_rule(&RULE, "linuxcnc", &program("o150 elseif [#4]\n", ""), &expect![[""]]);
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            &program("", ""),
+            &expect![[r#"
+            4 | o175 if [#3]
+              | ^^^^^^^^^^^^ warning[o-word-label-reused] label `o175` is defined twice
+        "#]],
+        );
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            &program("o150 else\n", "o175 if [#5]\no175 endif\n"),
+            &expect![[r#"
+            8 | o175 if [#5]
+              | ^^^^^^^^^^^^ warning[o-word-label-reused] label `o175` is defined twice
         "#]],
         );
     }

@@ -34,7 +34,7 @@ declare_rule! {
     /// M30
     /// ```
     rule "maybe-cylinder-left-on" in "mapping" {
-        summary: "cylindrical mapping left on, on some pathss",
+        summary: "cylindrical mapping left on, on some paths",
         severity: Info,
         tier: Path,
         since: "0.1.0",

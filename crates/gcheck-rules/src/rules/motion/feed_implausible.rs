@@ -1,10 +1,11 @@
 //! A feed that looks meant for another feed mode.
 
-use gcheck_controls::{Effect, Letter};
-use gcheck_engine::{Abstract, At, Domain, Event, Fact, FeedMode, Role, TravelKind};
+use gcheck_controls::{Effect, Letter, LetterSet};
+use gcheck_engine::{Abstract, At, Axis, Domain, Event, Fact, FeedMode, Position, Role, Spindle, TravelKind};
 use gcheck_geometry::Mm;
 
 use crate::declare::declare_rule;
+use crate::facts::cycles::drills_by_cycle;
 use crate::facts::feed::goes_by_feed;
 use crate::facts::tool_words::ToolWords;
 use crate::facts::turned::{Turned, end};
@@ -14,7 +15,8 @@ use crate::{Remembers, remembers};
 
 declare_rule! {
     /// A cut at more than 10 mm (0.4 inch) per turn of the spindle, on a lathe at more than 1.4 mm (0.055 inch), or at less than
-    /// 1 mm (0.04 inch) per minute. On a lathe, moves in the air do not count: outward, before the face, down to it, and outside of
+    /// 1 mm (0.04 inch) per minute. On a mill, a feed per minute counts with the speed of the spindle, for cuts below the zero of
+    /// the part with a tool that the program has changed to and whose length is in effect. On a lathe, moves in the air do not count: outward, before the face, down to it, and outside of
     /// what was turned; nor do knurls and rollers, bar pullers and live centres, nor taps and dies that are fed by their pitch.
     ///
     /// Where the program does not state its units, a feed is reported that is odd in both.
@@ -44,6 +46,15 @@ declare_rule! {
     /// X42. F.2
     /// M30
     /// ```
+    /// At 4500 turns a minute this is 22 mm (0.9 inch) per turn.
+    /// ```nc,reported,haas-mill
+    /// G20 G90 G94 G54 T6 M6
+    /// G0 X1. Y0. S4500 M3
+    /// G43 H6 Z.1
+    /// G1 Z-.1 F8.
+    /// X2. F4000.
+    /// M30
+    /// ```
     /// ## Not reported
     /// ```nc,quiet,fanuc-mill
     /// G21 G90 G54 S2000 M3
@@ -65,7 +76,7 @@ declare_rule! {
         since: "0.1.0",
         run: Run::Path {
             watch: Watch::CUTS.union(Watch::MOVES),
-            make: || Box::new(FeedImplausible { told: None }),
+            make: || Box::new(FeedImplausible::default()),
         },
     }
 }
@@ -78,16 +89,20 @@ const MOST_A_TURN_OF_THE_PART: f64 = 1.4;
 const OTHER_MODE: f64 = 3.0;
 /// Millimetres per turn: no thread that a tap or a die cuts is coarser.
 const COARSEST: f64 = 6.5;
+/// Turns per minute: below this, `S` is no speed, as on a router that is only switched on (`S1`).
+const LEAST_SPEED: f64 = 10.0;
 /// Millimetres per minute: less than any useful feed.
 const LEAST_A_MINUTE: f64 = 1.0;
 
-#[derive(Clone, PartialEq)]
+#[derive(Default, Clone, PartialEq)]
 struct FeedImplausible {
     /// The block whose feed was reported.
     told: Option<At>,
+    /// The tool change whose tool was reported with a feed too fast for its speed.
+    told_at_speed: Option<At>,
 }
 
-remembers!(FeedImplausible: told);
+remembers!(FeedImplausible: told, told_at_speed);
 
 impl PathRule for FeedImplausible {
     fn memory(&mut self) -> Remembers<'_> {
@@ -101,6 +116,7 @@ impl PathRule for FeedImplausible {
     fn cut(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
         if cx.is_mill() {
             self.judge(cx, event, report);
+            self.judge_at_speed(cx, event, report);
         }
     }
 
@@ -127,7 +143,12 @@ impl FeedImplausible {
         };
         // A mode that the program does not set may differ on the machine; lathes usually start in feed per turn.
         let is_stated = cx.definitions().set_by(Fact::Mode(Role::FeedMode)).is_some();
-        if !is_stated && (cx.is_mill() || !is_fast) || taps(cx) || is_fast && is_fed_fast(cx, least) {
+        let may_be_lathe =
+            cx.environment.control_is_guessed && cx.control().name() == gcheck_controls::fallback();
+        if !is_stated && (cx.is_mill() == is_fast || cx.is_mill() && may_be_lathe)
+            || taps(cx)
+            || is_fast && is_fed_fast(cx, least)
+        {
             return;
         }
         let Some(given) = cx.definitions().set_by(Fact::Feed) else { return };
@@ -163,6 +184,79 @@ impl FeedImplausible {
             finding.assuming(format!("the control starts in feed {reads}"))
         });
     }
+
+    /// A feed per minute that is too fast for the speed of the spindle.
+    fn judge_at_speed(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
+        let state = cx.state();
+        let turns = matches!(state.spindle(), Some(Spindle::Clockwise | Spindle::CounterClockwise));
+        let (Some(feed), Some(speed)) = (Abstract::known(state.feed()), Abstract::known(state.speed()))
+        else {
+            return;
+        };
+        if !turns
+            || speed < LEAST_SPEED
+            || state.feed_mode(cx.model) != Some(FeedMode::PerMinute)
+            || matches!(state.effect(Role::SpindleMode, cx.model), Some(Effect::SurfaceSpeed))
+            || !is_tool_of_a_mill(cx)
+            || !cuts_below_zero(cx, event)
+        {
+            return;
+        }
+        let [least, _] = units::range(cx, feed);
+        let a_turn = least / speed;
+        let tool = ToolWords::of(cx);
+        // False for unknown numbers.
+        if !(a_turn > MOST_A_TURN)
+            || taps(cx)
+            || tool.rolls()
+            || tool.needs_no_spindle()
+            || tool.follows_its_pitch()
+        {
+            return;
+        }
+        let Some(given) = cx.definitions().set_by(Fact::Feed) else { return };
+        // One number for the speed makes every feed of the tool implausible.
+        let changed = cx.definitions().set_by(Fact::Tool);
+        if self.told == Some(given) || changed.is_none() || self.told_at_speed == changed {
+            return;
+        }
+        self.told_at_speed = changed;
+        let word = |word: &gcheck_program::Word| word.letter == Letter::of('F');
+        let range = cx.find_word(given, word).unwrap_or_else(|| cx.range());
+        let finding = cx
+            .finding(
+                &META,
+                range,
+                format!("feed of {} per turn of the spindle (`F`, `S{speed:.0}`)", cx.shown(Mm(a_turn))),
+            )
+            .label(format!("{} per minute at {speed:.0} turns per minute", cx.shown(Mm(feed))))
+            .help("check the feed and the speed: a zero or a decimal point is wrong in one of them");
+        report.add(cx.resting_on(finding, Fact::Speed, &format!("`S{speed:.0}`")));
+    }
+}
+
+/// Does the move cut below the zero of the part: across, or in a cycle that drills? A tool goes down into a hole as fast as it likes.
+fn cuts_below_zero(cx: &PathCx<'_>, event: &Event) -> bool {
+    let is_below =
+        |from: &Position, to: &Position| from.raw(Axis::Z) < 0.0 && to.raw(Axis::Z) <= from.raw(Axis::Z);
+    match event {
+        Event::Travel(travel) if travel.expanded => drills_by_cycle(cx) && travel.to.raw(Axis::Z) < 0.0,
+        Event::Travel(travel) => {
+            let is_across = cx.origin().letters.intersects(LetterSet::of("XY"));
+            is_across && is_below(&travel.from, &travel.programmed)
+        }
+        Event::Arc(arc) => is_below(&arc.from, &arc.programmed),
+        _ => false,
+    }
+}
+
+/// Is the length of a tool in effect that the program has changed to? A laser or a torch has none, and its `S` is a power.
+fn is_tool_of_a_mill(cx: &PathCx<'_>) -> bool {
+    let has_length = matches!(
+        cx.state().effect(Role::Length, cx.model),
+        Some(Effect::LengthPlus | Effect::LengthMinus | Effect::LengthFiveAxis)
+    );
+    has_length && cx.definitions().set_by(Fact::Tool).is_some()
 }
 
 /// Is the tool one that is fed like this: a knurl, a bar puller, a tap in a floating holder?
@@ -194,7 +288,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::testing::check_rule;
+    use crate::testing::{World, check_rule, check_rule_in};
 
     #[test]
     fn each_feed_is_told_once() {
@@ -207,6 +301,67 @@ mod tests {
                   |        ^^^^ warning[feed-implausible] feed of 30 in per turn of the spindle (`F`)
             "#]],
         );
+    }
+
+    #[test]
+    fn a_feed_per_minute_counts_with_the_speed() {
+        let program = |speed: &str, cut: &str| {
+            format!(
+                "G21 G17 G90 G94 G54\nT1 M6\nG0 X0. Y0. {speed} M3\nG43 H1 Z20.\n{cut}\nG80 G0 Z20.\nM30\n"
+            )
+        };
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            &program("S15", "G81 Z-15. R5. F180."),
+            &expect![[r#"
+            5 | G81 Z-15. R5. F180.
+              |               ^^^^^ warning[feed-implausible] feed of 12 mm per turn of the spindle (`F`, `S15`)
+        "#]],
+        );
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            &program("S1500", "G1 Z-2. F200.\nX40. F20000.\nX60. F25000."),
+            &expect![[r#"
+            6 | X40. F20000.
+              |      ^^^^^^^ warning[feed-implausible] feed of 13.333 mm per turn of the spindle (`F`, `S1500`)
+        "#]],
+        );
+        for (speed, cut) in [
+            ("S1500", "G81 Z-15. R5. F180."),
+            // Into a bore from behind, and above the part.
+            ("S50", "G1 Z-40. F1000."),
+            ("S50", "G1 X40. F1000."),
+            ("S15", "G84 Z-15. R5. F180."),
+            // On a router that is only switched on.
+            ("S1", "G1 Z-2. F200.\nX40. F2000."),
+            ("S#500", "G1 Z-2. F200.\nX40. F20000."),
+        ] {
+            check_rule(&RULE, "fanuc-mill", &program(speed, cut), &expect![[""]]);
+        }
+        // The program of a lathe, where nobody has chosen the control.
+        let world = World { control_is_guessed: true, ..World::default() };
+        let turning = "G21 G99 T01\nG97 S364 M3\nG0 X59. Z.5\nG1 Z-78.642 F0.127\nM30\n";
+        check_rule_in(&RULE, "generic-mill", turning, &world, &expect![[""]]);
+        // The power of a laser.
+        check_rule(&RULE, "grbl", "G21 G90 G94 M3 S100\nG1 Z-1 F600\nX40 F4000\nM5\nM2\n", &expect![[""]]);
+    }
+
+    #[test]
+    fn a_mill_feeds_by_the_minute() {
+        for control in ["grbl", "linuxcnc"] {
+            check_rule(
+                &RULE,
+                control,
+                "G21 G90 S18000 M3\nG1 X20 F0.8\nM2\n",
+                &expect![[r#"
+                2 | G1 X20 F0.8
+                  |        ^^^^ warning[feed-implausible] feed of 0.8 mm per minute (`F`)
+            "#]],
+            );
+            check_rule(&RULE, control, "G21 G90 S18000 M3\nG1 X20 F80\nM2\n", &expect![[""]]);
+        }
     }
 
     #[test]

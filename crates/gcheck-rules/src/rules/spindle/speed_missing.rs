@@ -6,6 +6,7 @@ use gcheck_program::Place;
 
 use crate::declare::declare_rule;
 use crate::facts::cutting::is_cut;
+use crate::facts::cycles::cycle_name;
 use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
 use crate::{Remembers, remembers};
 
@@ -71,10 +72,15 @@ impl PathRule for SpeedMissing {
             return;
         }
         self.told = started_by;
-        let code = started_by.and_then(|at| start_code(cx, at)).unwrap_or_else(|| "M3".to_owned());
+        let by_code = started_by.and_then(|at| start_code(cx, at));
+        // A cycle that taps may start the spindle itself.
+        let by_cycle = by_code.is_none().then(|| cycle_name(cx)).filter(|name| !name.is_empty());
+        let code = by_code.or_else(|| by_cycle.clone()).unwrap_or_else(|| "M3".to_owned());
         let is_zero = set_by.is_some();
         let message = if is_zero {
             format!("the spindle turns with speed zero (`S0`, `{code}`)")
+        } else if by_cycle.is_some() {
+            format!("the cycle starts the spindle without a speed (`{code}`, no `S` before it)")
         } else {
             format!("the spindle was started without a speed (`{code}` without `S`)")
         };
@@ -139,6 +145,19 @@ mod tests {
             2 | G1 X2. F50.
               | ^^^^^^^^^^^ info[speed-missing] the spindle was started without a speed (`M3` without `S`)
         "#]],
+        );
+    }
+
+    #[test]
+    fn a_cycle_that_starts_the_spindle() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G21 G90 G54 G0 X0. Y0. Z20.\nG84 X0. Y0. Z-10. R5. F1.\nG80\nS500 M3\nG1 X2. F50.\nM30\n",
+            &expect![[r#"
+                2 | G84 X0. Y0. Z-10. R5. F1.
+                  | ^^^^^^^^^^^^^^^^^^^^^^^^^ warning[speed-missing] the cycle starts the spindle without a speed (`G84`, no `S` before it)
+            "#]],
         );
     }
 

@@ -22,6 +22,9 @@ declare_rule! {
     /// machines whose spindle is switched by hand. Under feed per turn (`G95`; `G99` on lathes) the axes do not even
     /// move: the program waits forever.
     ///
+    /// It is an error where the control refuses the block (a cycle that taps, a thread, feed per turn) and the program itself stopped
+    /// the spindle on every path; otherwise it is a warning, or information where the machine may have no spindle.
+    ///
     /// ## Reported
     /// ```nc,reported,haas-mill
     /// G0 X1. S1000 M3

@@ -9,7 +9,7 @@ use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// A tool has worked with its length in effect, the length is cancelled (`G49`), and then the tool cuts along Z.
+    /// A tool has moved in Z or worked with its length in effect, the length is cancelled (`G49`), and then the tool cuts along Z.
     ///
     /// ## Why it matters
     /// From there Z is the position of the spindle nose: the tool goes deeper by its own length.
@@ -60,20 +60,22 @@ declare_rule! {
         since: "0.1.0",
         run: Run::Path {
             watch: Watch::CUTS.union(Watch::RAPIDS),
-            make: || Box::new(LengthCancelledBeforeCut { worked: None, told: None }),
+            make: || Box::new(LengthCancelledBeforeCut::default()),
         },
     }
 }
 
-#[derive(Clone, PartialEq)]
+#[derive(Default, Clone, PartialEq)]
 struct LengthCancelledBeforeCut {
     /// The tool change whose tool has cut with its length in effect.
     worked: Option<At>,
+    /// The tool change whose tool has come to a height of the part with its length in effect.
+    came: Option<At>,
     /// The cancelling block that was reported.
     told: Option<At>,
 }
 
-remembers!(LengthCancelledBeforeCut: worked, told);
+remembers!(LengthCancelledBeforeCut: worked, came, told);
 
 impl PathRule for LengthCancelledBeforeCut {
     fn memory(&mut self) -> Remembers<'_> {
@@ -89,7 +91,11 @@ impl PathRule for LengthCancelledBeforeCut {
             return;
         }
         let (fact, changed) = (Fact::Mode(Role::Length), cx.definitions().set_by(Fact::Tool));
-        let is_off = cx.state().effect(Role::Length, cx.model) == Some(Effect::LengthOff);
+        let length = cx.state().effect(Role::Length, cx.model);
+        let is_off = length == Some(Effect::LengthOff);
+        if matches!(length, Some(Effect::LengthPlus | Effect::LengthMinus)) && changed.is_some() {
+            self.came = changed;
+        }
         if cx.model.semantics().tools.offset_in_t || !is_off || changed.is_none() || self.worked != changed {
             return;
         }
@@ -130,7 +136,10 @@ impl PathRule for LengthCancelledBeforeCut {
             Some(Effect::LengthPlus | Effect::LengthMinus) if is_cut(cx, event) => {
                 self.worked = Some(changed);
             }
-            Some(Effect::LengthOff) if self.worked == Some(changed) && goes_into_the_part(event) => {
+            Some(Effect::LengthOff)
+                if (self.worked == Some(changed) || self.came == Some(changed))
+                    && goes_into_the_part(cx, event) =>
+            {
                 let Some(cancelled) = cx.definitions().set_by(fact).filter(|at| self.told != Some(*at))
                 else {
                     return;
@@ -162,8 +171,10 @@ impl PathRule for LengthCancelledBeforeCut {
 const NEAR_THE_PART: f64 = 50.0;
 
 /// A feed move to below the zero of the part: after a cancelled length the tool's start is unknown.
-fn goes_into_the_part(event: &Event) -> bool {
+fn goes_into_the_part(cx: &PathCx<'_>, event: &Event) -> bool {
     match event {
+        // The first peck of a cycle may end above the part.
+        Event::Travel(travel) if travel.expanded => cx.state().cycle().z < 0.0,
         Event::Travel(travel) => travel.kind == TravelKind::Feed && travel.to.raw(Axis::Z) < 0.0,
         _ => false,
     }
@@ -183,6 +194,44 @@ mod tests {
             "haas-mill",
             "T1 M6\nS1000 M3\nG90 G54 G43 H1 Z1.\nG1 Z-0.1 F10.\nG49\nT2 M6\nM3\nG1 Z-0.1\nM30\n",
             &expect![[""]],
+        );
+    }
+
+    #[test]
+    fn the_first_cut_of_the_tool_counts_too() {
+        let program = |cut: &str| {
+            format!(
+                "G21 G17 G90\nT1 M6\nG54 G0 X0. Y0. S2500 M3\nG43 H1 Z50.\nG49\n{cut}\nG80 G91 G28 Z0.\nM30\n"
+            )
+        };
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            &program("G83 G98 X20. Y20. Z-18. R3. Q4. F180."),
+            &expect![[r#"
+            6 | G83 G98 X20. Y20. Z-18. R3. Q4. F180.
+              |                   ^^^^^ warning[length-cancelled-before-cut] the tool cuts after its length was cancelled (`G49`)
+        "#]],
+        );
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            &program("G1 Z-5. F100.\nX50."),
+            &expect![[r#"
+            6 | G1 Z-5. F100.
+              |    ^^^^ warning[length-cancelled-before-cut] the tool cuts after its length was cancelled (`G49`)
+        "#]],
+        );
+        check_rule(&RULE, "fanuc-mill", &program("G43 H1 Z5.\nG1 Z-5. F100.\nX50."), &expect![[""]]);
+        check_rule(&RULE, "fanuc-mill", &program("G1 X50. F100."), &expect![[""]]);
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            &program("G83 G98 X20. Y20. Z-18. R4. Q4. F180."),
+            &expect![[r#"
+            6 | G83 G98 X20. Y20. Z-18. R4. Q4. F180.
+              |                   ^^^^^ warning[length-cancelled-before-cut] the tool cuts after its length was cancelled (`G49`)
+        "#]],
         );
     }
 

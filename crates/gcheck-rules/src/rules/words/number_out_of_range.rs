@@ -211,6 +211,15 @@ mod tests {
     }
 
     #[test]
+    fn a_second_spindle_is_the_machines_own() {
+        let program = "M3 S100 $1\nM2\n";
+        check_rule(&RULE, "linuxcnc", program, &expect![[""]]);
+        let mut world = World::default();
+        world.machine.settings.insert("SPINDLES".to_owned(), "2".to_owned());
+        assert!(findings(&only(&RULE), "linuxcnc", program, &world).is_empty());
+    }
+
+    #[test]
     fn a_peck_of_nothing() {
         check_rule(
             &RULE,
