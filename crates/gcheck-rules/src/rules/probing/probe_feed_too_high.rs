@@ -1,18 +1,14 @@
 //! A probing move too fast for the probe.
 
-use gcheck_controls::{Effect, SystemValue, SystemVariable};
-use gcheck_engine::{Abstract, Axis, Domain, Event, FeedMode, Touch, Units, Way};
-use gcheck_program::{BlockFlags, Op};
+use gcheck_engine::{Abstract, Domain, Event, FeedMode, Units};
 
 use crate::declare::declare_rule;
 use crate::facts::compensation::may_be_on;
-use crate::facts::probing::{driven, is_measurement, is_probing_move, is_touch};
-use crate::facts::usage::blocks_with;
+use crate::facts::probing::{is_probing_move, is_touch};
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
 declare_rule! {
-    /// A probing move that measures has a feed above the limit in the control's manual. A protected move may be fast: the probe
-    /// goes up, or nobody reads where it has touched (`#5061`).
+    /// A probing move has a feed above the limit in the control's manual.
     ///
     /// ## Why it matters
     /// After the touch the axes need some distance to stop. Above this feed the stylus may break, and the measurement
@@ -25,13 +21,6 @@ declare_rule! {
     /// M30
     /// ```
     /// ## Not reported
-    /// On its way the probe stops if it touches, and nothing is measured.
-    /// ```nc,quiet,haas-mill
-    /// G20 G90 G54 G0 X0. Y5.
-    /// G31 Z-1. F150.
-    /// G31 Y4. F15. M79
-    /// M30
-    /// ```
     /// ```nc,quiet,haas-mill
     /// G20 G90 G54 G0 X0. Y5.
     /// G31 Y4. F15. M79
@@ -79,45 +68,11 @@ impl PathRule for ProbeFeedTooHigh {
             .note(format!("the manual asks for less than {fastest:.0} {unit} for a touch"))
             .help("approach with a protected move, and touch slowly");
         // A protected move may be as fast as its stopping distance allows.
-        let guards = cx.has_effect(|effect| effect == Effect::AlarmIfTouched);
-        if !guards && !is_protected(cx) {
+        let guards = cx.has_effect(|effect| effect == gcheck_controls::Effect::AlarmIfTouched);
+        if !guards {
             report.add(finding);
         }
     }
-}
-
-/// Does the probe go up, or is its touch never read, so that it only guards the way?
-fn is_protected(cx: &PathCx<'_>) -> bool {
-    let measures = |effect| is_measurement(effect) || effect == Effect::AlarmIfNotTouched;
-    if cx.has_effect(measures) {
-        return false;
-    }
-    let goes_up = match cx.state().touched() {
-        Touch::Made(ways) => driven(ways).all(|(axis, way)| axis == Axis::Z && way == Way::Up),
-        _ => false,
-    };
-    goes_up || !reads_touch(cx)
-}
-
-/// Does the file read where a probe has touched, as far as the numbers of its variables show?
-fn reads_touch(cx: &PathCx<'_>) -> bool {
-    let variables = &cx.control().semantics().system_variables;
-    let is_touch = |number: u32| {
-        let of_touch = |variable: &SystemVariable| {
-            variable.holds == SystemValue::ProbePosition && variable.cell(number).is_some()
-        };
-        variables.iter().any(of_touch)
-    };
-    let flags = BlockFlags::STATEMENT | BlockFlags::EXPRESSION;
-    blocks_with(cx.program, cx.environment, flags).any(|(_, place)| {
-        place.expressions().any(|expr| {
-            place.table.ops(place.table.expr(expr)).iter().any(|op| match op {
-                Op::Variable(number) => is_touch(*number),
-                Op::Indirect => true,
-                _ => false,
-            })
-        })
-    })
 }
 
 #[cfg(test)]
@@ -132,7 +87,7 @@ mod tests {
         check_rule(
             &RULE,
             "haas-mill",
-            "G21 G91 G31 Y-1. F3000. M79\nG31 Y-1. F2499.\nG31 Y-1. F2500.\nG36 Y-1. F4000.\nG31 Z1. F4000.\n#100= #5062\nG90\nM30\n",
+            "G21 G91 G31 Y-1. F3000. M79\nG31 Y-1. F2499.\nG31 Y-1. F2500.\nG36 Y-1. F4000.\nG90\nM30\n",
             &expect![[r#"
                 1 | G21 G91 G31 Y-1. F3000. M79
                   |                  ^^^^^^ warning[probe-feed-too-high] probing at 3000 mm/min (`F`)
@@ -141,20 +96,6 @@ mod tests {
                 4 | G36 Y-1. F4000.
                   |          ^^^^^^ warning[probe-feed-too-high] probing at 4000 mm/min (`F`)
             "#]],
-        );
-    }
-
-    #[test]
-    fn a_protected_move_may_be_fast() {
-        check_rule(&RULE, "haas-mill", "G21 G91 G31 Y-1. F4000.\nG90\nM30\n", &expect![[""]]);
-        check_rule(
-            &RULE,
-            "haas-mill",
-            "G21 G91 G31 Y-1. F4000.\n#1= #[5060+2]\nG90\nM30\n",
-            &expect![[r#"
-            1 | G21 G91 G31 Y-1. F4000.
-              |                  ^^^^^^ warning[probe-feed-too-high] probing at 4000 mm/min (`F`)
-        "#]],
         );
     }
 
