@@ -57,6 +57,8 @@ pub enum SyntaxForm {
     ToolWithD,
     /// `G50` and `S` in a block.
     SpeedLimitByG50,
+    /// `G92` and `S` in a block without axis words, in a program with `G96` that turns.
+    SpeedLimitByG92,
 }
 
 impl fmt::Display for SyntaxForm {
@@ -85,6 +87,7 @@ impl fmt::Display for SyntaxForm {
             Self::MillingWords => "blocks with `X` and `Y`",
             Self::ToolWithD => "`T` with `D`, without a tool change code",
             Self::SpeedLimitByG50 => "a speed limit by `G50 S`",
+            Self::SpeedLimitByG92 => "a speed limit by `G92 S`",
         })
     }
 }

@@ -42,6 +42,9 @@ pub fn evidence_of_file(text: &str, extension: Option<&str>) -> Evidence {
     let turns = [50, 96, 97].map(CodeNumber::g).iter().any(|code| scan.codes.contains(code));
     if with_x.min(with_z) >= ENOUGH_BLOCKS && with_y == 0 && turns {
         scan.form(SyntaxForm::TurningWords);
+        if scan.limits_by_g92 && scan.codes.contains(&CodeNumber::g(96)) {
+            scan.form(SyntaxForm::SpeedLimitByG92);
+        }
         if let Some(system) = scan.turning_system() {
             scan.form(system);
         }
@@ -67,6 +70,8 @@ struct Scan {
     units_by_cycle_number: bool,
     /// `T0707 M06`: a lathe writes it, and so do some posts for mills.
     twin_tool_with_change: bool,
+    /// `G92 S3000`.
+    limits_by_g92: bool,
 }
 
 /// Blocks with `X` and blocks with `Z` that a program needs before it means something that none has a `Y`.
@@ -94,6 +99,8 @@ struct Seen {
     macro_call: bool,
     /// `G50`: with `S` the highest speed of a lathe's spindle, alone the end of scaling on a mill.
     g50: bool,
+    /// `G92`: with `S` alone the highest speed of a lathe's spindle, but for one of system A.
+    g92: bool,
     /// No word has come yet but `N` and `/`.
     is_head: bool,
 }
@@ -199,6 +206,8 @@ impl Scan {
         if seen.g50 && seen.valued.contains(Letter::of('S')) {
             self.form(SyntaxForm::SpeedLimitByG50);
         }
+        let has_axis = "XYZUVW".chars().any(|letter| seen.valued.contains(Letter::of(letter)));
+        self.limits_by_g92 |= seen.g92 && seen.valued.contains(Letter::of('S')) && !has_axis;
         if seen.increment && !seen.macro_call {
             self.form(SyntaxForm::IncrementalWords);
         }
@@ -259,6 +268,7 @@ impl Scan {
                     seen.unit_or_cycle |= [70, 71].map(CodeNumber::g).contains(&code);
                     seen.tool_change |= code == CodeNumber::m(6);
                     seen.g50 |= code == CodeNumber::g(50);
+                    seen.g92 |= code == CodeNumber::g(92);
                     seen.macro_call |= code == CodeNumber::g(65) || code == CodeNumber::g(66);
                     if !self.codes.contains(&code) {
                         self.codes.push(code);
@@ -334,8 +344,12 @@ fn is_system_command(line: &str) -> bool {
     let digits = after.bytes().take_while(u8::is_ascii_digit).count();
     match after.as_bytes().get(digits) {
         Some(b'=') if digits > 0 => true,
-        Some(byte) => digits == 0 && (byte.is_ascii_alphabetic() || *byte == b'$'),
-        None => false,
+        Some(b'$') => digits == 0,
+        // `$H`, `$SLP`, `$RST=#`; simulators have longer words of their own (`$AddRegPart`).
+        Some(_) if digits == 0 => {
+            (1..=4).contains(&after.bytes().take_while(u8::is_ascii_alphabetic).count())
+        }
+        _ => false,
     }
 }
 
@@ -514,6 +528,18 @@ mod tests {
             let forms = collect_evidence(&format!("{block}\nG0 X1 Y1\n")).forms;
             assert_eq!(forms.contains(&SyntaxForm::SpeedLimitByG50), is_limit, "{block}: {forms:?}");
         }
+    }
+
+    #[test]
+    fn a_speed_limit_by_g92_shows_a_lathe_of_another_system() {
+        for (limit, is_limit) in [("G92 S3000", true), ("G92 X200 S3000", false), ("G92 S", false)] {
+            let body = "X20 Z1\nX21 Z2\nX22 Z3\nX23 Z4\n";
+            let forms = collect_evidence(&format!("T0101\nG96 S200 M3\n{limit}\n{body}")).forms;
+            assert_eq!(forms.contains(&SyntaxForm::SpeedLimitByG92), is_limit, "{limit}: {forms:?}");
+        }
+        assert!(
+            !collect_evidence("G96 S200\nG92 S3000\nX1 Y1\n").forms.contains(&SyntaxForm::SpeedLimitByG92)
+        );
     }
 
     #[test]

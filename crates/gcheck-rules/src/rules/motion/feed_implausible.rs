@@ -89,7 +89,7 @@ const MOST_A_TURN_OF_THE_PART: f64 = 1.4;
 const OTHER_MODE: f64 = 3.0;
 /// Millimetres per turn: no thread that a tap or a die cuts is coarser.
 const COARSEST: f64 = 6.5;
-/// Turns per minute: below this, `S` is no speed, as on a router that is only switched on (`S1`).
+/// Turns per minute: below this, `S` only switches the spindle on (`S1`), as on a router.
 const LEAST_SPEED: f64 = 10.0;
 /// Millimetres per minute: less than any useful feed.
 const LEAST_A_MINUTE: f64 = 1.0;
@@ -330,7 +330,7 @@ mod tests {
         );
         for (speed, cut) in [
             ("S1500", "G81 Z-15. R5. F180."),
-            // Into a bore from behind, and above the part.
+            // Into a bore from its back, and above the part.
             ("S50", "G1 Z-40. F1000."),
             ("S50", "G1 X40. F1000."),
             ("S15", "G84 Z-15. R5. F180."),

@@ -213,10 +213,15 @@ mod tests {
     #[test]
     fn a_second_spindle_is_the_machines_own() {
         let program = "M3 S100 $1\nM2\n";
-        check_rule(&RULE, "linuxcnc", program, &expect![[r#"
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            program,
+            &expect![[r#"
             1 | M3 S100 $1
               |         ^^ info[number-out-of-range] the machine has no such spindle: `$1`
-        "#]]);
+        "#]],
+        );
         let mut world = World::default();
         world.machine.settings.insert("SPINDLES".to_owned(), "2".to_owned());
         assert!(findings(&only(&RULE), "linuxcnc", program, &world).is_empty());

@@ -78,7 +78,7 @@ const STATEMENTS: &[Statement] = &[
         "A spindle that the machine does not have is refused (interpreter 2.9)",
         "rule `number-out-of-range`",
         &[refused(
-            "warning[number-out-of-range]",
+            "info[number-out-of-range]",
             "S100 M3\nG33 Z-2 K1 $1\nM2\n",
             "S100 M3\nG33 Z-2 K1 $0\nM2\n",
         )],
@@ -569,7 +569,7 @@ const STATEMENTS: &[Statement] = &[
         "rule `number-out-of-range`",
         &[
             runs("G96 S100 $0\nG97 S100 $0\nM2\n", &["SET_SPINDLE_SPEED(0, 100.0000)"]),
-            refused("warning[number-out-of-range]", "G96 S100 $1\nM2\n", "G96 S100 $0\nM2\n"),
+            refused("info[number-out-of-range]", "G96 S100 $1\nM2\n", "G96 S100 $0\nM2\n"),
         ],
     ),
     unmodelled(
