@@ -107,7 +107,11 @@ fn ask_everything(world: &mut World, offset: u32, other: u32, new_name: &str) {
     let items = gcheck_ide::completion(&mut world.database, &world.workspace, id, offset, trigger, &go);
     for item in items {
         world.inside(id, &item.edit.range);
-        assert!(item.edit.range.end <= end.min(offset), "{item:?} at {offset} of {:?}", snapshot.text());
+        // An entry takes the place of the word that the cursor is in, which may go on after it.
+        let line = snapshot.line_range(snapshot.line_at(offset.min(end)));
+        let is_around =
+            item.edit.range.start <= end.min(offset) && item.edit.range.end <= line.end.max(offset);
+        assert!(is_around, "{item:?} at {offset} of {:?}", snapshot.text());
     }
     let is_asked = offset.is_multiple_of(2);
     let help = gcheck_ide::signature_help(&mut world.database, &world.workspace, id, offset, is_asked, &go);

@@ -59,6 +59,7 @@ pub fn evidence_of_file(text: &str, extension: Option<&str>) -> Evidence {
 }
 
 #[derive(Debug, Default)]
+#[expect(clippy::struct_excessive_bools, reason = "independent yes/no facts of a program, named one by one")]
 struct Scan {
     comments: Vec<String>,
     codes: Vec<CodeNumber>,

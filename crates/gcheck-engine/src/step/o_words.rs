@@ -246,7 +246,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 match o_word_of(&place.table, &place) {
                     Some((OLabel::Computed, _)) => labels.computed.push((block, keyword)),
                     Some((label, _)) => {
-                        labels.written.entry(label.clone()).or_default().push((block, keyword))
+                        labels.written.entry(label.clone()).or_default().push((block, keyword));
                     }
                     None => {}
                 }

@@ -6,7 +6,6 @@ use crate::RULES;
 use crate::testing::{World, findings, recommended};
 
 /// The rules that report a fault. Without a wildcard, so that a new fault needs a line here.
-#[expect(clippy::too_many_lines, reason = "a line or a list for each fault")]
 fn said(fault: &Fault) -> &'static [&'static str] {
     match fault {
         Fault::Value(fault) => said_of_value(*fault),

@@ -205,8 +205,8 @@ impl FeedImplausible {
         let [least, _] = units::range(cx, feed);
         let a_turn = least / speed;
         let tool = ToolWords::of(cx);
-        // False for unknown numbers.
-        if !(a_turn > MOST_A_TURN)
+        if a_turn.is_nan()
+            || a_turn <= MOST_A_TURN
             || taps(cx)
             || tool.rolls()
             || tool.needs_no_spindle()
