@@ -410,8 +410,9 @@ impl Items<'_, '_> {
         }
         let rest = self.typing.rest();
         for (_, item) in &mut list {
-            let text = if item.is_snippet { filled_in(&item.edit.text) } else { item.edit.text.clone() };
-            item.edit.range.end += overwritten(&typed, &text, &rest) as u32;
+            let filled = item.is_snippet.then(|| filled_in(&item.edit.text));
+            let text = filled.as_ref().unwrap_or(&item.edit.text);
+            item.edit.range.end += overwritten(&typed, text, &rest) as u32;
         }
         list.into_iter().map(|(_, item)| item).collect()
     }

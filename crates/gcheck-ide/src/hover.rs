@@ -10,7 +10,7 @@ use std::ops::Range;
 use gcheck_controls::{Code, CodeIx, Control, Effect, Letter, Need, Variable, WordEntry, WordKind};
 use gcheck_db::{BlockPlace, Cancelled, Database, DocumentId, Snapshot, StateAt};
 use gcheck_engine::{Abstract, AbstractValue, At, Axis, Domain as _, Look, Position, Role, State, Truth};
-use gcheck_program::{ExprIx, OLabel, StatementKind, Value, Word};
+use gcheck_program::{ExprIx, StatementKind, Value, Word};
 use gcheck_syntax::SyntaxKind;
 
 use crate::ReferenceKind;
@@ -230,10 +230,7 @@ impl Cx<'_> {
         let mut text = format!("**{written}** {does}");
         let condition = match statement.map(|statement| &statement.kind) {
             Some(StatementKind::If { condition } | StatementKind::Do { condition, .. }) => *condition,
-            // The first expression of a computed label is the label's.
-            Some(kind @ StatementKind::OWord { label, .. }) => {
-                kind.expressions().nth(usize::from(*label == OLabel::Computed))
-            }
+            Some(kind @ StatementKind::OWord { label, .. }) => kind.expressions().nth(label.expressions()),
             _ => None,
         };
         let is_condition = matches!(kind, SyntaxKind::IF_KW | SyntaxKind::ELSEIF_KW | SyntaxKind::WHILE_KW);

@@ -203,8 +203,12 @@ pub(crate) struct Collector<'c> {
 impl<'c> Collector<'c> {
     pub(crate) fn new(environment: Environment<'c>) -> Self {
         let control = environment.control();
-        let is_unsure = environment.control_is_guessed && control.name() == gcheck_controls::fallback();
-        Self { control, is_unsure, findings: Vec::new(), omitted: Omitted::default() }
+        Self {
+            control,
+            is_unsure: environment.control_is_unknown(),
+            findings: Vec::new(),
+            omitted: Omitted::default(),
+        }
     }
 
     /// What is kept and counted so far.

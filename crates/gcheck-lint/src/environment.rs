@@ -75,6 +75,11 @@ impl<'a> Environment<'a> {
         self.dialect.control()
     }
 
+    /// Nobody chose the control, and nothing in the program speaks for it: it may be any.
+    pub fn control_is_unknown(&self) -> bool {
+        self.control_is_guessed && self.control().name() == gcheck_controls::fallback()
+    }
+
     /// A setting's value: configured, or the default that the knowledge base assumes.
     ///
     /// The second part is the assumption to state, if the user did not configure it.

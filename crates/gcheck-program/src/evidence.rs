@@ -207,8 +207,9 @@ impl Scan {
         if seen.g50 && seen.valued.contains(Letter::of('S')) {
             self.form(SyntaxForm::SpeedLimitByG50);
         }
-        let has_axis = "XYZUVW".chars().any(|letter| seen.valued.contains(Letter::of(letter)));
-        self.limits_by_g92 |= seen.g92 && seen.valued.contains(Letter::of('S')) && !has_axis;
+        self.limits_by_g92 |= seen.g92
+            && seen.valued.contains(Letter::of('S'))
+            && !seen.valued.intersects(LetterSet::of("XYZUVW"));
         if seen.increment && !seen.macro_call {
             self.form(SyntaxForm::IncrementalWords);
         }

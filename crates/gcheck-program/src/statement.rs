@@ -121,6 +121,11 @@ impl OLabel {
             _ => Self::Name(name),
         }
     }
+
+    /// How many of the statement's expressions are the label's own: they come first.
+    pub fn expressions(&self) -> usize {
+        usize::from(*self == Self::Computed)
+    }
 }
 
 /// The keyword of an O-word.

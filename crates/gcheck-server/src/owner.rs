@@ -225,8 +225,8 @@ impl Owner {
         self.documents.get(uri).ok_or_else(|| not_open(uri))
     }
 
-    /// Is it an open text that is no program? What is asked of each text that is open has nothing to say of it, and must
-    /// change nothing in it.
+    /// Is it an open text that is not a program? What is asked of each open text has nothing to say of it, and must change
+    /// nothing in it.
     pub(crate) fn is_configuration(&self, uri: &Uri) -> bool {
         self.documents.get(uri).is_some_and(|document| !document.is_program)
     }

@@ -32,7 +32,7 @@ const MAX_STANDS: usize = 64;
 /// Compares two runs. Paths are the same while they stay within `tolerance` millimetres (degrees on rotary axes) of each other
 /// on every axis. Coordinates that are unknown in one of them are not compared.
 ///
-/// Where they part for good, both are left there, or read to their ends, so that the digest is of all that they do.
+/// Where they part for good, both are left there, or read to their ends for a digest of all that they do differently.
 pub fn compare(
     a: impl IntoIterator<Item = Act>,
     b: impl IntoIterator<Item = Act>,
@@ -44,13 +44,13 @@ pub fn compare(
         b: Cursor::new(b.into_iter()),
         tolerance,
         leaving: None,
-        found: Differences::default(),
+        found: if rest == Rest::Read { Differences::with_digest() } else { Differences::default() },
     };
     comparison.run();
     if rest == Rest::Read {
-        let mut over = Digest::default();
-        comparison.a.read_on(&mut over);
-        comparison.b.read_on(&mut over);
+        let mut over = comparison.found.another_digest();
+        comparison.a.pass_over(&mut over, |_| false);
+        comparison.b.pass_over(&mut over, |_| false);
         comparison.found.pass_over(&over);
     }
     comparison.found
@@ -61,7 +61,7 @@ pub fn compare(
 pub enum Rest {
     /// They are left there.
     Leave,
-    /// They are read to their ends.
+    /// They are read to their ends, and the differences have a digest.
     Read,
 }
 
@@ -154,14 +154,15 @@ impl<I: Iterator<Item = Act>> Cursor<I> {
         }
     }
 
-    /// Takes what is left into the digest.
-    fn read_on(&mut self, over: &mut Digest) {
+    /// Passes over what is left of the move at hand, and the acts up to the first that is the end, which it gives.
+    fn pass_over(&mut self, over: &mut Digest, is_end: impl Fn(&Act) -> bool) -> Option<Act> {
         if let Some(piece) = self.piece.take() {
             over.add(&(piece.done, &piece.act.setting, &piece.act.doing));
         }
-        for act in &mut self.acts {
+        self.acts.find(|act| {
             over.add(&(&act.setting, &act.doing));
-        }
+            is_end(act)
+        })
     }
 
     /// Passes over what is before the next tool change, and over that; the tool, and where it comes. `None` when no tool comes
@@ -176,13 +177,7 @@ impl<I: Iterator<Item = Act>> Cursor<I> {
             (self.at, self.started) = (Position::UNKNOWN, false);
             return Some(passed);
         }
-        if let Some(piece) = self.piece.take() {
-            over.add(&(piece.done, &piece.act.setting, &piece.act.doing));
-        }
-        let change = self.acts.find(|act| {
-            over.add(&(&act.setting, &act.doing));
-            matches!(act.doing, Doing::Stand(Stand::ToolChange(_)))
-        })?;
+        let change = self.pass_over(over, Act::changes_tool)?;
         (self.at, self.started, self.is_afresh) = (Position::UNKNOWN, false, true);
         let Doing::Stand(Stand::ToolChange(tool)) = change.doing else { return None };
         Some((tool?, change.place()))
@@ -201,8 +196,7 @@ impl<I: Iterator<Item = Act>> Cursor<I> {
 
 /// Acts up to the first change of the tool.
 fn before_change(stands: &[Act]) -> &[Act] {
-    let is_change = |act: &Act| matches!(act.doing, Doing::Stand(Stand::ToolChange(_)));
-    stands.split(is_change).next().unwrap_or_default()
+    stands.split(Act::changes_tool).next().unwrap_or_default()
 }
 
 /// The move, from wherever the run comes: where the paths had parted, both may come from different places.
@@ -213,6 +207,10 @@ fn from_anywhere(made: &Move) -> Curve {
 impl Act {
     fn place(&self) -> Place {
         Place { file: Shared::clone(&self.file), line: self.line }
+    }
+
+    fn changes_tool(&self) -> bool {
+        matches!(self.doing, Doing::Stand(Stand::ToolChange(_)))
     }
 }
 
@@ -257,7 +255,7 @@ impl<A: Iterator<Item = Act>, B: Iterator<Item = Act>> Comparison<A, B> {
                 (None, None) => return,
                 (Some(_), Some(_)) => {
                     if let Some(parting) = self.pieces() {
-                        let mut over = Digest::default();
+                        let mut over = self.found.another_digest();
                         let again = self.go_on(&mut over);
                         let is_over = again.is_none();
                         if let Some(before) = before.filter(|_| !is_over) {

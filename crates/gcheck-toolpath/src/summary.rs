@@ -883,3 +883,20 @@ mod json {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use gcheck_geometry::Seconds;
+
+    use super::{clock, counts_in_hours};
+
+    #[test]
+    fn times_read_as_on_a_clock() {
+        for (seconds, expected) in
+            [(0.0, "0:00.0"), (31.26, "0:31.3"), (59.96, "1:00.0"), (125.0, "2:05.0"), (8_399.0, "2:19:59")]
+        {
+            let time = Seconds(seconds);
+            assert_eq!(clock(time, counts_in_hours(time)), expected);
+        }
+    }
+}

@@ -59,7 +59,7 @@ pub(crate) fn find(given: &[PathBuf], configs: &mut Configs) -> Found {
 /// # Errors
 /// The list cannot be read.
 pub(crate) fn listed(list: &Path) -> Result<Vec<PathBuf>, Problem> {
-    let source = if list.as_os_str() == "-" {
+    let source = if paths::is_standard_input(list) {
         reading::standard_input(Path::new("stdin"))?
     } else {
         reading::file(list)?
@@ -78,8 +78,13 @@ pub(crate) fn is_pattern(path: &Path) -> bool {
     path.to_string_lossy().contains(['*', '?', '[', '{'])
 }
 
-fn unwalkable(error: &ignore::Error) -> Problem {
-    Problem::new(format!("cannot look into a folder: {error}"))
+/// What is in a folder and below it, but for what ignore files name.
+fn entries(folder: &Path) -> impl Iterator<Item = Result<ignore::DirEntry, Problem>> {
+    let mut builder = WalkBuilder::new(folder);
+    // Links are not followed, so a loop of them is never entered.
+    builder.follow_links(false).require_git(false).add_custom_ignore_filename(".gcheckignore");
+    let unwalkable = |error| Problem::new(format!("cannot look into a folder: {error}"));
+    builder.build().map(move |entry| entry.map_err(unwalkable))
 }
 
 /// Takes the files that fit a pattern, whatever their names, as a shell would.
@@ -98,14 +103,12 @@ fn fit(pattern: &Path, found: &mut Found, seen: &mut BTreeSet<PathBuf>) {
             return;
         }
     };
-    let mut builder = WalkBuilder::new(folder);
-    builder.follow_links(false).require_git(false).add_custom_ignore_filename(".gcheckignore");
     let mut fitting = Vec::new();
-    for entry in builder.build() {
+    for entry in entries(folder) {
         match entry.map(ignore::DirEntry::into_path) {
             Ok(path) if path.is_file() && matcher.fits(&paths::absolute(&path)) => fitting.push(path),
             Ok(_) => {}
-            Err(error) => found.problems.push(unwalkable(&error)),
+            Err(problem) => found.problems.push(problem),
         }
     }
     if fitting.is_empty() {
@@ -143,11 +146,8 @@ fn add(path: PathBuf, found: &mut Found, seen: &mut BTreeSet<PathBuf>) {
 }
 
 fn walk(folder: &Path, configs: &mut Configs, found: &mut Found, seen: &mut BTreeSet<PathBuf>) {
-    let mut builder = WalkBuilder::new(folder);
-    // Links are not followed, so a loop of them is never entered.
-    builder.follow_links(false).require_git(false).add_custom_ignore_filename(".gcheckignore");
     let mut programs = Vec::new();
-    for entry in builder.build() {
+    for entry in entries(folder) {
         match entry {
             Ok(entry)
                 if entry
@@ -163,7 +163,7 @@ fn walk(folder: &Path, configs: &mut Configs, found: &mut Found, seen: &mut BTre
                 }
             }
             Ok(_) => {}
-            Err(error) => found.problems.push(unwalkable(&error)),
+            Err(problem) => found.problems.push(problem),
         }
     }
     // Without programs nobody else would read it, and its author would think it right.

@@ -4,6 +4,11 @@
 
 use std::path::{Component, Path, PathBuf};
 
+/// Does the path of a command line mean standard input?
+pub(crate) fn is_standard_input(path: &Path) -> bool {
+    path.as_os_str() == "-"
+}
+
 /// The path from the root, without `.` and `..`; links are not followed.
 pub(crate) fn absolute(path: &Path) -> PathBuf {
     // The parent of `part.nc` is the empty path, which stands for the current folder.

@@ -113,8 +113,6 @@ pub(crate) struct BlockContract {
     m_codes: usize,
     /// Axes that only a machine's configuration gives.
     absent_axes: LetterSet,
-    /// The setting that says how many spindles the machine has.
-    spindles: Option<String>,
     block_delete_first: bool,
     block_delete_plain: bool,
 }
@@ -265,7 +263,6 @@ impl BlockContract {
             trouble,
             m_codes: control.limits().m_codes_per_block.map_or(usize::MAX, usize::from),
             absent_axes,
-            spindles: rules.spindles.clone().filter(|_| strict),
             block_delete_first: sure_of_delete && !syntax.block_delete_inside,
             block_delete_plain: sure_of_delete && !syntax.block_delete_levels,
         }
@@ -493,17 +490,15 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     /// A spindle that the machine has, where the word that chooses one is read; -1 means all of them.
     pub(super) fn check_spindle(&self) -> Step {
-        let Some(setting) = &self.model.contract.spindles else { return Ok(()) };
-        let told = self.machine.setting(self.model.control(), setting);
-        let Some(spindles) = told.and_then(|told| told.parse::<f64>().ok()) else { return Ok(()) };
-        match self.words.number(Letter::DOLLAR) {
-            Some(number)
-                if !self.leaves_to_rules()
-                    && self.machine.fresh
-                    && (number <= -2.0 || number >= spindles) =>
-            {
-                Err(Fault::WordRange(Letter::DOLLAR))
-            }
+        let Some(number) = self.words.number(Letter::DOLLAR) else { return Ok(()) };
+        if !self.refuses_incomplete() || self.leaves_to_rules() || !self.machine.fresh {
+            return Ok(());
+        }
+        let setting = self.model.semantics().refusals.spindles.as_ref();
+        let told = setting.and_then(|setting| self.machine.setting(self.model.control(), setting));
+        let is_had = |spindles: f64| number > -2.0 && number < spindles;
+        match told.and_then(|told| told.parse().ok()) {
+            Some(spindles) if !is_had(spindles) => Err(Fault::WordRange(Letter::DOLLAR)),
             _ => Ok(()),
         }
     }

@@ -56,8 +56,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if self.is_paired_by_value(at, label, &links) {
             self.pair_by_value(at, place, label, &arguments, &mut links, state)?;
         }
-        // The first expression of a computed label is the label's.
-        let first = StatementKind::arguments(&arguments).nth(usize::from(*label == OLabel::Computed));
+        let first = StatementKind::arguments(&arguments).nth(label.expressions());
         let word = OWordBlock { place, table, at, links, first };
         let is_called = state.calls.last().is_some_and(|f| f.entry == at && f.kind == FrameKind::OWord);
         self.define_label(label, &word, is_called)?;
@@ -501,7 +500,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     }
 }
 
-/// Computed labels that are looked at for the partner of an O-word: each is computed anew, every time.
+/// Computed labels that are looked at for the partner of an O-word: each is computed every time.
 const MOST_LABELS: usize = 256;
 
 /// The labels of the O-words of a file that open, go on with or close a structure.

@@ -83,15 +83,20 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// The words' values by axis, lengths in millimetres; NaN on axes that the block does not name.
     fn named_axes(&self, state: &State<D>) -> Position {
         let mut values = Position::UNKNOWN;
-        let diameter = state.is_diameter(self.model) == Some(true);
-        let unit = self.unit(state);
         for axis in &self.model.axes {
-            if let Some(value) = self.words.number(axis.letter()) {
-                let value = if axis.is_rotary() || value == 0.0 { value } else { value * unit };
-                values.set(*axis, if *axis == Axis::X && diameter { value / 2.0 } else { value });
+            if let Some(value) = self.measured(*axis, axis.letter(), state) {
+                values.set(*axis, value);
             }
         }
         values
+    }
+
+    /// What a word says of an axis, lengths in millimetres.
+    fn measured(&self, axis: Axis, letter: Letter, state: &State<D>) -> Option<f64> {
+        let value = self.words.number(letter)?;
+        let value = if axis.is_rotary() || value == 0.0 { value } else { value * self.unit(state) };
+        let is_diameter = axis == Axis::X && state.is_diameter(self.model) == Some(true);
+        Some(if is_diameter { value / 2.0 } else { value })
     }
 
     /// Axes that the block names, with their values.
@@ -103,14 +108,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     /// Axes that the block changes by an address of increments, with their steps in millimetres.
     fn increments(&self, state: &State<D>) -> Vec<(Axis, f64)> {
-        let is_radius = state.is_diameter(self.model) != Some(true);
-        let unit = self.unit(state);
         let present = self.words.present().and(self.model.axis_letters);
         let steps = present.iter().filter_map(|letter| {
             let (axis, _) = self.model.axis_of(letter).filter(|(_, is_increment)| *is_increment)?;
-            let step = self.words.number(letter)?;
-            let step = if axis.is_rotary() || step == 0.0 { step } else { step * unit };
-            Some((axis, if axis != Axis::X || is_radius { step } else { step / 2.0 }))
+            Some((axis, self.measured(axis, letter, state)?))
         });
         steps.collect()
     }

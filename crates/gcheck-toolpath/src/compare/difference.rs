@@ -232,7 +232,18 @@ impl Differences {
         self.left_alone.is_some()
     }
 
-    /// A name for these very differences, all of them: it stays as long as they do, whatever else changes in the texts.
+    /// Nothing yet; with a digest to ask for.
+    pub(super) fn with_digest() -> Self {
+        Self { digest: Digest::begun(), ..Self::default() }
+    }
+
+    /// A digest for what is passed over.
+    pub(super) fn another_digest(&self) -> Digest {
+        self.digest.another()
+    }
+
+    /// A name for these very differences, all of them: it stays as long as they do, whatever else changes in the texts. Zero where
+    /// the runs are not [read](super::Rest::Read) to their ends.
     pub fn digest(&self) -> u64 {
         let mut digest = self.digest.clone();
         if let Some(Corner { a: _, at, off, count }) = &self.corner {

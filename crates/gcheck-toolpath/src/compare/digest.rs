@@ -10,23 +10,39 @@ use std::hash::Hasher as _;
 
 use twox_hash::XxHash3_64;
 
-/// The name while it is made.
+/// The name while it is made; one that nobody asks for takes nothing in.
 #[derive(Clone, Default)]
-pub(super) struct Digest(XxHash3_64);
+pub(super) struct Digest(Option<XxHash3_64>);
 
 impl Digest {
-    /// Takes in one thing more; numbers count to the fourth decimal.
-    pub(super) fn add(&mut self, what: &dyn Debug) {
-        // Writing to a digest cannot fail.
-        let _ = writeln!(self, "{what:.4?}");
+    /// One that somebody asks for.
+    pub(super) fn begun() -> Self {
+        Self(Some(XxHash3_64::default()))
     }
 
+    /// An empty one, if this one is asked for.
+    pub(super) fn another(&self) -> Self {
+        if self.0.is_some() { Self::begun() } else { Self::default() }
+    }
+
+    /// Takes in one thing more; numbers count to the fourth decimal.
+    pub(super) fn add(&mut self, what: &dyn Debug) {
+        if let Some(hasher) = &mut self.0 {
+            // Writing to a hasher cannot fail.
+            let _ = writeln!(Text(hasher), "{what:.4?}");
+        }
+    }
+
+    /// Zero, if nobody asks for it.
     pub(super) fn value(&self) -> u64 {
-        self.0.finish()
+        self.0.as_ref().map_or(0, XxHash3_64::finish)
     }
 }
 
-impl Write for Digest {
+/// A hasher that is written to.
+struct Text<'h>(&'h mut XxHash3_64);
+
+impl Write for Text<'_> {
     fn write_str(&mut self, text: &str) -> fmt::Result {
         self.0.write(text.as_bytes());
         Ok(())

@@ -28,9 +28,6 @@ use super::known::KnownFindings;
 use super::next_steps;
 use super::settings_page;
 
-/// Standard input among the paths.
-const STANDARD_INPUT: &str = "-";
-
 /// Files that are checked together; what was found in them is put away before the next ones are read.
 const WAVE: usize = 256;
 /// Findings of a run that are kept; the rest are counted by file and rule. So many take about 100 MB.
@@ -70,7 +67,7 @@ impl<'o> Check<'o> {
                 .enable(selector)
                 .map_err(|unknown| Problem::new(unknown_rule(&unknown)))?;
         }
-        if options.paths.iter().any(|path| path.as_os_str() == STANDARD_INPUT) {
+        if options.paths.iter().any(|path| paths::is_standard_input(path)) {
             if options.fix {
                 return Err(
                     Problem::new("standard input cannot be fixed").help("`--diff` shows what would change")
@@ -153,15 +150,15 @@ struct Harvest {
 
 /// What is to be checked, each file with its configuration.
 fn targets(options: &CheckOptions, configs: &mut Configs) -> (Vec<Target>, Vec<Problem>) {
-    let is_standard_input = |path: &PathBuf| path.as_os_str() == STANDARD_INPUT;
-    let given: Vec<PathBuf> = options.paths.iter().filter(|path| !is_standard_input(path)).cloned().collect();
+    let (standard_input, given): (Vec<PathBuf>, Vec<PathBuf>) =
+        options.paths.iter().cloned().partition(|path| paths::is_standard_input(path));
     let Found { files, mut problems } = discovery::find(&given, configs);
     let mut targets = Vec::with_capacity(files.len() + 1);
     let mut add = |path: PathBuf, is_standard_input| match configs.of_file(&path) {
         Ok(config) => targets.push(Target { shown: paths::shown(&path), path, is_standard_input, config }),
         Err(problem) => problems.push(problem),
     };
-    if options.paths.iter().any(is_standard_input) {
+    if !standard_input.is_empty() {
         add(options.stdin_filename.clone().unwrap_or_else(|| PathBuf::from("stdin")), true);
     }
     for file in files {

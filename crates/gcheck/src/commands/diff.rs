@@ -12,7 +12,6 @@ mod pairs;
 mod runs;
 pub(super) mod words;
 
-use std::path::Path;
 use std::sync::Arc;
 
 use gcheck_toolpath::Rest;
@@ -20,16 +19,14 @@ use gcheck_toolpath::Rest;
 use super::json as to_text;
 use crate::args::{DiffFormat, DiffOptions, Global};
 use crate::console::{FAILED, report, say};
-use crate::{Problem, output};
+use crate::{Problem, output, paths};
 use outcome::DIFFERENT;
 
 /// Runs the command; the exit code is its result.
 pub(crate) fn run(global: &Global, options: &DiffOptions) -> Result<u8, Problem> {
-    let is_standard_input = |path: &Path| path.as_os_str() == "-";
-    if is_standard_input(&options.a) && is_standard_input(&options.b) {
+    if paths::is_standard_input(&options.a) && paths::is_standard_input(&options.b) {
         return Err(Problem::new("both programs cannot come from standard input"));
     }
-    output::refuse_to_replace(options.output_file.as_deref(), [options.a.as_path(), options.b.as_path()])?;
     match [options.a.is_dir(), options.b.is_dir()] {
         [true, true] => folders::run(global, options),
         [false, false] => {
@@ -52,6 +49,7 @@ pub(crate) fn run(global: &Global, options: &DiffOptions) -> Result<u8, Problem>
 
 /// Compares two programs.
 fn one(global: &Global, options: &DiffOptions) -> Result<u8, Problem> {
+    output::refuse_to_replace(options.output_file.as_deref(), [options.a.as_path(), options.b.as_path()])?;
     let compared = runs::both(global, options, [&options.a, &options.b], &Arc::default(), Rest::Leave)?;
     let text = if options.output_format == DiffFormat::Json {
         to_text(&compared.sides().json(&compared.differences))?

@@ -18,7 +18,7 @@ use crate::args::{
 };
 use crate::console::{finish, say};
 use crate::execution::{self, Prepared, Rests, Session, Start};
-use crate::{Problem, output, rewriting};
+use crate::{Problem, output, paths, rewriting};
 
 /// Runs the command; the exit code is its result.
 pub(crate) fn run(global: &Global, command: &EditCommand) -> Result<u8, Problem> {
@@ -40,7 +40,7 @@ pub(crate) fn run(global: &Global, command: &EditCommand) -> Result<u8, Problem>
     let before = prepared.source.to_bytes();
     let after = apply_to_bytes(&before, &planned.edits);
     let is_dry = target.check || target.diff;
-    let is_standard_input = target.file.as_os_str() == "-";
+    let is_standard_input = paths::is_standard_input(&target.file);
     let tolerance = target.tolerance.unwrap_or(change.tolerance());
     let asked = proof::Asked { change: &change, scope: &scope, tolerance, units: planned.units };
     // Also where no word changes: the moves may not be as the change says for that very reason.

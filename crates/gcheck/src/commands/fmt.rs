@@ -22,17 +22,13 @@ use crate::discovery::{self, Found};
 use crate::neighbours::Neighbours;
 use crate::{Problem, output, paths, reading, rewriting, threads};
 
-/// Standard input among the paths.
-const STANDARD_INPUT: &str = "-";
-
 /// Runs the command; the exit code is its result.
 pub(crate) fn run(global: &Global, options: &FmtOptions) -> Result<u8, Problem> {
     if let Some(name) = &global.control {
         validate_control(name).map_err(Problem::new)?;
     }
     let mut configs = Configs::new(&global.config, global.isolated)?;
-    let is_standard_input = |path: &PathBuf| path.as_os_str() == STANDARD_INPUT;
-    if options.paths.iter().any(is_standard_input) {
+    if options.paths.iter().any(|path| paths::is_standard_input(path)) {
         if options.paths.len() > 1 {
             return Err(Problem::new("standard input is formatted alone, without other files"));
         }

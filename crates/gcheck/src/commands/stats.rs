@@ -28,7 +28,6 @@ const VERSION: u32 = 1;
 
 /// Runs the command; the exit code is its result.
 pub(crate) fn run(global: &Global, options: &StatsOptions) -> Result<u8, Problem> {
-    output::refuse_to_replace(options.output_file.as_deref(), options.files.iter().map(|file| &**file))?;
     let is_one = |file: &Path| !file.is_dir() && (file.exists() || !discovery::is_pattern(file));
     match options.files.as_slice() {
         [file] if is_one(file) && options.output_format != StatsFormat::Csv => one(global, options, file),
@@ -40,6 +39,7 @@ pub(crate) fn run(global: &Global, options: &StatsOptions) -> Result<u8, Problem
 
 /// The figures of one program.
 fn one(global: &Global, options: &StatsOptions, file: &Path) -> Result<u8, Problem> {
+    output::refuse_to_replace(options.output_file.as_deref(), [file])?;
     let prepared = execution::prepare(global, &options.conditions.of(file), execution::Start::Fresh)?;
     prepared.session(|session| {
         if !global.quiet && options.output_format == StatsFormat::Text {

@@ -46,11 +46,12 @@ pub(super) struct Facts {
 impl Layer {
     pub(super) fn new(path: Option<PathBuf>, file: ConfigFile, text: Text<'_>) -> Result<Self, Problem> {
         let facts = validate::Checked::new(text, file.control.as_ref())?;
+        let others = file.overrides.iter().filter_map(|table| Some(table.control.as_ref()?.value.as_str()));
+        let others: Vec<&str> = others.collect();
         let base = Facts {
             control: file.control.as_ref().map(|c| c.value.clone()),
             machine: facts.machine(&file.machine)?,
-            settings: facts
-                .settings(&file.settings, file.overrides.iter().filter_map(|table| table.control.as_ref()))?,
+            settings: facts.settings(&file.settings, &others)?,
             codes: facts.codes(&file.codes)?,
             execution: facts.execution(&file.machine, &file.variables, &file.offsets, &file.tools)?,
             search: text.search(&file.search)?,
@@ -118,7 +119,7 @@ fn overriding(
     let own = Facts {
         control: table.control.as_ref().map(|c| c.value.clone()),
         machine: facts.machine(&table.machine)?,
-        settings: facts.settings(&table.settings, None)?,
+        settings: facts.settings(&table.settings, &[])?,
         codes: facts.codes(&table.codes)?,
         execution,
         search: text.search(&table.search)?,

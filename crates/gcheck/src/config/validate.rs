@@ -241,16 +241,14 @@ impl<'t> Checked<'t> {
 
     /// Settings in the words of the control. One that the control does not list must be of a control of `others`: what holds
     /// for all programs of a folder may be meant for some of them.
-    pub(super) fn settings<'c>(
+    pub(super) fn settings(
         &self,
         settings: &BTreeMap<Placed<String>, Placed<Scalar>>,
-        others: impl IntoIterator<Item = &'c Placed<String>>,
+        others: &[&str],
     ) -> Result<Vec<(String, String)>, Problem> {
-        let others: Vec<Arc<Control>> =
-            others.into_iter().filter_map(|name| gcheck_controls::load(&name.value).ok()).collect();
         for (number, value) in settings {
             let Some(entry) = self.control.as_ref().and_then(|control| control.setting(&number.value)) else {
-                self.is_of_another(number, &others)?;
+                self.is_of_another(number, others)?;
                 continue;
             };
             let listed: Vec<&str> = entry.values.iter().map(String::as_str).collect();
@@ -268,16 +266,13 @@ impl<'t> Checked<'t> {
     }
 
     /// Whether a setting that the control does not list is of one of these; of any control, where none is named.
-    fn is_of_another(&self, number: &Placed<String>, others: &[Arc<Control>]) -> Result<(), Problem> {
-        let lists = |control: &Arc<Control>| control.setting(&number.value).is_some();
-        let (is_known, of) = match &self.control {
-            Some(control) => (others.iter().any(lists), control.name()),
-            None => {
-                let mut all =
-                    gcheck_controls::names().iter().filter_map(|name| gcheck_controls::load(name).ok());
-                (all.any(|control| lists(&control)), "any control")
-            }
+    fn is_of_another(&self, number: &Placed<String>, others: &[&str]) -> Result<(), Problem> {
+        let (controls, of) = match &self.control {
+            Some(control) => (others, control.name()),
+            None => (gcheck_controls::names(), "any control"),
         };
+        let lists = |control: Arc<Control>| control.setting(&number.value).is_some();
+        let is_known = controls.iter().any(|name| gcheck_controls::load(name).is_ok_and(lists));
         if is_known {
             return Ok(());
         }

@@ -18,9 +18,6 @@ use crate::neighbours::Neighbours;
 use crate::programs::{ProgramFolders, Reachable};
 use crate::{Problem, paths, reading};
 
-/// Standard input as a file name.
-const STANDARD_INPUT: &str = "-";
-
 /// Everything that a run needs, read and checked.
 pub(crate) struct Prepared {
     pub(crate) source: SourceText,
@@ -47,7 +44,7 @@ pub(crate) fn prepare(
         validate_control(name).map_err(Problem::new)?;
     }
     let conditions = &options.conditions;
-    let is_standard_input = options.file.as_os_str() == STANDARD_INPUT;
+    let is_standard_input = paths::is_standard_input(&options.file);
     let path = if is_standard_input {
         conditions.stdin_filename.clone().unwrap_or_else(|| PathBuf::from("stdin"))
     } else {

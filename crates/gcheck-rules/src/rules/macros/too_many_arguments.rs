@@ -1,6 +1,6 @@
 //! A call with more arguments than the control passes on.
 
-use gcheck_program::{BlockFlags, OKeyword, OLabel, StatementKind};
+use gcheck_program::{BlockFlags, OKeyword, StatementKind};
 
 use crate::declare::declare_rule;
 use crate::{BlockCx, Finding, Report, Run};
@@ -43,8 +43,7 @@ fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
         let StatementKind::OWord { label, keyword: OKeyword::Call, arguments } = &statement.kind else {
             continue;
         };
-        // The first expression of `O[#1] CALL` is the label's.
-        let skipped = usize::from(*label == OLabel::Computed);
+        let skipped = label.expressions();
         let mut given = StatementKind::arguments(arguments).skip(skipped);
         let count = arguments.len() - skipped.min(arguments.len());
         let Some(over) = given.nth(most) else { continue };

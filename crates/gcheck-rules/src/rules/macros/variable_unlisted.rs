@@ -38,8 +38,8 @@ declare_rule! {
 }
 
 fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
-    // Which variables a control has that is not known, nobody can say.
-    if cx.environment.control_is_guessed && cx.control().name() == gcheck_controls::fallback() {
+    // An unknown control may have any variable.
+    if cx.environment.control_is_unknown() {
         return;
     }
     for statement in cx.statements() {

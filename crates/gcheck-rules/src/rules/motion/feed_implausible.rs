@@ -3,6 +3,7 @@
 use gcheck_controls::{Effect, Letter, LetterSet};
 use gcheck_engine::{Abstract, At, Axis, Domain, Event, Fact, FeedMode, Position, Role, Spindle, TravelKind};
 use gcheck_geometry::Mm;
+use gcheck_program::Word;
 
 use crate::declare::declare_rule;
 use crate::facts::cycles::drills_by_cycle;
@@ -143,8 +144,7 @@ impl FeedImplausible {
         };
         // A mode that the program does not set may differ on the machine; lathes usually start in feed per turn.
         let is_stated = cx.definitions().set_by(Fact::Mode(Role::FeedMode)).is_some();
-        let may_be_lathe =
-            cx.environment.control_is_guessed && cx.control().name() == gcheck_controls::fallback();
+        let may_be_lathe = cx.environment.control_is_unknown();
         if !is_stated && (cx.is_mill() == is_fast || cx.is_mill() && may_be_lathe)
             || taps(cx)
             || is_fast && is_fed_fast(cx, least)
@@ -154,8 +154,7 @@ impl FeedImplausible {
         let Some(given) = cx.definitions().set_by(Fact::Feed) else { return };
         // Other rules report a feed that was given under the other mode, and a missing decimal point.
         let (now, then) = (state.mode(Role::FeedMode).only(), state.feed_given_under().only());
-        let word = |word: &gcheck_program::Word| word.letter == Letter::of('F');
-        let lost = |w: &gcheck_program::Word| word(w) && !w.shape.point && w.number().is_some();
+        let lost = |word: &Word| is_feed(word) && !word.shape.point && word.number().is_some();
         let counts_steps = !is_stated || feed < LEAST_A_MINUTE;
         if now != then || !goes_by_feed(event) || counts_steps && cx.find_word(given, lost).is_some() {
             return;
@@ -163,7 +162,7 @@ impl FeedImplausible {
         if self.told.replace(given) == Some(given) {
             return;
         }
-        let range = cx.find_word(given, word).unwrap_or_else(|| cx.range());
+        let range = cx.find_word(given, is_feed).unwrap_or_else(|| cx.range());
         let (label, help) = if is_fast && least <= OTHER_MODE {
             (
                 "more than a turning tool takes".to_owned(),
@@ -221,8 +220,7 @@ impl FeedImplausible {
             return;
         }
         self.told_at_speed = changed;
-        let word = |word: &gcheck_program::Word| word.letter == Letter::of('F');
-        let range = cx.find_word(given, word).unwrap_or_else(|| cx.range());
+        let range = cx.find_word(given, is_feed).unwrap_or_else(|| cx.range());
         let finding = cx
             .finding(
                 &META,
@@ -233,6 +231,10 @@ impl FeedImplausible {
             .help("check the feed and the speed: a zero or a decimal point is wrong in one of them");
         report.add(cx.resting_on(finding, Fact::Speed, &format!("`S{speed:.0}`")));
     }
+}
+
+fn is_feed(word: &Word) -> bool {
+    word.letter == Letter::of('F')
 }
 
 /// Does the move cut below the zero of the part: across, or in a cycle that drills? A tool goes down into a hole as fast as it likes.

@@ -3,7 +3,7 @@
 //! Knows: the outcomes of pairs, exit codes, which format is written by whom. Must not know: how programs are paired or run.
 
 use std::fmt::Write as _;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::thread;
 
@@ -39,8 +39,7 @@ const POINTS: usize = 20_000;
 
 /// Compares the programs of two folders, or two programs as if each were the only one of its folder.
 pub(super) fn run(global: &Global, options: &DiffOptions) -> Result<u8, Problem> {
-    let is_standard_input = |path: &Path| path.as_os_str() == "-";
-    let reads_it = is_standard_input(&options.a) || is_standard_input(&options.b);
+    let reads_it = [&options.a, &options.b].into_iter().any(|path| paths::is_standard_input(path));
     if options.output_format == DiffFormat::Html && reads_it {
         return Err(Problem::new("a page draws both programs, and standard input can be read once")
             .help("write the program into a file first"));

@@ -41,7 +41,7 @@ pub(super) fn run(
 ) -> Result<u8, Problem> {
     let mut configs = Configs::new(&global.config, global.isolated)?;
     let (standard_input, named): (Vec<PathBuf>, Vec<PathBuf>) =
-        options.files.iter().cloned().partition(|file| file.as_os_str() == "-");
+        options.files.iter().cloned().partition(|file| paths::is_standard_input(file));
     let mut found = discovery::find(&named, &mut configs);
     // It can be read once.
     found.files.extend(standard_input.into_iter().take(1));
