@@ -273,6 +273,8 @@ pub enum Effect {
     DynamicOffsetOff,
     TiltedPlaneOn,
     TiltedPlaneOff,
+    /// The rotary axes turn the tool square to the plane in effect.
+    SquareToPlane,
 
     // Programs.
     MacroCall,
@@ -495,9 +497,15 @@ pub struct Semantics {
     pub increments: BTreeMap<String, String>,
     /// X counts diameters at power-on.
     pub diameter: bool,
-    /// X counts radii while moves of X and Y are those of X and a rotary axis.
+    /// How polar interpolation reads words, where it is known.
     #[serde(default)]
-    pub polar_interpolation_by_radius: bool,
+    pub polar_interpolation: Option<PolarInterpolationRules>,
+    /// The code of a tilted plane gives its origin and three Euler angles.
+    #[serde(default)]
+    pub tilted_plane_by_euler_angles: bool,
+    /// The settings that hold where the axes of a table meet: machine coordinates X, Y and Z.
+    #[serde(default)]
+    pub rotary_centre_settings: Option<[String; 3]>,
     /// What `G52` and `G92` are to each other.
     pub local_shift: LocalShift,
     /// The setting that decides whether the end of a program clears the shift of `G52`, with the values that do.
@@ -860,6 +868,25 @@ pub struct CylinderRules {
     pub settings: Vec<String>,
     /// The end of the program ends mapping when this setting is on.
     pub ended_by_setting: Option<String>,
+}
+
+/// How the mode reads words in which X and a rotary axis make the moves of a flat plane.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct PolarInterpolationRules {
+    /// The rotary axis.
+    pub rotary: char,
+    /// The address of the plane's second coordinate: that of the rotary axis, a length then, or `Y`.
+    pub second: char,
+    /// Words of X count radii, whatever they count outside.
+    #[serde(default)]
+    pub by_radius: bool,
+    /// The rotary axis counts from where it is when the mode begins; else from its own zero.
+    #[serde(default)]
+    pub starts_at_zero: bool,
+    /// Arcs and compensation lie in the plane of the mode, whatever plane was selected.
+    #[serde(default)]
+    pub own_plane: bool,
 }
 
 /// Shapes of compensated paths.

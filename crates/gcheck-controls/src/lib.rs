@@ -33,8 +33,9 @@ pub use detect::{Evidence, Foreign, Guess, Score, foreign, guess, may_be_for, sc
 pub use execution::{
     AlongTool, ArcRules, CompensationRefusals, CompensationRules, CompensationStyle, CycleRules,
     CylinderRules, DwellWord, Effect, Fix, HelixFeed, HelixRules, LastingEnd, LastingFrom, LastingWords,
-    LengthAgreement, LocalShift, MessageComment, MirroredVariables, OffsetValue, ProbeFeed, Refusals,
-    ReturnTo, Semantics, SystemValue, SystemVariable, ToolRules, TransformSettings, Unset,
+    LengthAgreement, LocalShift, MessageComment, MirroredVariables, OffsetValue, PolarInterpolationRules,
+    ProbeFeed, Refusals, ReturnTo, Semantics, SystemValue, SystemVariable, ToolRules, TransformSettings,
+    Unset,
 };
 pub use letter_set::{Letter, LetterSet};
 pub use loader::{LoadError, fallback, load, names};

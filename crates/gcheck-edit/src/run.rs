@@ -167,7 +167,7 @@ impl<V: Visitor> Observer<Concrete> for Watcher<'_, '_, V> {
             self.visitor.unfollowed(origin.start, origin.end, Some(&*file).filter(|name| !name.is_empty()));
         }
         let spot = Spot { file: &file, line, n: origin.n };
-        let seen = Step::seen(event, state, self.model, spot, self.units);
+        let seen = Step::seen(event, state, self.model, self.machine, spot, self.units);
         let step = Step { beside: Beside::of(state, self.machine, event), ..seen };
         let waiting = &mut self.waiting;
         self.trail.add(&step, |act| waiting.push((origin.at, is_expanded(event), act)));

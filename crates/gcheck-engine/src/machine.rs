@@ -10,6 +10,7 @@ use gcheck_geometry::{Kinematics, Mm, MmPerMin, Rpm, Seconds};
 
 use crate::event::Units;
 use crate::lattice::lattice;
+use crate::model::Model;
 use crate::position::{Axis, Position};
 
 /// What is known of the machine.
@@ -47,6 +48,10 @@ pub struct Machine {
     pub table_units: Option<Units>,
     /// The rotary axes that tilt the tool or the part.
     pub kinematics: Option<Kinematics>,
+    /// Machine coordinates of the point in which the rotary axes of the table meet.
+    pub rotary_centre: Option<[Mm; 3]>,
+    /// Rotary axes whose positions are reached the shorter way, as angles within a turn.
+    pub shorter_way: Vec<Axis>,
     /// By number of the tool: the length that programs were posted for.
     pub posted_lengths: BTreeMap<u32, Mm>,
     /// Numbered variables that nobody set hold zero (the state after a fresh start).
@@ -182,6 +187,20 @@ impl Tool {
 }
 
 impl Machine {
+    /// The point in which the rotary axes of the table meet: configured, or from the control's settings.
+    pub fn rotary_centre(&self, model: &Model<'_>) -> Option<[Mm; 3]> {
+        if self.rotary_centre.is_some() {
+            return self.rotary_centre;
+        }
+        let numbers = model.semantics().rotary_centre_settings.as_ref()?;
+        let unit = self.units.unwrap_or(Units::Mm).in_mm();
+        let mut centre = [Mm::ZERO; 3];
+        for (slot, number) in centre.iter_mut().zip(numbers) {
+            *slot = Mm(self.settings.get(number)?.parse::<f64>().ok()? * unit);
+        }
+        Some(centre)
+    }
+
     /// The setting that gives cylinders on a rotary axis their diameter: the first is that of the machine's first rotary axis.
     pub fn cylinder_setting<'r>(&self, rotary: Axis, rules: &'r CylinderRules) -> Option<&'r str> {
         let rotary_axes: Vec<Axis> = match &self.axes {

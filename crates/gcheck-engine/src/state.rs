@@ -9,6 +9,7 @@
 mod bar;
 mod calls;
 mod compensation;
+mod coordinates;
 mod curve;
 mod cycle;
 mod feed;
@@ -45,8 +46,8 @@ pub use cycle::CycleWords;
 pub(crate) use feed::Feed;
 #[cfg(feature = "forgetful")]
 pub use fields::state_fields;
-pub(crate) use mapping::Mapping;
-pub use mapping::{Diameters, Wrapped};
+pub use mapping::{Diameters, Face, Wrapped};
+pub(crate) use mapping::{Mapping, TiltedPlane};
 pub use mode_set::ModeSet;
 pub(crate) use modes::Modes;
 pub(crate) use offsets::Offsets;
@@ -68,7 +69,7 @@ use crate::event::{FeedMode, PathMode, Spindle, Units};
 use crate::lattice::{Lattice, Perhaps, lattice};
 use crate::machine::WorkOffset;
 use crate::model::{Model, Role};
-use crate::position::{Axis, Position};
+use crate::position::Position;
 use crate::value::{Abstract, AbstractValue, Concrete, ConcreteValue, Domain, Truth};
 
 lattice! {
@@ -206,11 +207,6 @@ impl<D: Domain> State<D> {
         &self.points.actual
     }
 
-    /// Where the axes stand in machine coordinates.
-    pub fn machine(&self, model: &Model<'_>) -> Position {
-        self.to_machine(&self.points.actual, model)
-    }
-
     /// The feed as it was given: 0 for none.
     pub fn feed(&self) -> &D::Value {
         &self.feed.rate
@@ -302,6 +298,21 @@ impl<D: Domain> State<D> {
         &self.transform
     }
 
+    /// Level and tolerance (millimetres) of smoothing, as a program gave them; NaN unknown.
+    pub const fn smoothing(&self) -> (Option<f64>, Option<f64>) {
+        (self.blending.smoothing_level, self.blending.smoothing_tolerance)
+    }
+
+    /// The level of contour control, 0 for one without a number, while it is on; NaN unknown.
+    pub const fn contour_control(&self) -> Option<f64> {
+        self.blending.contour
+    }
+
+    /// Whether X and a rotary axis make the moves of a flat plane.
+    pub fn face(&self) -> &Face {
+        &self.mapping.face
+    }
+
     /// Whether a linear axis is wrapped around a cylinder.
     pub fn wrapped(&self) -> &Wrapped {
         &self.mapping.wrapped
@@ -381,6 +392,13 @@ impl<D: Domain> State<D> {
 
     /// The active plane.
     pub fn plane(&self, model: &Model<'_>) -> Option<Plane> {
+        if model.semantics().polar_interpolation.is_some_and(|rules| rules.own_plane) {
+            match self.face() {
+                Face::Off => {}
+                Face::On(_) => return Some(Plane::Xy),
+                Face::Unknown => return None,
+            }
+        }
         match self.effect(Role::Plane, model)? {
             Effect::PlaneXy => Some(Plane::Xy),
             Effect::PlaneZx => Some(Plane::Zx),
@@ -420,7 +438,7 @@ impl<D: Domain> State<D> {
 
     /// Blending in effect.
     pub(crate) fn blending_mode(&self) -> PathMode {
-        let Blending { tolerance, naive, unit } = self.blending;
+        let Blending { tolerance, naive, unit, .. } = self.blending;
         let length = |number: f64| Mm(if number == 0.0 { 0.0 } else { number * unit });
         PathMode::Blending { tolerance: length(tolerance), naive: naive.map(length) }
     }
@@ -452,7 +470,7 @@ impl<D: Domain> State<D> {
 
     /// Do words of X count diameters? On some controls they count radii while X and a rotary axis share the moves of X and Y.
     pub fn words_are_diameters(&self, model: &Model<'_>) -> Option<bool> {
-        if model.semantics().polar_interpolation_by_radius {
+        if model.semantics().polar_interpolation.is_some_and(|rules| rules.by_radius) {
             match self.effect(Role::PolarInterpolation, model)? {
                 Effect::PolarInterpolationOn => return Some(false),
                 _ => return self.is_diameter(model),
@@ -465,54 +483,6 @@ impl<D: Domain> State<D> {
     pub fn active_cycle(&self, model: &Model<'_>) -> Option<CodeIx> {
         let code = self.mode(Role::Cycle).only()?;
         Some(if model.effect(code) == Effect::CycleCancel { CodeIx::NONE } else { code })
-    }
-
-    // ---- work and machine coordinates ----
-
-    /// From work coordinates to machine coordinates; an axis that is wrapped around a cylinder stands still. What a mode
-    /// turns or maps by the machine's own geometry is unknown.
-    pub fn to_machine(&self, work: &Position, model: &Model<'_>) -> Position {
-        let WorkOffset { origin, rotation } = self.work_offset();
-        let work = self.wrapped().standing(*work);
-        let machine = (work + self.shift()).turned(rotation) + origin + *self.length();
-        self.without_mapped(machine, &machine, model)
-    }
-
-    /// From machine coordinates to work coordinates, as [`Self::to_machine`].
-    pub fn from_machine(&self, machine: &Position, model: &Model<'_>) -> Position {
-        let WorkOffset { origin, rotation } = self.work_offset();
-        let work = (*machine - *self.length() - origin).turned(-rotation) - self.shift();
-        self.without_mapped(work, machine, model)
-    }
-
-    /// Does the tool's length lie along Z? Under tool centre point control it does so only while no axis is turned; `machine`
-    /// tells where the rotary axes stand.
-    pub(crate) fn tool_is_upright(&self, machine: &Position, model: &Model<'_>) -> bool {
-        !self.may_be(Role::Length, Effect::ToolCentrePoint, model)
-            || model.axes.iter().all(|axis| !axis.is_rotary() || machine.raw(*axis) == 0.0)
-    }
-
-    /// May a code with the effect be in force? Of programs that are not here we take it that they leave it off.
-    pub(crate) fn may_be(&self, role: Role, effect: Effect, model: &Model<'_>) -> bool {
-        self.mode(role).may(|code| model.effect(code) == effect)
-    }
-
-    /// A position without the coordinates in which modes part the machine's axes from the work's. `machine` tells where the
-    /// rotary axes stand.
-    fn without_mapped(&self, mut position: Position, machine: &Position, model: &Model<'_>) -> Position {
-        if self.may_be(Role::TiltedPlane, Effect::TiltedPlaneOn, model)
-            || self.may_be(Role::DynamicOffset, Effect::DynamicOffsetOn, model)
-            || !self.tool_is_upright(machine, model)
-        {
-            position = position.with_xyz([Mm::UNKNOWN; 3]);
-        }
-        if self.may_be(Role::PolarInterpolation, Effect::PolarInterpolationOn, model) {
-            // X and a rotary axis make the moves of the plane; Z stays its own.
-            for axis in model.axes.iter().filter(|axis| axis.is_rotary()).chain(&[Axis::X, Axis::Y]) {
-                position.set(*axis, f64::NAN);
-            }
-        }
-        position
     }
 }
 

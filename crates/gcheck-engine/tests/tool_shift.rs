@@ -16,13 +16,14 @@ use proptest::prelude::*;
 /// What moves do: programmed point, axes in work coordinates, axes in machine coordinates.
 struct Moves<'m> {
     model: &'m Model<'m>,
+    machine: &'m Machine,
     made: Vec<[Position; 3]>,
 }
 
 impl Observer<Concrete> for Moves<'_> {
     fn event(&mut self, _: Origin, state: &State<Concrete>, event: &Event) {
         if let Event::Travel(travel) = event {
-            let machine = state.to_machine(&travel.to, self.model);
+            let machine = state.to_machine(&travel.to, self.model, self.machine);
             self.made.push([travel.programmed, travel.to, machine]);
         }
     }
@@ -66,9 +67,9 @@ fn run_on(machine: &Machine, text: &str) -> (Vec<[Position; 3]>, RunResult, Posi
     let loaded = Loaded::new(text, &dialect, |_, _, _| ());
     let program = Program::new(loaded, &dialect, &NoLibrary);
     let model = Model::new(&control);
-    let mut moves = Moves { model: &model, made: Vec::new() };
+    let mut moves = Moves { model: &model, machine, made: Vec::new() };
     let result = run(&program, &model, machine, Options::NONE, 100_000, &mut moves);
-    let stands = result.state.machine(&model);
+    let stands = result.state.machine(&model, machine);
     (moves.made, result, stands)
 }
 

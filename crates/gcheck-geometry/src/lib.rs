@@ -15,6 +15,7 @@ pub mod kinematics;
 pub mod nurbs;
 pub mod plane;
 pub mod segment;
+pub mod tilted_plane;
 pub mod units;
 
 pub use arc::{Arc, ArcDirection, ArcError, ArcTolerance};

@@ -104,7 +104,7 @@ impl Observer<Concrete> for Watcher<'_> {
         }
         let (name, line) = self.lines.of(self.program, origin);
         let spot = Spot { file: &name, line, n: origin.n };
-        let seen = Step::seen(event, state, self.model, spot, self.units);
+        let seen = Step::seen(event, state, self.model, self.machine, spot, self.units);
         let step = Step { beside: Beside::of(state, self.machine, event), ..seen };
         (self.show)(&Shown::Event(&step));
     }

@@ -69,6 +69,7 @@ impl<'a> StateReader<'a> {
             let tolerance = self.tolerance(state).filter(|_| role == Role::PathControl).unwrap_or_default();
             codes.push((role, names.join(" or ") + &tolerance));
         }
+        codes.extend(self.smoothness(state).into_iter().map(|words| (Role::PathControl, words)));
         // A cycle takes the place of the motion where both are one group.
         let has_cycle = codes.iter().any(|(role, _)| *role == Role::Cycle);
         codes.retain(|(role, _)| !(has_cycle && *role == Role::Motion));
@@ -77,10 +78,48 @@ impl<'a> StateReader<'a> {
 
     /// ` within 0.01 mm`: the tolerance that corners are blended with; `None` where there is none, or it is not known.
     fn tolerance(&self, state: &State<Abstract>) -> Option<String> {
-        let Some(PathMode::Blending { tolerance, .. }) = state.path_mode(self.model) else { return None };
+        let Some(PathMode::Blending { tolerance, naive }) = state.path_mode(self.model) else { return None };
+        let within = (tolerance.0 > 0.0).then(|| format!(" within {}", self.distance(tolerance, state)));
+        let joins = naive.filter(|naive| naive.0 > 0.0 && *naive != tolerance);
+        let joins = joins.map(|naive| format!(", joins moves within {}", self.distance(naive, state)));
+        Some(within.unwrap_or_default() + &joins.unwrap_or_default())
+    }
+
+    /// `0.01 mm`, in the program's units.
+    fn distance(&self, distance: Mm, state: &State<Abstract>) -> String {
         let units = self.units(state);
-        let shown = plain(tolerance.0 / units.in_mm(), decimals(units) + 1);
-        (tolerance.0 > 0.0).then(|| format!(" within {shown} {}", unit(units)))
+        format!("{} {}", plain(distance.0 / units.in_mm(), decimals(units) + 1), unit(units))
+    }
+
+    /// `G187 P1 E2`, `G5.1 Q1 R5`: how smooth corners are cut beside the mode of the path, where a program told.
+    fn smoothness(&self, state: &State<Abstract>) -> Vec<String> {
+        let name = |effect: Effect| {
+            self.model
+                .control()
+                .codes()
+                .find(|code| code.effect() == effect)
+                .map(|code| code.entry().code.clone())
+        };
+        let (level, tolerance) = state.smoothing();
+        let mut all = Vec::new();
+        if (level.is_some() || tolerance.is_some())
+            && let Some(name) = name(Effect::Smoothing)
+        {
+            let level = level.map(|level| format!(" level {}", known(level, |level| plain(level, 0))));
+            let within =
+                tolerance.map(|off| format!(" within {}", known(off, |off| self.distance(Mm(off), state))));
+            all.push(name + &level.unwrap_or_default() + &within.unwrap_or_default());
+        }
+        if let Some(level) = state.contour_control()
+            && let Some(name) = name(Effect::ContourControl)
+        {
+            all.push(if level == 0.0 {
+                name
+            } else {
+                format!("{name} level {}", known(level, |level| plain(level, 0)))
+            });
+        }
+        all
     }
 
     /// Does a code only say that nothing of its kind is in effect?
@@ -218,7 +257,7 @@ impl<'a> StateReader<'a> {
         Places {
             programmed: *state.position(),
             work,
-            machine: state.machine(self.model),
+            machine: state.machine(self.model, &self.snapshot.settings().machine.engine),
             tip: self.tip(state, work),
         }
     }
@@ -320,4 +359,9 @@ fn number(word: &AbstractValue) -> Option<String> {
         AbstractValue::Unknown | AbstractValue::Vacant => None,
         other => Some(value(other)),
     }
+}
+
+/// A number, or that it is not known.
+fn known(number: f64, shown: impl FnOnce(f64) -> String) -> String {
+    if number.is_nan() { "not known".to_owned() } else { shown(number) }
 }

@@ -22,8 +22,17 @@ pub(crate) enum Meet<T> {
     Pass(f64),
     /// An arc lies between them.
     Round(Segment<T>),
-    /// The second begins while the first comes to rest, for at most this many seconds.
-    Overlap(f64),
+    /// The second begins while the first comes to rest.
+    Overlap(Overlap),
+}
+
+/// How two moves overlap.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Overlap {
+    /// For how long, seconds.
+    pub(crate) seconds: f64,
+    /// By how much less than that the second one is ahead of where it would be had it begun after the first.
+    pub(crate) lost: f64,
 }
 
 /// The part of the acceleration that each of two overlapping moves has.
@@ -88,8 +97,8 @@ pub(crate) fn meet<T: Copy>(
 
 /// Passing a corner without rounding takes part of the acceleration of both moves.
 fn keep<T: Copy>(first: &mut Segment<T>, second: &mut Segment<T>, kept: f64, speed: f64) -> Meet<T> {
-    first.kept = first.kept.min(kept);
-    second.kept = second.kept.min(kept);
+    first.keep(kept);
+    second.keep(kept);
     Meet::Pass(speed)
 }
 
@@ -156,9 +165,10 @@ fn round<T: Copy>(
         });
     let (sin, cos) = f64::midpoint(turn, sharper).sin_cos();
     let tan = sin / cos;
-    let plane = plane_acceleration(limits, &leaves, &arrives);
+    let plane = in_plane(limits.acceleration(), &leaves, &arrives);
     let across = plane * rounding.across;
-    let asked = first.asked.max(second.asked).min(first.most).min(second.most);
+    let fastest = in_plane(limits.speed(), &leaves, &arrives);
+    let asked = first.asked.max(second.asked).min(first.most).min(second.most).min(fastest);
     // No more of a move than half, so that its other end has as much.
     let reach = first.length.min(first.whole / 2.0).min(second.whole / 2.0).min(second.length);
     let widest = (tolerance * cos / (1.0 - cos)).min(reach / tan);
@@ -296,13 +306,13 @@ fn turn<T: Copy>(first: &Segment<T>, second: &Segment<T>) -> f64 {
     leaves.cross(&arrives).norm().atan2(leaves.dot(&arrives))
 }
 
-/// The acceleration that the axes have in every direction of the plane of two directions.
-fn plane_acceleration(limits: &Limits, one: &Vector3<f64>, other: &Vector3<f64>) -> f64 {
+/// Of bounds of the axes, what holds in every direction of the plane of two directions.
+fn in_plane(bounds: &Point, one: &Vector3<f64>, other: &Vector3<f64>) -> f64 {
     let first = *one;
     let second = (other - first * first.dot(other)).try_normalize(1e-12).unwrap_or_else(Vector3::zeros);
     (0..3).fold(f64::INFINITY, |least, axis| {
         let reach = first.get(axis).zip(second.get(axis)).map_or(0.0, |(a, b)| a.hypot(*b));
-        let bound = limits.acceleration().get(axis).copied().unwrap_or(f64::INFINITY);
+        let bound = bounds.get(axis).copied().unwrap_or(f64::INFINITY);
         if reach > 1e-9 { least.min(bound / reach) } else { least }
     })
 }
@@ -318,11 +328,21 @@ fn beyond<T: Copy>(
     if !rounding.overlaps {
         return Meet::Pass(even_turn(limits, &(second.begin - first.end), first, second));
     }
-    // Both at half the acceleration: while they overlap, the sum is no more than the whole. The path is off by what the
-    // first still has to go when the second begins.
-    let half = first.acceleration * OVERLAPPED;
-    let cos = (turn(first, second) / 2.0).cos().max(1e-3);
-    Meet::Overlap(tolerance.map_or(f64::INFINITY, |off| 2.0 * (off / half / cos).sqrt()))
+    // Both at half the acceleration: while they overlap, the sum is no more than the whole.
+    first.share(OVERLAPPED);
+    second.share(OVERLAPPED);
+    let reached = [&*first, &*second].map(|side| side.cap.min((side.pull() * side.length).sqrt()));
+    let speeding = [reached[0] / first.pull(), reached[1] / second.pull()];
+    let room = (first.length / reached[0]).min(second.length / reached[1]);
+    let together = speeding[0].max(speeding[1]).min(room);
+    // The path is off by what the first still has to go when the second begins.
+    let (leaves, arrives) = (first.pulled(first.leaves()), second.pulled(second.arrives()));
+    let sharp = (leaves.cross(&arrives).norm().atan2(leaves.dot(&arrives)) / 2.0).sin().max(1e-3);
+    let tolerated = tolerance.map_or(f64::INFINITY, |off| 2.0 * (first.pull() * off / sharp).sqrt());
+    let seconds = reached[0].min(together * first.pull()).min(tolerated) / first.pull();
+    // The second one takes all of the time to reach its speed.
+    let lost = (seconds - reached[1].min(tolerated) / second.pull()).max(0.0) / 2.0;
+    Meet::Overlap(Overlap { seconds, lost })
 }
 
 /// The speed at which half of each move is enough to bring the axes from one direction to the other.

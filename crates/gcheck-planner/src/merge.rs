@@ -1,6 +1,8 @@
-//! Straight moves that nearly lie on one straight line, made one.
+//! Moves that nearly lie on one straight line, made one.
 //!
 //! Knows: how near they have to be. Must not know: speeds, corners.
+
+use gcheck_geometry::{Plane, Seconds};
 
 use crate::axes::{beyond_xyz, xyz};
 use crate::item::{Drive, Move};
@@ -32,8 +34,24 @@ impl<T: Copy> Merge<T> {
         item.drive == Drive::Feed && item.arc.is_none() && !beyond_xyz(&(item.to - item.from))
     }
 
-    /// Takes a move; gives the ones before it, as one, when it does not lie on their line.
-    pub(crate) fn add(&mut self, item: &Move<T>, tolerance: f64) -> Option<(Move<T>, u32)> {
+    /// An arc that is as good as straight, as two straight moves by way of its middle.
+    pub(crate) fn halves(item: &Move<T>, tolerance: f64) -> Option<[Move<T>; 2]> {
+        let arc = item.arc.filter(|arc| item.drive == Drive::Feed && arc.plane() == Plane::Xy)?;
+        let bulge = arc.radius().0 * (1.0 - (arc.sweep() / 2.0).cos());
+        if bulge >= tolerance || beyond_xyz(&(item.to - item.from)) {
+            return None;
+        }
+        let mut middle = item.from;
+        for (slot, part) in middle.iter_mut().zip(arc.point_at(0.5)) {
+            *slot = part.0;
+        }
+        let asked = Seconds(item.asked.0 / 2.0);
+        let half = Move { arc: None, asked, ..*item };
+        Some([Move { to: middle, ..half }, Move { from: middle, ..half }])
+    }
+
+    /// Takes a move that is this many blocks; gives the ones before it, as one, when it does not lie on their line.
+    pub(crate) fn add(&mut self, item: &Move<T>, blocks: u32, tolerance: f64) -> Option<(Move<T>, u32)> {
         if let Some(whole) = &mut self.whole {
             let (begin, end) = (xyz(&whole.from), xyz(&item.to));
             let joins = self.between.len() < MOST
@@ -45,13 +63,13 @@ impl<T: Copy> Merge<T> {
                 whole.to = item.to;
                 whole.asked += item.asked;
                 whole.tag = item.tag;
-                self.blocks += 1;
+                self.blocks += blocks;
                 return None;
             }
         }
         let done = self.take();
         self.whole = Some(*item);
-        self.blocks = 1;
+        self.blocks = blocks;
         self.pace = pace(item);
         done
     }

@@ -10,7 +10,7 @@
 use gcheck_geometry::Seconds;
 
 use crate::changer::Magazine;
-use crate::corner::{Meet, OVERLAPPED, is_alone, meet};
+use crate::corner::{Meet, OVERLAPPED, Overlap, is_alone, meet};
 use crate::feeding::Feeding;
 use crate::item::{Drive, Item, Meeting, Move};
 use crate::jerk::Easing;
@@ -70,8 +70,8 @@ struct Load<T> {
     axes: f64,
     why: Cap,
     jerk: f64,
-    /// The next stretch begins this much before the end of this one.
-    overlap: f64,
+    /// The next stretch begins before the end of this one.
+    overlap: Overlap,
     /// It ends in a stop that its neighbours do not make necessary.
     stops: bool,
     /// What the control takes before it goes on.
@@ -80,6 +80,8 @@ struct Load<T> {
     settle: f64,
     /// It takes this long, whatever its profile would be.
     fixed: Option<f64>,
+    /// The spindle drives it: what it takes longer is the spindle's.
+    taps: bool,
 }
 
 /// Plans a run. Takes items in order; [`Planner::finish`] ends it.
@@ -93,8 +95,8 @@ pub struct Planner<T> {
     window: Window<Load<T>>,
     /// Speed at which the last piece was left.
     speed: f64,
-    /// Time that the last piece took to come to rest at its end, which the next one may use.
-    resting: f64,
+    /// What the last piece, which comes to rest at its end, gains for the next one.
+    resting: Overlap,
     /// Time of following that is still to come when the path ends.
     settle: f64,
     /// The last stretch is a thread.
@@ -117,7 +119,7 @@ impl<T: Copy> Planner<T> {
             open: None,
             window: Window::new(machine.control.look_ahead),
             speed: 0.0,
-            resting: 0.0,
+            resting: Overlap::default(),
             settle: 0.0,
             threading: false,
             halting: 0.0,
@@ -196,13 +198,20 @@ impl<T: Copy> Planner<T> {
             Meeting::Rounded { merge, .. } => merge.0,
             Meeting::Stop | Meeting::Exact => 0.0,
         };
-        if merge > 0.0 && Merge::<T>::takes(item) {
-            if let Some((done, blocks)) = self.merge.add(item, merge) {
-                self.segment(&done, blocks, each);
-            }
+        if merge > 0.0 && Merge::takes(item) {
+            self.merge_on(item, 1, merge, each);
+        } else if let Some([first, second]) = Merge::halves(item, merge) {
+            self.merge_on(&first, 1, merge, each);
+            self.merge_on(&second, 0, merge, each);
         } else {
             self.unmerge(each);
             self.segment(item, 1, each);
+        }
+    }
+
+    fn merge_on(&mut self, item: &Move<T>, blocks: u32, tolerance: f64, each: &mut impl FnMut(&Span<T>)) {
+        if let Some((done, blocks)) = self.merge.add(item, blocks, tolerance) {
+            self.segment(&done, blocks, each);
         }
     }
 
@@ -220,8 +229,8 @@ enum Ending {
     Stop,
     /// It is left at no more than this speed.
     Pass(f64),
-    /// The axes come to rest while the next stretch begins, for at most this many seconds.
-    Overlap(f64),
+    /// The axes come to rest while the next stretch begins.
+    Overlap(Overlap),
 }
 
 impl<T: Copy> Planner<T> {
@@ -249,15 +258,7 @@ impl<T: Copy> Planner<T> {
             match meet(&self.machine, (meeting, self.meeting), &mut first, &mut segment) {
                 Meet::Rest => self.lay(&first, Ending::Stop, each),
                 Meet::Pass(speed) => self.lay(&first, Ending::Pass(speed), each),
-                Meet::Overlap(seconds) => {
-                    for side in [&mut first, &mut segment] {
-                        // Without a tolerance the part that an arc leaves for changes of speed is enough for the overlap.
-                        if side.is_straight() || seconds.is_finite() {
-                            side.kept = side.kept.min(OVERLAPPED);
-                        }
-                    }
-                    self.lay(&first, Ending::Overlap(seconds), each);
-                }
+                Meet::Overlap(overlap) => self.lay(&first, Ending::Overlap(overlap), each),
                 Meet::Round(mut arc) => {
                     let ending = Ending::Pass(arc.cap);
                     if self.is_used_up(&first, &arc) {
@@ -326,7 +327,7 @@ impl<T: Copy> Planner<T> {
                 && rounding.overlaps
             {
                 // The control was ready to let the next move overlap.
-                last.kept = last.kept.min(OVERLAPPED);
+                last.keep(OVERLAPPED);
             }
             self.lay(&last, Ending::Stop, each);
         }
@@ -352,11 +353,11 @@ impl<T: Copy> Planner<T> {
             _ => 0.0,
         };
         let filtered = self.machine.control.corners == Corners::Filtered;
-        let acceleration = if filtered { f64::INFINITY } else { segment.acceleration * segment.kept };
+        let acceleration = if filtered { f64::INFINITY } else { segment.pull() };
         let (leave, overlap) = match ending {
-            Ending::Stop => (0.0, 0.0),
-            Ending::Pass(speed) => (speed, 0.0),
-            Ending::Overlap(seconds) => (0.0, seconds),
+            Ending::Stop => (0.0, Overlap::default()),
+            Ending::Pass(speed) => (speed, Overlap::default()),
+            Ending::Overlap(overlap) => (0.0, overlap),
         };
         self.window.push(Piece {
             length: segment.length,
@@ -377,6 +378,7 @@ impl<T: Copy> Planner<T> {
                 waits,
                 settle: if filtered && fixed.is_none() { segment.cap / segment.acceleration } else { 0.0 },
                 fixed,
+                taps: matches!(segment.drive, Drive::Tap(_)),
             },
         });
         while let Some(piece) = self.window.pop_known() {
@@ -411,9 +413,8 @@ impl<T: Copy> Planner<T> {
         } + load.waits;
         self.speed = exit;
         // What the last stretch and this one share of their time.
-        let speeding_up = (profile.peak - entry) / piece.acceleration;
-        let overlap = self.resting.min(speeding_up).min(seconds);
-        self.resting = load.overlap.min(profile.peak / piece.acceleration);
+        let overlap = (self.resting.seconds - self.resting.lost).clamp(0.0, seconds);
+        self.resting = load.overlap;
         self.clock -= overlap;
         seconds -= overlap;
         if load.settle > 0.0 {
@@ -430,9 +431,13 @@ impl<T: Copy> Planner<T> {
         let run = (piece.length / ideal).min(seconds);
         let asked = piece.length / if load.asked.is_finite() { load.asked } else { load.axes };
         profile.seconds = seconds + overlap;
+        let longer = Seconds(seconds - run);
+        let (acceleration, spindle) =
+            if load.taps { (Seconds::ZERO, longer) } else { (longer, Seconds::ZERO) };
         let shares = Shares {
             run: Seconds(run),
-            acceleration: Seconds(seconds - run),
+            acceleration,
+            spindle,
             starved: Seconds(starved),
             ..Shares::default()
         };
@@ -474,6 +479,7 @@ fn cause<T>(load: &Load<T>, shares: &Shares, asked: f64, capped: f64, entry: f64
         (shares.starved.0, Cause::Starved),
         (axis, Cause::Axis),
         (turn, Cause::Turn),
+        (shares.spindle.0, Cause::Spindle),
         (change, if load.stops && exit <= 0.0 && entry <= 0.0 { Cause::Stop } else { Cause::Corner }),
     ];
     let none = (1e-9, Cause::None);

@@ -50,20 +50,26 @@ pub(crate) struct Segment<T> {
     pub(crate) axes: f64,
     /// Change of speed along it, a second.
     pub(crate) acceleration: f64,
+    /// The same if nothing of it turned the path.
+    whole_pull: f64,
     /// Change of acceleration along it, a second; infinite without a limit.
     pub(crate) jerk: f64,
     /// The radius that it turns with; infinite for a straight one.
     pub(crate) radius: f64,
     /// Highest speed that the axes and the turn of an arc allow.
     pub(crate) most: f64,
-    /// The axis that a flat arc turns about, and whether counter-clockwise; `None` for straight moves and helices.
+    /// The axis that an arc turns about, and whether counter-clockwise; `None` for straight moves.
     pub(crate) about: Option<(usize, bool)>,
+    /// An arc does not rise.
+    is_flat: bool,
     /// Only X, Y and Z move.
     pub(crate) is_plain: bool,
     /// How many moves it is.
     pub(crate) blocks: u32,
     /// An end with which it touches its neighbour took part of the acceleration.
-    pub(crate) kept: f64,
+    kept: f64,
+    /// Highest speed that all of the acceleration turns along an arc.
+    turning: f64,
 }
 
 impl<T: Copy> Segment<T> {
@@ -109,8 +115,8 @@ impl<T: Copy> Segment<T> {
                 let jerk = limits.jerk().map_or(f64::INFINITY, |jerk| room(&worst, jerk));
                 let mut segment =
                     Self::blank(item, length, begin, end, axes, acceleration, jerk, beyond_xyz(&way));
-                segment.about =
-                    Some((normal, arc.sweep() > 0.0)).filter(|_| arc.rise().0.abs() < FLAT * length);
+                segment.about = Some((normal, arc.sweep() > 0.0));
+                segment.is_flat = arc.rise().0.abs() < FLAT * length;
                 segment.turn(radius, plane, &machine.control.corners);
                 segment
             }
@@ -160,13 +166,16 @@ impl<T: Copy> Segment<T> {
             why,
             axes,
             acceleration,
+            whole_pull: acceleration,
             jerk,
             radius: f64::INFINITY,
             most: axes,
             about: None,
+            is_flat: true,
             is_plain: !beyond,
             blocks: 0,
             kept: 1.0,
+            turning: f64::INFINITY,
         }
     }
 
@@ -179,12 +188,34 @@ impl<T: Copy> Segment<T> {
             Corners::Filtered => return,
         };
         let turning = (plane * across * radius).sqrt();
+        self.turning = turning;
         self.acceleration *= along;
         self.most = self.most.min(turning);
         if turning < self.cap {
             self.cap = turning;
             self.why = Cap::Turn;
         }
+    }
+
+    /// An end takes part of the acceleration: no more than this part is left.
+    pub(crate) fn keep(&mut self, part: f64) {
+        self.kept = self.kept.min(part);
+    }
+
+    /// As [`Self::keep`]; what turns an arc becomes less as well.
+    pub(crate) fn share(&mut self, part: f64) {
+        self.keep(part);
+        let turning = self.turning * self.kept.sqrt();
+        self.most = self.most.min(turning);
+        if turning < self.cap {
+            self.cap = turning;
+            self.why = Cap::Turn;
+        }
+    }
+
+    /// The change of speed a second along the path that its ends leave.
+    pub(crate) fn pull(&self) -> f64 {
+        self.acceleration * self.kept
     }
 
     /// Directions at the ends, X, Y and Z alone.
@@ -202,13 +233,32 @@ impl<T: Copy> Segment<T> {
             |line: Vector3<f64>, about: usize| line.get(about).is_some_and(|part| part.abs() < FLAT);
         match (self.is_straight(), next.is_straight()) {
             (true, true) => true,
-            (true, false) => next.about.is_some_and(|(about, _)| lies_in(self.leaves(), about)),
-            (false, true) => self.about.is_some_and(|(about, _)| lies_in(next.arrives(), about)),
-            (false, false) => match (self.about, next.about) {
-                (Some((about, _)), Some((other, _))) => about == other,
+            (true, false) => next.turns_flat().is_some_and(|about| lies_in(self.leaves(), about)),
+            (false, true) => self.turns_flat().is_some_and(|about| lies_in(next.arrives(), about)),
+            (false, false) => match (self.turns_flat(), next.turns_flat()) {
+                (Some(about), Some(other)) => about == other,
                 _ => false,
             },
         }
+    }
+
+    /// The axis that a flat arc turns about.
+    fn turns_flat(&self) -> Option<usize> {
+        self.about.filter(|_| self.is_flat).map(|(about, _)| about)
+    }
+
+    /// Where the axes are pulled at an end where the path runs along `tangent`: along it, and on an arc towards the centre by
+    /// what half its speed needs. Of length 1.
+    pub(crate) fn pulled(&self, tangent: Vector3<f64>) -> Vector3<f64> {
+        let Some((about, counter_clockwise)) = self.about else { return tangent };
+        let mut axis = Vector3::zeros();
+        if let Some(slot) = axis.get_mut(about) {
+            *slot = if counter_clockwise { 1.0 } else { -1.0 };
+        }
+        let along = (tangent - axis * tangent.dot(&axis)).try_normalize(1e-12).unwrap_or(tangent);
+        let speed = self.asked.min(self.axes) / 2.0;
+        let inward = axis.cross(&along) * (speed * speed / self.radius);
+        (along * self.whole_pull * self.kept + inward).try_normalize(1e-12).unwrap_or(tangent)
     }
 
     /// How much it turns to the left about an axis, by length: negative to the right, zero for a straight move.
@@ -250,13 +300,16 @@ impl<T: Copy> Segment<T> {
             why,
             axes,
             acceleration,
+            whole_pull: acceleration,
             jerk: self.jerk.min(next.jerk),
             radius,
             most: cap,
             about: None,
+            is_flat: true,
             is_plain: true,
             blocks: 0,
             kept: 1.0,
+            turning: f64::INFINITY,
         }
     }
 }

@@ -337,6 +337,10 @@ fn moved<T: Copy>(
         Way::Thread => Drive::Thread(rpm),
         Way::Tap(scale) => Drive::Tap(Rpm(rpm.0 * scale)),
     };
+    if step.swings && [&motion.machine_from, &motion.machine].into_iter().all(is_known) {
+        let [from, to] = [&motion.machine_from, &motion.machine].map(point);
+        return each(Item::Move(Move { drive, from, to, arc: None, asked, tag }));
+    }
     let upright = tracker.is_upright();
     let turned = |position: &Position| if upright { *position } else { tracker.turned(position) };
     let [from, to] = [turned(&motion.from), turned(&motion.to)].map(|position| point(&position));
@@ -367,6 +371,11 @@ fn moved<T: Copy>(
         each(Item::Move(Move { from: begin, to: next, asked: asked / f64::from(count), ..whole }));
         begin = next;
     }
+}
+
+/// Are X, Y and Z known?
+fn is_known(position: &Position) -> bool {
+    position.xyz().iter().all(|coordinate| coordinate.is_known())
 }
 
 /// A position as a point; an unknown coordinate stays at zero.

@@ -28,6 +28,8 @@ pub struct Step<'a> {
     pub rpm: f64,
     /// Machine coordinates after the event; NaN unknown.
     pub machine: Position,
+    /// The linear axes follow the rotary ones: the machine coordinates of a move lie elsewhere than its points in the part.
+    pub swings: bool,
     /// The tool in the spindle; `None` unknown.
     pub tool: Option<u32>,
     /// Where a move would end without compensation for the tool's size and length; NaN unknown.
@@ -59,9 +61,11 @@ impl<'a> Step<'a> {
         event: &'a Event,
         state: &State<Concrete>,
         model: &Model<'_>,
+        machine: &Machine,
         spot: Spot<'a>,
         units: Units,
     ) -> Self {
+        let stands = stands(state, model, machine, event);
         Self {
             event,
             n: spot.n,
@@ -70,7 +74,8 @@ impl<'a> Step<'a> {
             feed_mode: state.feed_mode(model).unwrap_or(FeedMode::PerMinute),
             feed: number(state.feed()),
             rpm: turns(state),
-            machine: machine(state, model, event),
+            machine: stands,
+            swings: state.follows_rotary(&stands, model),
             tool: tool(state.tool()),
             aim: aim(state, event),
             h: tool(state.h()),
@@ -110,12 +115,12 @@ fn turns(state: &State<Concrete>) -> f64 {
 }
 
 /// Where a move ends. The state may be ahead of the move, so that its own end counts where there is one.
-fn machine(state: &State<Concrete>, model: &Model<'_>, event: &Event) -> Position {
+fn stands(state: &State<Concrete>, model: &Model<'_>, machine: &Machine, event: &Event) -> Position {
     match event {
-        Event::Travel(travel) => state.to_machine(&travel.to, model),
-        Event::Arc(arc) => state.to_machine(&arc.to, model),
-        Event::Curve(curve) => state.to_machine(&curve.to, model),
-        _ => state.machine(model),
+        Event::Travel(travel) => state.to_machine(&travel.to, model, machine),
+        Event::Arc(arc) => state.to_machine(&arc.to, model, machine),
+        Event::Curve(curve) => state.to_machine(&curve.to, model, machine),
+        _ => state.machine(model, machine),
     }
 }
 

@@ -57,44 +57,16 @@ const CAUSES: &[(&str, f64, &str)] = &[
     ("collinear-tiny", 0.03, "data starved: what a block takes varied from run to run"),
     ("coolant-between", 0.08, "the control answers coolant and tool changes in cycles of 0.1 s"),
     ("corner-002", 0.02, "not explained"),
-    (
-        "drop-in",
-        0.03,
-        "moves that no flat arc joins: how they overlap was found at 1,000 mm/s², and is not right at every acceleration",
-    ),
-    (
-        "drop-in-blend",
-        0.28,
-        "moves that no flat arc joins: how they overlap was found at 1,000 mm/s², and is not right at every acceleration",
-    ),
-    (
-        "flat-arcs-naive",
-        0.7,
-        "the control seems to join flat arcs as it joins lines; the model joins lines alone",
-    ),
-    (
-        "helix-corners",
-        0.03,
-        "moves that no flat arc joins: how they overlap was found at 1,000 mm/s², and is not right at every acceleration",
-    ),
+    ("drop-in-blend", 0.05, "moves that no flat arc joins, without a tolerance"),
+    ("helix-corners", 0.1, "helices that end where the path nearly turns back"),
     ("line-arc-corner-exact", 0.02, "not explained"),
     ("messages-between", 0.03, "not explained"),
     ("noisy-line", 0.02, "not explained"),
     ("outputs-between", 0.02, "not explained"),
-    ("rapids-blend", 0.15, "not explained"),
     ("shifts-between", 0.04, "not explained"),
     ("starved", 0.03, "data starved: what a block takes varied from run to run"),
-    (
-        "thread-mill",
-        0.06,
-        "moves that no flat arc joins: how they overlap was found at 1,000 mm/s², and is not right at every acceleration",
-    ),
     ("tool-changes", 0.05, "the control answers coolant and tool changes in cycles of 0.1 s"),
-    (
-        "waves",
-        0.03,
-        "moves that no flat arc joins: how they overlap was found at 1,000 mm/s², and is not right at every acceleration",
-    ),
+    ("waves", 0.03, "not explained"),
 ];
 /// Programs whose corners the control cuts: the path is shorter than they say, and so may be the time.
 const CUTS_CORNERS: &[&str] = &[

@@ -18,6 +18,8 @@ use super::*;
 use crate::cylinder::Cylinder;
 use crate::lattice::{Flat, May};
 use crate::machine::{BarFeeder, Machine};
+use crate::polar_plane::PolarPlane;
+use crate::position::Axis;
 use crate::start::start_state;
 
 /// Changes of choices: what makes one value from another that it is like in most.

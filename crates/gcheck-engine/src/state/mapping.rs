@@ -1,22 +1,47 @@
-//! Whether a flat drawing is wrapped around a cylinder, and the diameters that cylinders have.
+//! Whether a flat drawing is wrapped around a cylinder, or lies on the face of a part that turns, and the diameters that
+//! cylinders have.
 //!
-//! Knows: what is wrapped, where the axes are for a point of the drawing, the diameters that the program gave. Must not know:
+//! Knows: what is mapped, where the axes are for a point of the drawing, the diameters that the program gave. Must not know:
 //! words, codes, the control's settings.
 
-use gcheck_geometry::Mm;
+use gcheck_geometry::tilted_plane::by_euler_angles;
+use gcheck_geometry::{Degrees, Frame, Mm};
 
 use crate::cylinder::Cylinder;
-use crate::lattice::{Joinable, Lattice, lattice};
+use crate::lattice::{Joinable, Lattice, Perhaps, lattice};
+use crate::polar_plane::PolarPlane;
 use crate::position::{Axis, Position};
 
 lattice! {
-    /// Cylindrical mapping.
+    /// Drawings that the machine's axes follow otherwise than as they are written.
     #[derive(Debug, Clone, Default)]
     pub(crate) struct Mapping {
         /// A linear axis wrapped around a cylinder.
         pub(crate) wrapped: Wrapped,
+        /// The face of the part, where X and a rotary axis make its moves.
+        pub(crate) face: Face,
+        /// A plane that lies tilted in the part.
+        pub(crate) tilted: Perhaps<TiltedPlane>,
         /// Diameters of cylinders as the program gave them.
         pub(crate) diameters: Diameters,
+    }
+}
+
+lattice! {
+    /// A plane that lies tilted in the part, by its origin in the coordinates before (millimetres) and three turns (degrees).
+    #[derive(Debug, Clone, Copy)]
+    pub(crate) struct TiltedPlane {
+        /// Its origin.
+        pub(crate) origin: [f64; 3],
+        /// About Z, about the new X, about the new Z.
+        pub(crate) turns: [f64; 3],
+    }
+}
+
+impl TiltedPlane {
+    /// From its coordinates to those before.
+    pub(crate) fn frame(&self) -> Frame {
+        by_euler_angles(self.origin.map(Mm), self.turns.map(Degrees))
     }
 }
 
@@ -26,7 +51,110 @@ impl Mapping {
         if self.wrapped != Wrapped::No {
             self.wrapped = Wrapped::Unknown;
         }
+        if self.face != Face::Off {
+            self.face = Face::Unknown;
+        }
+        if !self.tilted.is_no() {
+            self.tilted = Perhaps::Unknown;
+        }
         self.diameters.forget();
+    }
+
+    /// A point with the angle that its place on the drawing has; the axes come from `from`.
+    #[must_use]
+    pub(crate) fn turned(&self, point: Position, from: &Position) -> Position {
+        let point = self.wrapped.turned(point);
+        match &self.face {
+            Face::Off => point,
+            Face::On(plane) => plane.turned(point, from),
+            Face::Unknown => without_rotary(point),
+        }
+    }
+
+    /// As [`Self::turned`], at the end of an arc of X and Y.
+    #[must_use]
+    pub(crate) fn turned_along(
+        &self,
+        point: Position,
+        from: &Position,
+        centre: (Mm, Mm),
+        sweep: f64,
+    ) -> Position {
+        match &self.face {
+            Face::On(plane) => plane.turned_along(point, from, centre, sweep),
+            Face::Off | Face::Unknown => self.turned(point, from),
+        }
+    }
+
+    /// A point with linear axes where they stand.
+    #[must_use]
+    pub(crate) fn standing(&self, point: Position) -> Position {
+        let point = self.wrapped.standing(point);
+        match &self.face {
+            Face::Off => point,
+            Face::On(plane) => plane.standing(point),
+            Face::Unknown => {
+                let mut point = point;
+                point.set(Axis::X, f64::NAN);
+                point.set(Axis::Y, f64::NAN);
+                point
+            }
+        }
+    }
+}
+
+fn without_rotary(mut point: Position) -> Position {
+    for axis in Axis::ALL.into_iter().filter(|axis| axis.is_rotary()) {
+        point.set(axis, f64::NAN);
+    }
+    point
+}
+
+/// Whether X and a rotary axis make the moves of a flat plane.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum Face {
+    /// They do not.
+    #[default]
+    Off,
+    /// They do.
+    On(PolarPlane),
+    /// They may.
+    Unknown,
+}
+
+impl Face {
+    /// The plane, if there is one for certain.
+    pub const fn plane(&self) -> Option<&PolarPlane> {
+        match self {
+            Self::On(plane) => Some(plane),
+            Self::Off | Self::Unknown => None,
+        }
+    }
+}
+
+impl Lattice for Face {
+    fn join(&self, other: &Self) -> Self {
+        match (self, other) {
+            (Self::Off, Self::Off) => Self::Off,
+            (Self::On(a), Self::On(b)) => a.joined(b, false).map_or(Self::Unknown, Self::On),
+            _ => Self::Unknown,
+        }
+    }
+
+    fn widen(&self, newer: &Self) -> Self {
+        self.join(newer)
+    }
+
+    fn covers(&self, inner: &Self) -> bool {
+        match (self, inner) {
+            (Self::Unknown, _) | (Self::Off, Self::Off) => true,
+            (Self::On(a), Self::On(b)) => a.stands_for(b),
+            _ => false,
+        }
+    }
+
+    fn same(&self, other: &Self) -> bool {
+        self == other
     }
 }
 
@@ -64,11 +192,7 @@ impl Wrapped {
         match self {
             Self::No => {}
             Self::On(cylinder) => point.set(cylinder.rotary, cylinder.angle(point.raw(cylinder.linear))),
-            Self::Unknown => {
-                for axis in Axis::ALL.into_iter().filter(|axis| axis.is_rotary()) {
-                    point.set(axis, f64::NAN);
-                }
-            }
+            Self::Unknown => point = without_rotary(point),
         }
         point
     }

@@ -118,9 +118,12 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if !state.compensation.on.is_no() || state.tool_shift.is_on() {
             return self.unknown_arc(counter_clockwise, target, state);
         }
-        let to = self.axes_of(target, state);
+        let mut to = self.axes_of(target, state);
         let (centre, turns) = self.arc_of_axes(plane, arc.centre(), turns, state);
         let sweep = if (turns > 0) == counter_clockwise { arc.sweep() } else { -arc.sweep() };
+        if plane == Plane::Xy {
+            to = state.mapping.turned_along(to, state.actual(), centre, sweep);
+        }
         let event =
             ArcMove { plane, from: *state.actual(), programmed: *target, to, centre, turns, sweep, expanded };
         state.points.actual = to;

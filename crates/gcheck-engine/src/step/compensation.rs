@@ -285,7 +285,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 } else {
                     *state.position()
                 };
-                let actual = state.wrapped().turned(actual);
+                let actual = state.mapping.turned(actual, state.actual());
                 state.points.actual = actual;
                 state.points.position = programmed;
                 state.compensation.left = Perhaps::Yes(Course::Followed(compensation));
@@ -412,7 +412,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             return if error == CompensationError::NotUsable { Ok(()) } else { Err(fault(&error)) };
         }
         let actual = above(&end, followed.compensator.position(), followed.plane);
-        let actual = state.wrapped().turned(actual);
+        let actual = state.mapping.turned(actual, &followed.at);
         state.points.actual = actual;
         state.compensation.follow_path(compensation);
         Ok(())
@@ -447,7 +447,15 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         state: &State<D>,
     ) {
         let from = compensation.at;
-        let to = state.wrapped().turned(above(&others, segment.end, compensation.plane));
+        let to = above(&others, segment.end, compensation.plane);
+        let to = match segment.course {
+            OffsetCourse::Arc { centre: [first, second], ccw, turns } if compensation.plane == Plane::Xy => {
+                let turns = i32::try_from(turns).unwrap_or(i32::MAX) * if ccw { 1 } else { -1 };
+                let sweep = sweep([first, second], segment, ccw, turns);
+                state.mapping.turned_along(to, &from, (Mm(first), Mm(second)), sweep)
+            }
+            _ => state.mapping.turned(to, &from),
+        };
         compensation.at = to;
         let event = match segment.course {
             OffsetCourse::Line(kind) => {

@@ -48,7 +48,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             return Err(fault);
         }
         // The letter may be one of a length elsewhere; here it counts as it is written.
-        let repeat = self.raw(rules.repeat, state);
+        let repeat = self.raw(Letter::of(rules.repeat), state);
         let repeats = match repeat.map(|n| Self::whole(Letter::of(rules.repeat), n)).transpose()? {
             None => Some(1),
             Some(Count::Known(n)) => Some(n),
@@ -212,7 +212,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let rules = &self.model.semantics().cycles;
         // Of a tap `J` is a number, not a length: how many times faster it comes out.
         let taps = matches!(effect, Effect::CycleTap | Effect::CycleLeftTap);
-        let times_out = rules.tap_out_setting.as_ref().filter(|_| taps).and_then(|_| self.raw('J', state));
+        let times_out =
+            rules.tap_out_setting.as_ref().filter(|_| taps).and_then(|_| self.raw(Letter::of('J'), state));
         let mut words = self.lasting_cycle_words(state);
         if let Some(times) = times_out {
             let [_, j, _] = &mut words.ijk;

@@ -160,7 +160,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     fn store_thread(&mut self, state: &mut State<D>) {
         let mut words = state.turning();
         let [passes, pull_out, angle, least, finish] = &mut words.thread;
-        if let Some(packed) = self.raw('P', state) {
+        if let Some(packed) = self.raw(Letter::of('P'), state) {
             let digits = |from: f64| (packed / from).trunc() % 100.0;
             *passes = Some(digits(10_000.0));
             *pull_out = Some(digits(100.0) / 10.0);
@@ -179,7 +179,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let height = self.length(Letter::of('K'), state).ok_or(missing('K'))?;
         let first = self.length(Letter::of('D'), state).ok_or(missing('D'))?;
         let unit = self.unit(state);
-        let in_feed = match self.raw('P', state) {
+        let in_feed = match self.raw(Letter::of('P'), state) {
             Some(2.0) => InFeed::BothEdgesConstantLoad,
             Some(3.0) => InFeed::OneEdgeConstantDepth,
             Some(4.0) => InFeed::BothEdgesConstantDepth,
@@ -202,7 +202,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     /// `A60` is sixty degrees also where angles count least increments.
     fn nose_angle(&mut self, state: &State<D>) -> Option<f64> {
-        let written = self.raw('A', state).filter(|angle| *angle <= WIDEST_NOSE);
+        let written = self.raw(Letter::of('A'), state).filter(|angle| *angle <= WIDEST_NOSE);
         written.or_else(|| self.words.number(Letter::of('A')))
     }
 
@@ -391,8 +391,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     }
 
     /// A count as written: without what a missing decimal point does to lengths.
-    pub(super) fn raw(&mut self, letter: char, state: &State<D>) -> Option<f64> {
-        let letter = Letter::of(letter);
+    pub(super) fn raw(&mut self, letter: Letter, state: &State<D>) -> Option<f64> {
         let number = self.words.number(letter)?;
         if self.words.is_pointed(letter) || number == 0.0 {
             return Some(number);
@@ -407,7 +406,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if self.words.is_pointed(Letter::of(letter)) {
             return self.length(Letter::of(letter), state);
         }
-        let count = self.raw(letter, state)?;
+        let count = self.raw(Letter::of(letter), state)?;
         let numbers = self.model.control().numbers();
         if numbers.unpointed == Unpointed::AsWritten {
             return Some(count * unit);

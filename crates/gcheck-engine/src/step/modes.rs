@@ -3,18 +3,21 @@
 //! Knows: modes and which handler an effect has. Must not know: motion.
 
 use gcheck_controls::{CodeIx, Effect, Letter, LocalShift};
-use gcheck_geometry::{Mm, Plane};
+use gcheck_geometry::{Arrangement, Degrees, Mm, Plane};
 use gcheck_program::{Place, Word};
 
 use super::{Count, Ending, Executor, Flow, Step};
 use crate::assumption::Assumption;
-use crate::event::{Coolant, Event, FeedMode, Override, PathMode, Smoothing, Spindle, Stop, Units};
+use crate::event::{
+    Coolant, Event, FeedMode, Override, PathMode, Smoothing, Spindle, Stop, Travel, TravelKind, Units,
+};
 use crate::fault::{CompensationFault, Fault};
 use crate::lattice::{Flat, Lattice, Perhaps};
 use crate::model::Role;
 use crate::observer::Observer;
+use crate::polar_plane::PolarPlane;
 use crate::position::Axis;
-use crate::state::{Blending, CoolantState, ModalCalls, State};
+use crate::state::{Blending, CoolantState, Face, ModalCalls, State, TiltedPlane};
 use crate::value::{Domain, Truth};
 
 impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
@@ -33,8 +36,11 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if code.role == Some(Role::Motion) && !code.modal {
             return self.motion_of_block(code.effect, state);
         }
-        let is_upright = |state: &State<D>| state.tool_is_upright(&state.machine(self.model), self.model);
-        let followed = code.role != Some(Role::Length) || is_upright(state);
+        let turns_frame = matches!(code.role, Some(Role::Length | Role::DynamicOffset | Role::TiltedPlane));
+        let before = turns_frame.then(|| {
+            let machine = state.machine(self.model, self.machine);
+            (machine, state.follows_rotary(&machine, self.model))
+        });
         if let Some(role) = code.role {
             self.guard_frozen(role, ix, state)?;
             // Whether a cylinder's code switches anything depends on its words.
@@ -43,10 +49,12 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             }
         }
         self.effect(code.effect, ix, place, words, state)?;
-        if code.role == Some(Role::Length) && !(followed && is_upright(state)) {
-            // The tip moved against the axes by the length along a turned tool.
-            state.points.actual = state.actual().with_xyz([Mm::UNKNOWN; 3]);
-            state.points.position = state.position().with_xyz([Mm::UNKNOWN; 3]);
+        if let Some((machine, followed)) = before
+            && (followed || state.follows_rotary(&machine, self.model))
+        {
+            // The axes stand where they did; the program's point for that is another one.
+            state.points.actual = state.from_machine(&machine, self.model, self.machine);
+            state.points.position = self.programmed_of(state.actual(), state);
         }
         Ok(())
     }
@@ -205,15 +213,14 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 }
             }
             E::CylinderMapping => self.cylinder(ix, state)?,
-            E::PolarInterpolationOn
-            | E::PolarInterpolationOff
-            | E::DynamicOffsetOn
-            | E::DynamicOffsetOff
-            | E::TiltedPlaneOn
-            | E::TiltedPlaneOff => {
-                let on = matches!(effect, E::PolarInterpolationOn | E::DynamicOffsetOn | E::TiltedPlaneOn);
-                self.unknown_frame(ix, on, state);
+            E::PolarInterpolationOn | E::PolarInterpolationOff => {
+                self.polar_interpolation(ix, effect == E::PolarInterpolationOn, state)?;
             }
+            E::DynamicOffsetOn => self.assume_code_unless_described(ix),
+            E::TiltedPlaneOn | E::TiltedPlaneOff => {
+                self.tilted_plane(ix, effect == E::TiltedPlaneOn, state);
+            }
+            E::SquareToPlane => self.turn_square(ix, state),
 
             E::Dwell => self.dwell(state)?,
             E::WriteOffsets => self.write_offsets(state)?,
@@ -371,7 +378,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let not_below_zero = |number: f64| if number < 0.0 { 0.0 } else { number };
         let tolerance = self.words.number(Letter::of('P')).map_or(0.0, not_below_zero);
         let naive = self.words.number(Letter::of('Q')).filter(|q| *q >= 0.0 || q.is_nan());
-        state.blending = Blending { tolerance, naive, unit: self.unit(state) };
+        state.blending = Blending { tolerance, naive, unit: self.unit(state), ..state.blending };
         let mode = state.blending_mode();
         self.path_mode(mode, state);
     }
@@ -379,7 +386,14 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     fn smoothing(&mut self, state: &mut State<D>) {
         let unit = self.unit(state);
         let tolerance = self.words.number(Letter::of('E')).filter(|e| *e > 0.0).map(|e| Mm(e * unit));
-        let smoothing = Smoothing { level: self.level(Letter::of('P')), tolerance };
+        let smoothing = Smoothing { level: self.level(Letter::of('P'), state), tolerance };
+        let kept = &mut state.blending;
+        if smoothing == Smoothing::default() {
+            (kept.smoothing_level, kept.smoothing_tolerance) = (None, None);
+        } else {
+            kept.smoothing_level = smoothing.level.map(f64::from).or(kept.smoothing_level);
+            kept.smoothing_tolerance = tolerance.map(|tolerance| tolerance.0).or(kept.smoothing_tolerance);
+        }
         self.emit(state, Event::Smoothing(smoothing));
     }
 
@@ -387,14 +401,15 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         // What is unknown, or has other meanings on other series, switches nothing.
         let Some(switched) = self.words.number(switch) else { return };
         let on = switched > 0.0;
-        let level = level.and_then(|letter| self.level(letter)).filter(|_| on);
+        let level = level.and_then(|letter| self.level(letter, state)).filter(|_| on);
+        state.blending.contour = on.then(|| level.map_or(0.0, f64::from));
         self.emit(state, Event::ContourControl { on, level });
     }
 
-    /// A small whole number.
-    fn level(&self, letter: Letter) -> Option<u8> {
+    /// A small whole number, as it is written.
+    fn level(&mut self, letter: Letter, state: &State<D>) -> Option<u8> {
         #[expect(clippy::cast_sign_loss, reason = "in range")]
-        self.words.number(letter).filter(|level| (0.0..=99.0).contains(level)).map(|level| level as u8)
+        self.raw(letter, state).filter(|level| (0.0..=99.0).contains(level)).map(|level| level as u8)
     }
 
     /// The path mode is announced again, where it is known: its numbers count in the program's present units from then on.
@@ -504,15 +519,114 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         state.points.position = unknown;
     }
 
+    /// What a code does with the rotary axes is an assumption on a machine whose rotary axes nobody described.
+    fn assume_code_unless_described(&mut self, ix: CodeIx) {
+        let table = matches!(
+            self.machine.kinematics.map(|kinematics| kinematics.arrangement),
+            Some(Arrangement::TableTable)
+        );
+        if !table || self.machine.rotary_centre(self.model).is_none() {
+            self.assumptions.insert(Assumption::Code(ix));
+        }
+    }
+
+    /// X and a rotary axis make the moves of a flat plane, or no longer do.
+    fn polar_interpolation(&mut self, ix: CodeIx, on: bool, state: &mut State<D>) -> Step {
+        let rules = self.model.semantics().polar_interpolation;
+        let Some((rules, rotary)) =
+            rules.and_then(|rules| Some((rules, Axis::of(Letter::of(rules.rotary))?)))
+        else {
+            self.unknown_frame(ix, on, state);
+            return Ok(());
+        };
+        self.flush_compensation(state)?;
+        if !on {
+            self.leave_face(state);
+        } else if *state.face() == Face::Off {
+            let (plane, place) = PolarPlane::begin(rotary, state.actual(), rules.starts_at_zero);
+            state.mapping.face = Face::On(plane);
+            state.points.actual = place;
+            state.points.position = self.programmed_of(state.actual(), state);
+        }
+        Ok(())
+    }
+
+    /// The axes are where polar interpolation left them.
+    pub(super) fn leave_face(&mut self, state: &mut State<D>) {
+        if *state.face() != Face::Off {
+            state.points.actual = state.mapping.standing(*state.actual());
+            state.mapping.face = Face::Off;
+            state.points.position = self.programmed_of(state.actual(), state);
+        }
+    }
+
     /// Some controls end a tilted plane and a rotation with one code.
     fn end_tilted_plane(&mut self, ix: CodeIx, state: &mut State<D>) {
         let group = |ix: CodeIx| self.model.code(ix).map(|code| code.group);
         let tilts =
             |code: CodeIx| self.model.effect(code) == Effect::TiltedPlaneOn && group(code) == group(ix);
         if state.mode(Role::TiltedPlane).may(tilts) {
+            let machine = state.machine(self.model, self.machine);
             state.set_mode(Role::TiltedPlane, CodeIx::NONE);
-            self.unknown_frame(ix, false, state);
+            self.tilted_plane(ix, false, state);
+            state.points.actual = state.from_machine(&machine, self.model, self.machine);
+            state.points.position = self.programmed_of(state.actual(), state);
         }
+    }
+
+    /// A tilted plane by origin and Euler angles, or none; other ways to give one are not followed.
+    fn tilted_plane(&mut self, ix: CodeIx, on: bool, state: &mut State<D>) {
+        if !on {
+            state.mapping.tilted = Perhaps::No;
+            return;
+        }
+        let is_other = ['P', 'Q', 'R', 'D'].into_iter().any(|letter| self.words.has(Letter::of(letter)));
+        if is_other
+            || !self.model.semantics().tilted_plane_by_euler_angles
+            || state.mapping.tilted.is_unknown()
+        {
+            self.assumptions.insert(Assumption::Code(ix));
+            state.mapping.tilted = Perhaps::Unknown;
+            return;
+        }
+        let origin = ['X', 'Y', 'Z'].map(|letter| self.length(Letter::of(letter), state).unwrap_or(0.0));
+        let turns = ['I', 'J', 'K'].map(|letter| self.words.number(Letter::of(letter)).unwrap_or(0.0));
+        state.mapping.tilted = Perhaps::Yes(TiltedPlane { origin, turns });
+    }
+
+    /// The rotary axes turn to where the tool is square to the plane in effect; the linear axes stand still.
+    fn turn_square(&mut self, ix: CodeIx, state: &mut State<D>) {
+        let mut machine = state.machine(self.model, self.machine);
+        let from = [Axis::A, Axis::B, Axis::C].map(|axis| Degrees(machine.raw(axis)));
+        let ways = self.machine.kinematics.zip(state.upward());
+        // `P` chooses between two ways by rules that no page at hand gives.
+        let ways = ways.filter(|_| !self.words.has(Letter::of('P')));
+        let ways = ways.map_or_else(Vec::new, |(kinematics, upward)| kinematics.square_to(upward, from));
+        let within = |way: &[Degrees; 3]| {
+            [Axis::A, Axis::B, Axis::C].into_iter().zip(way).all(|(axis, angle)| {
+                self.machine.travel.get(&axis).is_none_or(|(low, high)| (*low..=*high).contains(&angle.0))
+            })
+        };
+        let far = |way: &[Degrees; 3]| {
+            way.iter().zip(from).map(|(to, from)| (to.0 - from.0).abs()).fold(0.0, f64::max)
+        };
+        let nearest = ways.into_iter().filter(within).min_by(|one, other| far(one).total_cmp(&far(other)));
+        if nearest.is_none() {
+            self.assumptions.insert(Assumption::Code(ix));
+        }
+        for (index, axis) in [Axis::A, Axis::B, Axis::C].into_iter().enumerate() {
+            if self.model.axes.contains(&axis) {
+                let angle = nearest.and_then(|way| way.get(index).copied());
+                machine.set(axis, angle.map_or(f64::NAN, |angle| angle.0));
+            }
+        }
+        let to = state.from_machine(&machine, self.model, self.machine);
+        let from = *state.actual();
+        let event =
+            Event::Travel(Travel { kind: TravelKind::Rapid, from, programmed: to, to, expanded: true });
+        state.points.actual = to;
+        state.points.position = self.programmed_of(&to, state);
+        self.emit(state, event);
     }
 
     /// Work done by the machine that gcheck does not follow: the axes end nobody knows where.

@@ -18,7 +18,7 @@ use crate::lattice::Perhaps;
 use crate::model::Role;
 use crate::observer::Observer;
 use crate::position::{Axis, Position};
-use crate::state::{ControlPoints, Course, KeptTurningWords, State, TurningWords};
+use crate::state::{ControlPoints, Course, Face, KeptTurningWords, State, TurningWords};
 use crate::value::Domain;
 
 #[expect(clippy::unnecessary_wraps, reason = "handlers of effects share one signature")]
@@ -255,10 +255,13 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let unit = self.unit(state);
         let named = self.words.present().and(self.model.axis_letters);
         for letter in named.iter() {
-            let Some((axis, is_increment)) = self.model.axis_of(letter) else { continue };
+            let Some((own, is_increment)) = self.model.axis_of(letter) else { continue };
             let Some(mut value) = self.words.number(letter) else { continue };
+            let axis = self.axis_on_face(own, state);
+            let is_drawn = axis == Axis::Y && *state.face() != Face::Off;
             if let Some(machine) = &self.machine.axes
-                && !machine.contains(&axis)
+                && !machine.contains(&own)
+                && !is_drawn
             {
                 return Err(Fault::NoSuchAxis(letter));
             }
@@ -271,6 +274,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             }
             let value = match (is_increment, incremental) {
                 (true, _) | (false, Some(true)) => target.raw(axis) + value,
+                (false, Some(false)) if axis.is_rotary() && self.machine.shorter_way.contains(&axis) => {
+                    shorter_way(target.raw(axis), value)
+                }
                 (false, Some(false)) => value,
                 (false, None) => f64::NAN,
             };
@@ -290,6 +296,14 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             }
         }
         Ok(target)
+    }
+
+    /// The axis that a word for this one moves: on the face of a part some controls write the second coordinate with the
+    /// address of the rotary axis.
+    fn axis_on_face(&self, own: Axis, state: &State<D>) -> Axis {
+        let rules = self.model.semantics().polar_interpolation;
+        let is_second = rules.is_some_and(|rules| Letter::of(rules.second) == own.letter());
+        if is_second && state.face().plane().is_some() { Axis::Y } else { own }
     }
 
     /// `@` and `^`: distance and angle from the XY origin.
@@ -428,7 +442,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             return Err(Fault::Compensation(CompensationFault::NotWhileOn));
         }
         let unit = self.unit(state);
-        let mut machine = state.machine(self.model);
+        let mut machine = state.machine(self.model, self.machine);
         let named = self.words.present().and(self.model.axis_letters);
         let diameter = state.is_diameter(self.model) == Some(true);
         for letter in named.iter() {
@@ -437,7 +451,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             let value = if axis.is_rotary() { value } else { value * unit };
             machine.set(axis, if axis == Axis::X && diameter { value / 2.0 } else { value });
         }
-        let target = state.from_machine(&machine, self.model);
+        let target = state.from_machine(&machine, self.model, self.machine);
         let checked = self.held(if kind == TravelKind::Feed { self.check_feed(state) } else { Ok(()) })?;
         // Axes that the block does not name stay where they are, known or not; after compensation they go to their place.
         let mut to = *state.actual();
@@ -768,6 +782,11 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         state.set_mode(Role::Motion, CodeIx::NONE);
         Ok(())
     }
+}
+
+/// The angle `to`, as many whole turns away as it is the shorter way from `from`; from nobody knows where it is itself.
+fn shorter_way(from: f64, to: f64) -> f64 {
+    if from.is_nan() { to } else { to - 360.0 * ((to - from) / 360.0).round() }
 }
 
 /// A curve by control points is of this order at least.

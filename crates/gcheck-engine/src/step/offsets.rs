@@ -582,7 +582,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         }
         if here {
             // Machine position without the shift and tool, turned into the system's own directions.
-            let machine = state.machine(self.model) - *state.length();
+            let machine = state.machine(self.model, self.machine) - *state.length();
             let turned = machine.turned(-offset.rotation);
             let origin = offset.origin.turned(-offset.rotation);
             let mut wanted = origin;
@@ -652,7 +652,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let radius = self.length(Letter::of('R'), state);
         let angles = [self.words.number(Letter::of('I')), self.words.number(Letter::of('J'))];
         let orientation = self.count(Letter::of('Q'))?;
-        let machine = state.machine(self.model);
+        let machine = state.machine(self.model, self.machine);
         let work = state.work_offset();
         let shift = state.shift();
         let fixture = state.tables().offset(9);

@@ -22,8 +22,8 @@ use crate::observer::Observer;
 use crate::origin::At;
 use crate::position::{Axis, Position};
 use crate::state::{
-    Bar, Blending, Course, KeptTurningWords, ModalCalls, ModeSet, State, ToolData, Transform, TurningWords,
-    Wrapped,
+    Bar, Blending, Course, Face, KeptTurningWords, ModalCalls, ModeSet, State, ToolData, Transform,
+    TurningWords, Wrapped,
 };
 use crate::value::{Domain, Truth};
 
@@ -262,12 +262,17 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 state.mapping.wrapped = Wrapped::Unknown;
                 state.points.lose();
             }
-            E::PolarInterpolationOn
-            | E::PolarInterpolationOff
-            | E::DynamicOffsetOn
-            | E::DynamicOffsetOff
-            | E::TiltedPlaneOn
-            | E::TiltedPlaneOff => self.unknown_frame(ix, true, state),
+            E::PolarInterpolationOn | E::PolarInterpolationOff => {
+                state.mapping.face = Face::Unknown;
+                self.unknown_frame(ix, true, state);
+            }
+            E::TiltedPlaneOn | E::TiltedPlaneOff => {
+                state.mapping.tilted = Perhaps::Unknown;
+                self.unknown_frame(ix, true, state);
+            }
+            E::DynamicOffsetOn | E::DynamicOffsetOff | E::SquareToPlane => {
+                self.unknown_frame(ix, true, state)
+            }
             E::WriteOffsets => self.lose_tables(state),
             E::LocalShift
             | E::SetPosition
@@ -322,7 +327,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             }
             E::ProgramEnd | E::ProgramEndWithPallet => self.flow = Some(Flow::End(Ending::Program)),
             E::RestoreModes => self.forget_modes(None, state),
-            E::PathBlending => state.blending = Blending::UNKNOWN,
+            E::PathBlending | E::Smoothing | E::ContourControl | E::LookAheadControl => {
+                state.blending = Blending::UNKNOWN;
+            }
             E::SurfaceSpeed | E::ConstantSpeed => state.spindle.limit = f64::NAN,
             E::SpindleClockwise
             | E::SpindleCounterClockwise

@@ -33,6 +33,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if self.model.semantics().end_clears_feed {
             state.feed.rate = D::number(0.0);
         }
+        state.blending = state.blending.without_smoothing();
         if pallet {
             self.emit(state, Event::PalletChange);
         }
@@ -49,12 +50,13 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             state.set_mode(role, ix);
         }
         match effect {
+            Effect::PolarInterpolationOff => self.leave_face(state),
             Effect::WorkOffset(number) => {
-                let machine = state.machine(self.model);
+                let machine = state.machine(self.model, self.machine);
                 state.offsets.work = Flat::Known(number);
                 let offset = state.tables().offset(number);
                 state.offsets.in_effect = offset;
-                state.points.actual = state.from_machine(&machine, self.model);
+                state.points.actual = state.from_machine(&machine, self.model, self.machine);
                 state.points.position = self.programmed_of(state.actual(), state);
                 self.announce_offset(state);
                 self.announce_rotation(state);

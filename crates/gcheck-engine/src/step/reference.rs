@@ -38,7 +38,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             state.points.passed.set(*axis, through.raw(*axis));
         }
         // The axes that return are given in machine coordinates; the others stay where they are.
-        let target = state.from_machine(&reference, self.model);
+        let target = state.from_machine(&reference, self.model, self.machine);
         let mut to = *state.actual();
         for axis in &axes {
             to.set(*axis, target.raw(*axis));
@@ -89,7 +89,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     /// `G28.1`, `G30.1`.
     pub(super) fn store_reference(&mut self, number: u8, state: &mut State<D>) {
-        let machine = state.machine(self.model);
+        let machine = state.machine(self.model, self.machine);
         let tables = state.offsets.tables_mut();
         if let Some(slot) = tables.references.get_mut(usize::from(number.saturating_sub(1)).min(1)) {
             *slot = machine;

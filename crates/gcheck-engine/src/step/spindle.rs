@@ -110,7 +110,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             return Ok(());
         }
         let angle = self.words.number(Letter::of('R'));
-        let angle = angle.or_else(|| if to_p { self.raw('P', state) } else { None }).unwrap_or(0.0);
+        let angle =
+            angle.or_else(|| if to_p { self.raw(Letter::of('P'), state) } else { None }).unwrap_or(0.0);
         let way = if to_p { None } else { self.count(Letter::of('P'))? };
         let way = match way {
             Some(Count::Known(way @ 0..=2)) => way as u8,
@@ -241,9 +242,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         else {
             return;
         };
-        let mut machine = state.machine(self.model);
+        let mut machine = state.machine(self.model, self.machine);
         machine.set(axis, 0.0);
-        let at = state.from_machine(&machine, self.model).raw(axis);
+        let at = state.from_machine(&machine, self.model, self.machine).raw(axis);
         state.points.actual.set(axis, at);
         let programmed = self.programmed_of(state.actual(), state);
         state.points.position.set(axis, programmed.raw(axis));

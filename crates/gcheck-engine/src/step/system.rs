@@ -49,7 +49,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             // No page says which point they show while the axes stand beside it.
             V::WorkPosition | V::EndPosition | V::LengthOffset if state.tool_shift.is_on() => D::unknown(),
             V::WorkPosition | V::EndPosition => coordinate(state.actual()),
-            V::MachinePosition => coordinate(&state.machine(self.model)),
+            V::MachinePosition => coordinate(&state.machine(self.model, self.machine)),
             V::ProbePosition => coordinate(&state.probe.point),
             V::ProbeResult => truth(state.probe.result),
             V::LengthOffset => coordinate(&state.tool.length),

@@ -113,7 +113,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     /// Where the axes go for a programmed point.
     pub(super) fn axes_of(&self, programmed: &Position, state: &State<D>) -> Position {
-        let to = state.wrapped().turned(self.transformed(programmed, state));
+        let to = state.mapping.turned(self.transformed(programmed, state), state.actual());
         if state.tool_shift.is_on() { shifted(to, self.tool_shift(programmed, state)) } else { to }
     }
 

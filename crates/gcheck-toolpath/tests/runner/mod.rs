@@ -11,6 +11,7 @@ use gcheck_toolpath::{Plan, Spot, Statistics, Step, Timing, View};
 
 struct Recorder<'a> {
     model: &'a Model<'a>,
+    machine: &'a Machine,
     starts: &'a [usize],
     statistics: Statistics,
     fault: Option<String>,
@@ -20,7 +21,7 @@ impl Observer<Concrete> for Recorder<'_> {
     fn event(&mut self, origin: Origin, state: &State<Concrete>, event: &Event) {
         let line = self.starts.partition_point(|start| *start <= origin.start as usize);
         let spot = Spot { file: "program", line: u32::try_from(line).unwrap(), n: origin.n };
-        let step = Step::seen(event, state, self.model, spot, Units::Mm);
+        let step = Step::seen(event, state, self.model, self.machine, spot, Units::Mm);
         self.statistics.add(&step);
     }
 
@@ -42,7 +43,7 @@ pub(crate) fn figures(control: &str, machine: &Machine, text: &str) -> Statistic
         std::iter::once(0).chain(text.match_indices('\n').map(|(at, _)| at + 1)).collect();
     let view = View::new(&[Axis::X, Axis::Y, Axis::Z]);
     let statistics = Statistics::new(view, timing, model.work_at_power_on()).planned(plan.as_ref());
-    let mut recorder = Recorder { model: &model, starts: &starts, statistics, fault: None };
+    let mut recorder = Recorder { model: &model, machine, starts: &starts, statistics, fault: None };
     run(&program, &model, machine, Options::NONE, 10_000_000, &mut recorder);
     assert_eq!(recorder.fault, None, "{text}");
     recorder.statistics.finish();

@@ -147,6 +147,7 @@ impl Run {
     pub(crate) fn each(&self, mut each: impl FnMut(&Step<'_>)) {
         for step in &self.steps {
             each(&Step {
+                swings: false,
                 event: &step.event,
                 n: step.n,
                 line: step.line,

@@ -141,6 +141,10 @@ pub struct MachineTable {
     pub rotary_sign: BTreeMap<Placed<String>, Placed<i8>>,
     /// From the pivot of a tilting head to the spindle nose.
     pub pivot_length: Option<Placed<f64>>,
+    /// Where the rotary axes of the table meet, in machine coordinates: `{ X = -381.0, Y = -203.2, Z = -550.0 }`.
+    pub rotary_centre: BTreeMap<Placed<String>, Placed<f64>>,
+    /// Rotary axes that reach an angle the shorter way round.
+    pub rotary_shorter_way: Option<Vec<Placed<String>>>,
     /// Length of a new bar, for a lathe with a bar feeder.
     pub bar_length: Option<Placed<f64>>,
     /// Bars to be used up, the one in the chuck among them: `run` and `stats` repeat a main program that feeds bar until then.

@@ -60,6 +60,25 @@ impl<'t> Checked<'t> {
         Ok(Self { text, control: control.transpose()? })
     }
 
+    /// A point has three coordinates.
+    fn rotary_centre(&self, table: &MachineTable) -> Result<(), Problem> {
+        let centre = &table.rotary_centre;
+        for (name, value) in centre {
+            if !["X", "Y", "Z"].iter().any(|axis| name.value.eq_ignore_ascii_case(axis)) {
+                return Err(self.text.problem(name, "rotary_centre is a point: give X, Y and Z"));
+            }
+            if !value.value.is_finite() {
+                return Err(self.text.problem(value, "a machine coordinate is a number"));
+            }
+        }
+        match centre.keys().next() {
+            Some(name) if centre.len() != 3 => {
+                Err(self.text.problem(name, "rotary_centre is a point: give X, Y and Z"))
+            }
+            _ => Ok(()),
+        }
+    }
+
     pub(super) fn machine(&self, table: &MachineTable) -> Result<MachineTable, Problem> {
         let lists = [&table.axes, &table.rotary_order].into_iter().flatten().flatten();
         for axis in lists.chain(table.travel.keys()).chain(table.rotary_sign.keys()) {
@@ -95,6 +114,12 @@ impl<'t> Checked<'t> {
         for sign in table.rotary_sign.values() {
             if !matches!(sign.value, 1 | -1) {
                 return Err(self.text.problem(sign, "a sense of rotation is 1 or -1"));
+            }
+        }
+        self.rotary_centre(table)?;
+        for name in table.rotary_shorter_way.iter().flatten() {
+            if rotary_axis(&name.value).is_none() {
+                return Err(self.text.problem(name, format!("`{}` is not a rotary axis", name.value)));
             }
         }
         let positive = [

@@ -79,8 +79,8 @@ impl<S: Steps> Observer<Concrete> for Bridge<'_, S> {
         };
         let spot = Spot { file: &file, line, n };
         let units = self.session.prepared.equipment.units;
-        let seen = Step::seen(event, state, model, spot, units);
         let machine = &self.session.prepared.equipment.machine;
+        let seen = Step::seen(event, state, model, machine, spot, units);
         let step = Step { beside: Beside::of(state, machine, event), ..seen };
         if let Err(error) = self.steps.step(&step) {
             self.error = Some(error);

@@ -83,6 +83,8 @@ impl Equipment {
             rotary.put(&layer.machine, in_layer);
         }
         equipment.machine.kinematics = rotary.kinematics();
+        equipment.machine.rotary_centre = rotary.centre();
+        equipment.machine.shorter_way = rotary.shorter_way().to_vec();
         equipment.timing = Timing::of_machine(model, &equipment.machine);
         equipment.contradictions(in_force)?;
         equipment.switch_positions(control)?;
@@ -324,7 +326,7 @@ pub(super) fn units(units: config::Units) -> Units {
     }
 }
 
-fn axis_of(name: &str) -> Option<Axis> {
+pub(super) fn axis_of(name: &str) -> Option<Axis> {
     Axis::of(Letter::parse(&name.to_ascii_uppercase())?)
 }
 

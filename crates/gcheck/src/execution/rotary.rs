@@ -5,9 +5,10 @@
 
 use std::collections::BTreeMap;
 
-use gcheck_engine::Units;
+use gcheck_engine::{Axis, Units};
 use gcheck_geometry::{Arrangement, Kinematics, Mm, RotaryAxis};
 
+use super::equipment::axis_of;
 use crate::config::{MachineTable, Placed, Rotary, rotary_axis};
 
 /// What the layers of a configuration say, each over the one before.
@@ -19,6 +20,8 @@ pub(super) struct RotaryAxes {
     named: Vec<RotaryAxis>,
     sign: BTreeMap<usize, f64>,
     pivot_length: Option<Mm>,
+    centre: [Option<Mm>; 3],
+    shorter_way: Vec<Axis>,
 }
 
 impl RotaryAxes {
@@ -48,6 +51,26 @@ impl RotaryAxes {
         if let Some(length) = &table.pivot_length {
             self.pivot_length = Some(Mm(length.value * units.in_mm()));
         }
+        for (name, value) in &table.rotary_centre {
+            let slot = ["X", "Y", "Z"].iter().position(|axis| name.value.eq_ignore_ascii_case(axis));
+            if let Some(slot) = slot.and_then(|index| self.centre.get_mut(index)) {
+                *slot = Some(Mm(value.value * units.in_mm()));
+            }
+        }
+        if let Some(names) = &table.rotary_shorter_way {
+            self.shorter_way = names.iter().filter_map(|name| axis_of(&name.value)).collect();
+        }
+    }
+
+    /// Where the rotary axes of the table meet.
+    pub(super) fn centre(&self) -> Option<[Mm; 3]> {
+        let [x, y, z] = self.centre;
+        Some([x?, y?, z?])
+    }
+
+    /// Rotary axes that reach an angle the shorter way round.
+    pub(super) fn shorter_way(&self) -> &[Axis] {
+        &self.shorter_way
     }
 
     /// The machine's kinematics, if anything was said of them: a tilting head where only the rest is told.

@@ -10,7 +10,7 @@ use std::path::{Component, Path, PathBuf};
 use serde_json::Value;
 
 use super::json;
-use super::sheet::{MARK, NO_KEY, Sheet, rounded};
+use super::sheet::{MARK, Sheet, rounded};
 use super::tools::{Besides, Library, LibraryTool, MOST_TOOLS};
 use crate::config::Units;
 use crate::reading;
@@ -24,7 +24,7 @@ const FOLDERS: [&str; 4] = ["", "../Bit", "../bit", "../../Bit"];
 pub(super) fn read_library(sheet: &mut Sheet<'_>, document: &Value, folder: &Path) {
     let places = json::elements(sheet.text, "tools");
     let mut library = Library::default();
-    let (mut lengths, mut flutes) = (Besides::default(), Besides::default());
+    let mut lengths = Besides::default();
     for (ix, tool) in document.get("tools").and_then(Value::as_array).into_iter().flatten().enumerate() {
         let range = places.get(ix).cloned().unwrap_or(0..1);
         let range = range.start..range.start + 1;
@@ -42,9 +42,6 @@ pub(super) fn read_library(sheet: &mut Sheet<'_>, document: &Value, folder: &Pat
                 if has(&bit, "parameter", "Length") {
                     lengths.add(&range);
                 }
-                if has(&bit, "attribute", "Flutes") || has(&bit, "parameter", "Flutes") {
-                    flutes.add(&range);
-                }
                 if let Some(found) = sizes(sheet, &bit, range.clone(), name) {
                     library.add(sheet, number, found);
                 }
@@ -54,7 +51,6 @@ pub(super) fn read_library(sheet: &mut Sheet<'_>, document: &Value, folder: &Pat
     }
     library.put(sheet);
     lengths.leave(sheet, "`Length`", "it is the length of the whole tool, not the length offset");
-    flutes.leave(sheet, "`Flutes`", NO_KEY);
 }
 
 /// A bit alone: it has no number.
@@ -98,7 +94,9 @@ fn bit_of(folder: &Path, name: &str) -> Result<Value, String> {
 fn sizes(sheet: &mut Sheet<'_>, bit: &Value, range: Range<usize>, name: &str) -> Option<LibraryTool> {
     let parameter = bit.get("parameter")?;
     let asked = sheet.asked;
-    let mut tool = LibraryTool { range, ..LibraryTool::default() };
+    let flutes = |table: &str| bit.get(table)?.get("Flutes");
+    let teeth = flutes("parameter").or_else(|| flutes("attribute")).and_then(count);
+    let mut tool = LibraryTool { range, teeth, ..LibraryTool::default() };
     let title = bit.get("name").and_then(Value::as_str).unwrap_or(name);
     title.trim().clone_into(&mut tool.title);
     let shape = bit.get("shape").and_then(Value::as_str).unwrap_or_default().to_ascii_lowercase();
@@ -130,6 +128,15 @@ fn sizes(sheet: &mut Sheet<'_>, bit: &Value, range: Range<usize>, name: &str) ->
         sheet.units_at = Some(tool.range.clone());
     }
     Some(tool)
+}
+
+/// A count, `4` or `"4"`.
+fn count(value: &Value) -> Option<f64> {
+    match value {
+        Value::Number(number) => number.as_f64(),
+        Value::String(text) => text.trim().parse().ok(),
+        _ => None,
+    }
 }
 
 /// A length with its unit, `"5.0000 mm"`, in millimetres.

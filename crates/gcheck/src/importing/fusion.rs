@@ -8,7 +8,7 @@ use std::ops::Range;
 use serde_json::Value;
 
 use super::json::{self, number};
-use super::sheet::{NO_KEY, Sheet, rounded};
+use super::sheet::{Sheet, rounded};
 use super::tools::{Besides, Library, LibraryTool};
 use crate::config::Units;
 
@@ -21,7 +21,7 @@ pub(super) fn read(sheet: &mut Sheet<'_>, document: &Value) {
     let places = json::elements(sheet.text, "data");
     let mut library = Library::default();
     file_units(sheet, data, &places);
-    let (mut flutes, mut bodies) = (Besides::default(), Besides::default());
+    let mut bodies = Besides::default();
     for (ix, tool) in data.iter().enumerate() {
         let range = places.get(ix).cloned().unwrap_or(0..1);
         let head = range.start..range.start + 1;
@@ -42,9 +42,6 @@ pub(super) fn read(sheet: &mut Sheet<'_>, document: &Value) {
         if length.is_none() && size("LB").is_some() {
             bodies.add(&head);
         }
-        if size("NOF").is_some() {
-            flutes.add(&head);
-        }
         // A turning tool has a nose and no diameter.
         let diameter = if kind.starts_with("turning") { None } else { size("DC") };
         let corner_radius = size("RE").filter(|radius| *radius != 0.0);
@@ -53,11 +50,10 @@ pub(super) fn read(sheet: &mut Sheet<'_>, document: &Value) {
             corner_radius.or(if is_ball { diameter.map(|diameter| diameter / 2.0) } else { None });
         let process = tool.get("post-process").and_then(|process| process.get("number"));
         let [diameter, length, corner_radius] = [diameter, length, corner_radius].map(|size| size.map(scale));
-        let found = LibraryTool { diameter, length, corner_radius, range: head, title };
+        let found = LibraryTool { diameter, length, corner_radius, teeth: size("NOF"), range: head, title };
         library.add(sheet, process.and_then(number), found);
     }
     library.put(sheet);
-    flutes.leave(sheet, "`NOF` (flutes)", NO_KEY);
     bodies.leave(sheet, "`LB`", "it is the length below the holder, not the length offset");
 }
 

@@ -262,6 +262,7 @@ fn value(target: &Target<'_>, fact: &Fact, from: Option<Units>, to: Option<Units
         Value::Length(length) => (in_units(*length) + 0.0).into(),
         Value::Ends(both) => ends(both.map(in_units)),
         Value::Number(number) => (*number + 0.0).into(),
+        Value::Count(count) => i64::from(*count).into(),
         Value::Plain(both) => ends(*both),
         Value::Text(text) => text.as_str().into(),
         Value::List(names) => names.iter().map(String::as_str).collect::<Array>().into(),

@@ -19,6 +19,8 @@ pub(super) enum Value {
     Ends([f64; 2]),
     /// Counts in something else: degrees, revolutions, seconds.
     Number(f64),
+    /// A whole number of things.
+    Count(u32),
     /// Two ends that count in something else.
     Plain([f64; 2]),
     /// A name.

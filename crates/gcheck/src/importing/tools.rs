@@ -9,6 +9,8 @@ use super::sheet::{Sheet, Value};
 
 /// More tools than this are a mistake.
 pub(super) const MOST_TOOLS: usize = 10_000;
+/// A tool with more is a mistake.
+const MOST_TEETH: f64 = 100.0;
 /// The highest number that a program can call.
 const HIGHEST_NUMBER: f64 = 99_999_999.0;
 
@@ -18,6 +20,8 @@ pub(super) struct LibraryTool {
     pub(super) diameter: Option<f64>,
     pub(super) length: Option<f64>,
     pub(super) corner_radius: Option<f64>,
+    /// How many cutting edges it has; no length.
+    pub(super) teeth: Option<f64>,
     /// Its place in the file, and what it is called.
     pub(super) range: Range<usize>,
     pub(super) title: String,
@@ -25,7 +29,7 @@ pub(super) struct LibraryTool {
 
 impl LibraryTool {
     fn is_as(&self, other: &Self) -> bool {
-        let sizes = |tool: &Self| [tool.diameter, tool.length, tool.corner_radius];
+        let sizes = |tool: &Self| [tool.diameter, tool.length, tool.corner_radius, tool.teeth];
         sizes(self) == sizes(other)
     }
 }
@@ -116,6 +120,20 @@ impl Library {
                         &place,
                     );
                     sizes += 1;
+                }
+            }
+            if let Some(teeth) = tool.teeth {
+                if teeth.fract() == 0.0 && (1.0..=MOST_TEETH).contains(&teeth) {
+                    #[expect(clippy::cast_sign_loss, reason = "whole, and in the range of u32")]
+                    let teeth = teeth as u32;
+                    let path = ["tools", &number.to_string(), "teeth"];
+                    sheet.put(&path, Value::Count(teeth), &tool.range, &place);
+                } else {
+                    sheet.leave(
+                        &tool.range,
+                        format!("the teeth of tool {number}"),
+                        format!("{teeth} is not a number of teeth"),
+                    );
                 }
             }
             if sizes == 0 {

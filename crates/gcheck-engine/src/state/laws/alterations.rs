@@ -162,6 +162,13 @@ fn paths() -> Vec<(&'static str, Alter)> {
         ("tolerance of blending", |s| s.blending.tolerance = 0.1),
         ("second tolerance of blending", |s| s.blending.naive = Some(0.1)),
         ("unit of the tolerances of blending", |s| s.blending.unit = 25.4),
+        ("level of smoothing", |s| s.blending.smoothing_level = Some(1.0)),
+        ("tolerance of smoothing", |s| s.blending.smoothing_tolerance = Some(0.1)),
+        ("contour control", |s| s.blending.contour = Some(1.0)),
+        ("tilted plane", |s| s.mapping.tilted = Perhaps::Yes(made())),
+        ("face of the part", |s| {
+            s.mapping.face = Face::On(PolarPlane { rotary: Axis::C, zero: 0.0, stands: 0.0, far: false });
+        }),
         ("control points", |s| s.curve = Perhaps::Yes(ControlPoints(Rc::new(vec![[1.0; 3]])))),
         ("touched point", |s| s.probe.point = point()),
         ("result of the probe", |s| s.probe.result = Truth::True),

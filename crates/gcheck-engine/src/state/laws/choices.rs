@@ -106,7 +106,14 @@ made! {
         angles: [c.make(), c.make()],
         orientation: c.make(),
     };
-    Blending, 3, c => Blending { tolerance: c.make(), naive: c.make(), unit: c.make() };
+    Blending, 9, c => Blending {
+        tolerance: c.make(),
+        naive: c.make(),
+        unit: c.make(),
+        smoothing_level: c.make(),
+        smoothing_tolerance: c.make(),
+        contour: c.make(),
+    };
     CoolantState, 2, c => {
         let mut coolant = CoolantState::all(c.make());
         coolant.mist = c.make();
@@ -225,8 +232,23 @@ made! {
             zero: c.make(),
         }),
     };
-    Mapping, 8, c => {
-        let mut mapping = Mapping { wrapped: c.make(), ..Mapping::default() };
+    Face, 5, c => match c.below(4) {
+        0 => Face::Off,
+        3 => Face::Unknown,
+        _ => Face::On(PolarPlane {
+            rotary: c.one_of(&[Axis::B, Axis::C]),
+            zero: c.make(),
+            stands: c.make(),
+            far: c.make(),
+        }),
+    };
+    TiltedPlane, 6, c => TiltedPlane {
+        origin: [c.make(), c.make(), c.make()],
+        turns: [c.make(), c.make(), c.make()],
+    };
+    Mapping, 18, c => {
+        let mut mapping =
+            Mapping { wrapped: c.make(), face: c.make(), tilted: c.some(), ..Mapping::default() };
         for axis in [Axis::A, Axis::B] {
             if c.make::<bool>() {
                 mapping.diameters.set(axis, c.make());

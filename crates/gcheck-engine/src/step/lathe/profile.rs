@@ -66,7 +66,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if !self.takes_label(ix, "P") {
             return self.layered_cycle(effect, ix, state);
         }
-        let (p, q) = (self.raw('P', state), self.raw('Q', state));
+        let (p, q) = (self.raw(Letter::of('P'), state), self.raw(Letter::of('Q'), state));
         let (first, last) = match (p, q) {
             (None, None) if effect != Effect::FinishProfile => {
                 return self.store_first_block(effect, state);
@@ -130,7 +130,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let length = |letter: char| self.length(Letter::of(letter), state);
         let (in_x, in_z, back) = (length('U'), length('W'), length('R'));
         if effect == Effect::RepeatPattern {
-            let passes = self.raw('R', state);
+            let passes = self.raw(Letter::of('R'), state);
             not_positive('R', passes)?;
             // `R4`, and `R0.004` on controls that want a point, are both four passes.
             let [x, z, count] = &mut words.pattern;
@@ -219,7 +219,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// How often and from how far: `D` with `K` and `I` in one block, else what the first block said.
     fn pattern(&mut self, stock: (Mm, Mm), more: (Mm, Mm), state: &State<D>) -> Option<PatternRepeat> {
         let [x, z, stored] = state.turning().pattern;
-        let (count, total) = match self.raw('D', state) {
+        let (count, total) = match self.raw(Letter::of('D'), state) {
             Some(count) => (count, more),
             None => (stored?, (Mm(z.unwrap_or(0.0)), Mm(x.unwrap_or(0.0)))),
         };

@@ -64,7 +64,8 @@ impl PathRule for MoveOutsideTravel {
     fn moved(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
         let travel = &cx.environment.machine.engine.travel;
         let Some(to) = end_of(event) else { return };
-        let machine = machine_words(cx).unwrap_or_else(|| cx.state().to_machine(&to, cx.model));
+        let machine = machine_words(cx)
+            .unwrap_or_else(|| cx.state().to_machine(&to, cx.model, &cx.environment.machine.engine));
         for (axis, (lowest, highest)) in travel {
             let Some(told) = self.is_outside.get_mut(axis.index()) else { continue };
             let Some(value) = machine.get(*axis) else {

@@ -1,0 +1,139 @@
+//! A flat plane that lies tilted in the part, and the angles at which a tool is square to it.
+//!
+//! Knows: origin and directions of the plane, machines with two rotary axes. Must not know: how a program gives a plane, which
+//! code swings the tool.
+
+use nalgebra::{Matrix3, Vector3};
+
+use crate::frame::Frame;
+use crate::kinematics::{Arrangement, Kinematics, RotaryAxis};
+use crate::plane::Plane;
+use crate::units::{Degrees, Mm};
+
+/// A direction this near to an axis, by its length, lies along it.
+const ALONG: f64 = 1e-9;
+
+/// The plane that three turns make: about Z, about the new X, about the new Z.
+pub fn by_euler_angles(origin: [Mm; 3], [first, second, third]: [Degrees; 3]) -> Frame {
+    let about = |plane: Plane, angle: Degrees| *Frame::rotation(plane, (Mm::ZERO, Mm::ZERO), angle).linear();
+    let turned = about(Plane::Xy, first) * about(Plane::Yz, second) * about(Plane::Xy, third);
+    Frame::from_parts(turned, origin)
+}
+
+impl Kinematics {
+    /// The angles of A, B and C at which the tool lies along a direction of the part, of length 1: two ways in general, each as
+    /// near to `from` as whole turns allow. An axis that the machine does not have keeps its angle, and so does one about which
+    /// the tool lies. Empty where no angles do it.
+    pub fn square_to(&self, direction: Vector3<f64>, from: [Degrees; 3]) -> Vec<[Degrees; 3]> {
+        let ([first, second], [first_sign, second_sign]) = (self.order, self.sign);
+        // The direction is that of Z, turned about `inner` and then about `outer`; turning the part is turning the tool back.
+        let ((outer, outer_sign), (inner, inner_sign)) = match self.arrangement {
+            Arrangement::HeadHead => ((first, first_sign), (second, second_sign)),
+            Arrangement::TableTable => ((second, -second_sign), (first, -first_sign)),
+            Arrangement::HeadTable => ((second, -second_sign), (first, first_sign)),
+        };
+        let about_outer = axis(outer);
+        let along = direction.dot(&about_outer);
+        let tilts = match (inner, outer) {
+            (RotaryAxis::C, _) => vec![0.0],
+            (_, RotaryAxis::C) => both(along.clamp(-1.0, 1.0).acos(), |angle| -angle),
+            (RotaryAxis::B, _) => both(along.clamp(-1.0, 1.0).asin(), |angle| std::f64::consts::PI - angle),
+            (RotaryAxis::A, _) => {
+                both((-along).clamp(-1.0, 1.0).asin(), |angle| std::f64::consts::PI - angle)
+            }
+        };
+        let mut all = Vec::new();
+        for tilt in tilts {
+            let tilted = turn(inner, tilt) * Vector3::z();
+            let flat = |vector: Vector3<f64>| vector - about_outer * vector.dot(&about_outer);
+            let (start, end) = (flat(tilted), flat(direction));
+            let mut angles = from;
+            put(&mut angles, inner, tilt.to_degrees() * inner_sign);
+            if start.norm() > ALONG && end.norm() > ALONG {
+                let swing = about_outer.dot(&start.cross(&end)).atan2(start.dot(&end));
+                put(&mut angles, outer, swing.to_degrees() * outer_sign);
+            }
+            if (self.tool_axis_in_part(angles) - direction).norm() < 1e-6 {
+                all.push(angles);
+            }
+        }
+        all
+    }
+}
+
+fn both(angle: f64, other: impl Fn(f64) -> f64) -> Vec<f64> {
+    let second = other(angle);
+    if (second - angle).abs() < 1e-12 { vec![angle] } else { vec![angle, second] }
+}
+
+/// Puts the angle of an axis as near to the one before as whole turns allow.
+fn put(angles: &mut [Degrees; 3], axis: RotaryAxis, angle: f64) {
+    if let Some(slot) = angles.get_mut(axis.index()) {
+        let before = if slot.0.is_nan() { 0.0 } else { slot.0 };
+        *slot = Degrees(angle - 360.0 * ((angle - before) / 360.0).round());
+    }
+}
+
+fn axis(axis: RotaryAxis) -> Vector3<f64> {
+    match axis {
+        RotaryAxis::A => Vector3::x(),
+        RotaryAxis::B => Vector3::y(),
+        RotaryAxis::C => Vector3::z(),
+    }
+}
+
+fn turn(axis: RotaryAxis, angle: f64) -> Matrix3<f64> {
+    *Frame::rotation(axis.plane(), (Mm::ZERO, Mm::ZERO), Degrees(angle.to_degrees())).linear()
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    #[test]
+    fn three_turns_lay_the_plane() {
+        let frame =
+            by_euler_angles([Mm(10.0), Mm(0.0), Mm(0.0)], [Degrees(90.0), Degrees(90.0), Degrees(0.0)]);
+        let near = |point: [Mm; 3], other: [f64; 3]| {
+            point.iter().zip(other).all(|(a, b)| a.is_near(Mm(b), Mm(1e-9)))
+        };
+        // Z of the plane: Z turned about X by a right angle points to -Y, and about Z on to X.
+        assert!(near(frame.apply([Mm(0.0), Mm(0.0), Mm(5.0)]), [15.0, 0.0, 0.0]));
+        assert!(near(frame.apply([Mm(5.0), Mm(0.0), Mm(0.0)]), [10.0, 5.0, 0.0]));
+    }
+
+    #[test]
+    fn a_trunnion_turns_the_face_up() {
+        let machine = Kinematics {
+            arrangement: Arrangement::TableTable,
+            order: [RotaryAxis::A, RotaryAxis::C],
+            sign: [1.0; 2],
+            pivot_length: None,
+        };
+        // A face that looks along X is turned by C to look along Y, and by A up; or the other way round.
+        let ways = machine.square_to(Vector3::x(), [Degrees(0.0); 3]);
+        let shown: Vec<[f64; 3]> = ways.iter().map(|angles| angles.map(|angle| angle.0.round())).collect();
+        assert_eq!(shown, [[90.0, 0.0, 90.0], [-90.0, 0.0, -90.0]]);
+    }
+
+    proptest! {
+        #[test]
+        fn a_tool_is_square_at_the_angles_found(
+            at in prop::array::uniform3(-170.0..170.0_f64), first in 0..3_usize, step in 1..3_usize,
+            arrangement in prop::sample::select(vec![Arrangement::HeadHead, Arrangement::TableTable, Arrangement::HeadTable]),
+            signs in prop::array::uniform2(prop::sample::select(vec![1.0, -1.0])),
+        ) {
+            let axes = [RotaryAxis::A, RotaryAxis::B, RotaryAxis::C];
+            let order = [axes[first], axes[(first + step) % 3]];
+            let machine = Kinematics { arrangement, order, sign: signs, pivot_length: None };
+            let direction = machine.tool_axis_in_part(at.map(Degrees));
+            let ways = machine.square_to(direction, [Degrees(0.0); 3]);
+            prop_assert!(!ways.is_empty(), "{machine:?} {at:?}");
+            for way in ways {
+                prop_assert!((machine.tool_axis_in_part(way) - direction).norm() < 1e-6);
+            }
+        }
+    }
+}
