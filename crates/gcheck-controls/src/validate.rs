@@ -419,6 +419,11 @@ impl Problems<'_> {
                 self.say(PLACE, format!("`{name}` drills across, but is not a canned cycle here"));
             }
         }
+        if let Some(axis) = &semantics.polar_interpolation_axis
+            && Letter::parse(axis).is_none_or(|axis| !control.axes().contains(axis))
+        {
+            self.say(PLACE, format!("polar interpolation adds `{axis}`, which is not an axis here"));
+        }
         for (letter, axis) in &semantics.increments {
             if letter == axis || Letter::parse(axis).is_none_or(|axis| !control.axes().contains(axis)) {
                 self.say(

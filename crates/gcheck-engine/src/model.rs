@@ -189,6 +189,8 @@ pub struct Model<'c> {
     /// By address: the axis that it moves, and whether it is an increment whatever the mode.
     axis_of: [Option<(Axis, bool)>; Letter::COUNT],
     pub(crate) axes: Vec<Axis>,
+    /// The linear axis that polar interpolation adds.
+    pub(crate) polar_axis: Option<Axis>,
     /// Addresses that name an axis or its increment.
     pub(crate) axis_letters: LetterSet,
     /// The words of a straight cut that shape its end or give its direction.
@@ -278,6 +280,10 @@ impl<'c> Model<'c> {
             scaled: scaled_kinds(control),
             axis_of,
             axes,
+            polar_axis: semantics
+                .polar_interpolation_axis
+                .as_ref()
+                .and_then(|axis| Axis::of(Letter::parse(axis)?)),
             axis_letters,
             corners: CornerWords::default(),
             lasting: lasting_letters(control),

@@ -259,6 +259,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             let Some(mut value) = self.words.number(letter) else { continue };
             if let Some(machine) = &self.machine.axes
                 && !machine.contains(&axis)
+                && !self.is_polar_axis(axis, state)
             {
                 return Err(Fault::NoSuchAxis(letter));
             }
@@ -290,6 +291,12 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             }
         }
         Ok(target)
+    }
+
+    /// May polar interpolation make moves of this axis from those of others, so that the machine need not have it?
+    fn is_polar_axis(&self, axis: Axis, state: &State<D>) -> bool {
+        self.model.polar_axis == Some(axis)
+            && state.may_be(Role::PolarInterpolation, Effect::PolarInterpolationOn, self.model)
     }
 
     /// `@` and `^`: distance and angle from the XY origin.
