@@ -686,3 +686,90 @@ fn rotary_axes_that_cannot_be() {
     "#]],
     );
 }
+
+/// Each was accepted without a word, or no machine has it.
+#[test]
+fn figures_and_axes_that_no_machine_has() {
+    let mut messages = String::new();
+    for (control, table) in [
+        ("haas-mill", "[machine]\naxes = []"),
+        ("haas-mill", "[machine]\ntravel = { X = [nan, 5.0] }"),
+        ("haas-mill", "[machine]\ntravel = { X = [0.0, inf] }"),
+        ("haas-mill", "[machine]\ntravel = { X = [0.0, 1.0], x = [0.0, 2.0] }"),
+        ("haas-mill", "[machine]\nrapid = { X = 1000.0, x = 2.0 }"),
+        ("haas-mill", "[offsets]\nG54 = { X = 1.0, x = 2.0 }"),
+        ("haas-mill", "[machine]\nfeed_override = 0"),
+        ("haas-mill", "[machine]\nfeed_override = 5000"),
+        ("generic-mill", "[machine]\nfeed_override = 5000"),
+        ("haas-mill", "[machine]\nacceleration = 1000.0\njerk = 1e-9"),
+        ("haas-mill", "[machine]\njerk = 50000.0"),
+        ("haas-mill", "[machine]\nacceleration = { A = 100.0 }"),
+        ("haas-mill", "[machine]\nacceleration = 1e30"),
+        ("haas-mill", "[machine]\nunits = \"inch\"\nacceleration = { X = 1e30 }"),
+        ("haas-mill", "[machine]\nspindle_acceleration = 1"),
+        ("haas-mill", "[machine]\nspindle_acceleration = 1e20"),
+        ("haas-mill", "[machine]\ntool_change_seconds = 1e9"),
+        ("haas-mill", "[machine]\nspindle_orient_seconds = 1e4"),
+        ("haas-mill", "[machine]\npockets = 4000000000"),
+        ("haas-mill", "[machine]\naxes = [\"X\", \"Y\", \"Z\"]\ntravel = { A = [0.0, 90.0] }"),
+        ("haas-mill", "[machine]\naxes = [\"X\", \"Z\"]\nrapid = { X = 100.0, Y = 100.0 }"),
+        ("haas-mill", "[machine]\naxes = [\"X\", \"Y\", \"Z\", \"A\"]\nrotary_order = [\"A\", \"B\"]"),
+        ("haas-mill", "[machine]\naxes = [\"X\", \"Y\", \"Z\", \"A\"]\nrotary = \"table-table\""),
+        ("haas-mill", "[machine]\nrotary_sign = { X = 1 }"),
+        ("haas-mill", "[tools]\n1 = { surface_speed = [60.0, 140.0] }"),
+        ("haas-mill", "[tools]\n1 = { diameter = 0.0, surface_speed = [60.0, 140.0] }"),
+        ("grbl", "[machine]\npreset = \"sherline-5400\"\nunits = \"inch\"\nmax_feed = 900.0"),
+    ] {
+        let config = format!("control = \"{control}\"\n{table}\n");
+        let shop = Shop::with(&[("part.nc", GOOD), ("gcheck.toml", &config)]);
+        let run = shop.gcheck("check part.nc");
+        assert_eq!((run.code, run.stdout.as_str()), (2, ""), "{table}: {run}");
+        let first = run.stderr.lines().next().unwrap_or_default();
+        let _ = writeln!(messages, "{}\n  {first}", table.replace('\n', " | "));
+    }
+    expect![[""]].assert_eq(&messages);
+}
+
+/// What one machine has and another lacks, and figures that shops write.
+#[test]
+fn figures_of_real_machines_are_taken() {
+    for (control, table) in [
+        (
+            "haas-mill",
+            "[machine]\nunits = \"inch\"\nrapid = 1000.0\nacceleration = 40.0\njerk = 4000.0\nspindle_acceleration = 4000",
+        ),
+        (
+            "haas-mill",
+            "[machine]\nunits = \"mm\"\nacceleration = { X = 5000.0, A = 2000.0 }\ntool_change_seconds = 90",
+        ),
+        (
+            "haas-mill",
+            "[machine]\naxes = [\"x\", \"Y\", \"Z\", \"B\", \"C\"]\nrotary = \"table-table\"\nrotary_order = [\"B\", \"c\"]\ntravel = { X = [0.0, 9.0] }",
+        ),
+        ("haas-mill", "[machine]\nfeed_override = 120\npockets = 40"),
+        ("generic-mill", "[machine]\nfeed_override = 0"),
+        ("haas-lathe", "[tools]\n1 = { surface_speed = [60.0, 140.0] }"),
+        ("linuxcnc", "[tools]\n1 = { surface_speed = [60.0, 140.0] }"),
+        ("haas-mill", "[tools]\n1 = { diameter = -0.02 }\n2 = { diameter = 0.0 }"),
+    ] {
+        let config = format!("control = \"{control}\"\n{table}\n");
+        let shop = Shop::with(&[("part.nc", GOOD), ("gcheck.toml", &config)]);
+        let run = shop.gcheck("check part.nc");
+        assert!(run.code < 2, "{table}: {run}");
+    }
+}
+
+/// A part of a machine may come with the command line, or with another file.
+#[test]
+fn what_one_text_leaves_out_another_may_give() {
+    let shop = Shop::with(&[
+        ("part.nc", GOOD),
+        ("gcheck.toml", "control = \"haas-mill\"\n[machine]\nacceleration = 1000.0\n"),
+    ]);
+    let run = shop.gcheck("check part.nc --config machine.jerk=50000.0");
+    assert!(run.code < 2, "{run}");
+    let shop = Shop::with(&[("part.nc", GOOD)]);
+    expect![[""]].assert_eq(
+        &shop.gcheck("check part.nc --control haas-mill --config machine.jerk=50000.0").to_string(),
+    );
+}
