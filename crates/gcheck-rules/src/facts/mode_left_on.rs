@@ -50,11 +50,13 @@ struct Carried {
     after_call: Option<(At, Range<u32>)>,
     /// The first cut.
     first_cut: Option<At>,
+    /// The block that switched on the mode with which something was cut last.
+    cut_with: Option<At>,
     /// A cut was reported: later cuts and the end of the program are not.
     is_reported: bool,
 }
 
-remembers!(Carried: first_tool, over, own, after_call, first_cut);
+remembers!(Carried: first_tool, over, own, after_call, first_cut, cut_with);
 
 impl ModeLeftOn {
     pub(crate) fn new(mode: &'static Mode) -> Self {
@@ -85,11 +87,11 @@ impl ModeLeftOn {
         Some(cx.resting_on(finding, Fact::Mode(role), &format!("`{name}`")))
     }
 
-    /// Was the mode switched on before anything was cut?
-    fn is_from_head(&self, cx: &PathCx<'_>) -> bool {
+    /// Was the mode switched on for the whole program: before anything was cut, or where nothing is cut any more?
+    fn is_usual(&self, cx: &PathCx<'_>) -> bool {
         let set = cx.definitions().set_by(Fact::Mode(self.mode.role));
         match (set, self.carried.first_cut) {
-            (Some(set), Some(cut)) => is_before(set, cut),
+            (Some(at), Some(cut)) => is_before(at, cut) || self.carried.cut_with != set,
             _ => true,
         }
     }
@@ -99,7 +101,7 @@ impl ModeLeftOn {
         if self.carried.is_reported {
             return;
         }
-        if self.mode.is_usual_from_head && self.is_from_head(cx) {
+        if self.mode.is_usual_from_head && self.is_usual(cx) {
             return;
         }
         let Some(finding) = left_at_end(cx, rule, role, |effect| effect == on, at_end) else { return };
@@ -151,6 +153,9 @@ impl PathRule for ModeLeftOn {
         let set = cx.definitions().set_by(Fact::Mode(role));
         let is_first = self.carried.after_call.as_ref().is_none_or(|(at, _)| Some(*at) != set);
         let is_on = cx.state().effect(role, cx.model) == Some(self.mode.on);
+        if is_on {
+            self.carried.cut_with = set;
+        }
         if is_on && is_first && cx.depth() == 1 && set != self.carried.own {
             self.carried.after_call = set.map(|at| (at, cx.range()));
         }

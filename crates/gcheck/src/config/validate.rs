@@ -297,7 +297,8 @@ impl<'t> Checked<'t> {
     /// What a table says against the preset that it names.
     pub(super) fn against_preset(&self, own: &MachineTable, preset: &MachineTable) -> Result<(), Problem> {
         let named = own.preset.as_ref().map_or("", |name| name.value.0.as_str());
-        let Some((units, theirs)) = own.units.or(preset.units).zip(preset.units) else { return Ok(()) };
+        // Without a unit the figures count as the control does, and that is known where the layers come together.
+        let Some((units, theirs)) = own.units.zip(preset.units) else { return Ok(()) };
         // From the units of the preset to those of the table.
         let scale = mm(theirs) / mm(units);
         let rapid =

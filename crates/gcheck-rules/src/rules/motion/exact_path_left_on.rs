@@ -11,7 +11,7 @@ declare_rule! {
     /// Exact path (`G61`) that the work of one tool switches on is still on when the next tool cuts, or when the program ends, and
     /// the program never goes back to blending (`G64`).
     ///
-    /// A mode from the head of the program is meant for all its work.
+    /// A mode from the head of the program is meant for all its work, and one after the last cut for what runs next.
     ///
     /// ## Why it matters
     /// The axes slow down at every corner, most of all between short segments. What was meant for one contour makes the rest
@@ -88,6 +88,11 @@ mod tests {
             "G21 G90 G94\nT1 M6\nG0 X0\nG1 X10 F100\nG61\nY10\nT2 M6\nG1 X20\nX30\nM2\n",
             &expect![[""]],
         );
+    }
+
+    #[test]
+    fn what_comes_after_the_last_cut_is_for_the_next_program() {
+        check_rule(&RULE, "linuxcnc", "G21 G90 G64\nG0 X0\nG1 X10 F100\nG61\nG0 X0\nM2\n", &expect![[""]]);
     }
 
     #[test]
