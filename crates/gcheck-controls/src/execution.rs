@@ -506,6 +506,9 @@ pub struct Semantics {
     /// The settings that hold where the axes of a table meet: machine coordinates X, Y and Z.
     #[serde(default)]
     pub rotary_centre_settings: Option<[String; 3]>,
+    /// What a feed per minute counts where rotary axes move; without it the books do not say.
+    #[serde(default)]
+    pub feed_with_rotary: Option<FeedWithRotary>,
     /// What `G52` and `G92` are to each other.
     pub local_shift: LocalShift,
     /// The setting that decides whether the end of a program clears the shift of `G52`, with the values that do.
@@ -545,6 +548,16 @@ pub struct Semantics {
     pub source: String,
     /// How sure it is.
     pub confidence: Confidence,
+}
+
+/// What a feed per minute counts where rotary axes move. Where only they move it counts degrees.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum FeedWithRotary {
+    /// The way of the linear axes; the rotary ones come along.
+    LinearAxes,
+    /// The way of all axes together, with a degree for each millimetre or inch.
+    AllAxes,
 }
 
 /// A setting under which the control refuses the length of another tool than the one in the spindle; zero is allowed.

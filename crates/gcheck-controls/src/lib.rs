@@ -32,10 +32,10 @@ pub use control::{Code, CodeIx, Control, GroupIx, UserCode, Variable};
 pub use detect::{Evidence, Foreign, Guess, Score, foreign, guess, may_be_for, scores};
 pub use execution::{
     AlongTool, ArcRules, CompensationRefusals, CompensationRules, CompensationStyle, CycleRules,
-    CylinderRules, DwellWord, Effect, Fix, HelixFeed, HelixRules, LastingEnd, LastingFrom, LastingWords,
-    LengthAgreement, LocalShift, MessageComment, MirroredVariables, OffsetValue, PolarInterpolationRules,
-    ProbeFeed, Refusals, ReturnTo, Semantics, SystemValue, SystemVariable, ToolRules, TransformSettings,
-    Unset,
+    CylinderRules, DwellWord, Effect, FeedWithRotary, Fix, HelixFeed, HelixRules, LastingEnd, LastingFrom,
+    LastingWords, LengthAgreement, LocalShift, MessageComment, MirroredVariables, OffsetValue,
+    PolarInterpolationRules, ProbeFeed, Refusals, ReturnTo, Semantics, SystemValue, SystemVariable,
+    ToolRules, TransformSettings, Unset,
 };
 pub use letter_set::{Letter, LetterSet};
 pub use loader::{LoadError, fallback, load, names};

@@ -419,6 +419,13 @@ impl Problems<'_> {
                 self.say(PLACE, format!("`{name}` drills across, but is not a canned cycle here"));
             }
         }
+        if let Some(rules) = &semantics.polar_interpolation {
+            for axis in [rules.rotary, rules.second] {
+                if Letter::parse(&axis.to_string()).is_none_or(|axis| !control.axes().contains(axis)) {
+                    self.say(PLACE, format!("polar interpolation moves `{axis}`, which is not an axis here"));
+                }
+            }
+        }
         for (letter, axis) in &semantics.increments {
             if letter == axis || Letter::parse(axis).is_none_or(|axis| !control.axes().contains(axis)) {
                 self.say(

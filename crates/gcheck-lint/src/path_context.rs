@@ -269,9 +269,14 @@ impl<'a> PathCx<'a> {
         self.code_of(code).map(|code| code.number().to_string()).unwrap_or_default()
     }
 
-    /// The first code of the control with an effect, as programs write it.
+    /// The code of the control with an effect, as programs write it: of several the one in effect at power-on, else the first.
     pub fn name_of_effect(&self, effect: Effect) -> Option<String> {
-        let code = self.control().codes().find(|code| code.effect() == effect)?;
+        let codes = || self.control().codes().filter(|code| code.effect() == effect);
+        let is_usual = |code: &Code<'_>| {
+            let usual = code.group().default.as_deref().and_then(CodeNumber::parse);
+            usual == Some(code.number())
+        };
+        let code = codes().find(is_usual).or_else(|| codes().next())?;
         Some(code.number().to_string())
     }
 

@@ -42,7 +42,7 @@ impl World<'_> {
     /// What the examples of a rule's documentation hold in. Rules of the group `machine` speak only of what is configured:
     /// axes X, Y, Z and A, 8000 turns and 10 m a minute, 500 mm of travel each way, `G54` at the machine's zero, tools 1 to 3,
     /// rotary axes of diameter 0, Haas controls set to inches, 0.01 s for a block and two blocks ahead,
-    /// 100 mm/s² on X, Y and Z; tool 1 has four teeth that cut 0.02 to 0.06 mm at 60 to 160 m a minute. Those of the group `bar_feeder` have new bars of 1000 mm, and in another file a program
+    /// 100 mm/s² on X, Y and Z, 500 rpm a second of the spindle; tool 1 has four teeth that cut 0.02 to 0.06 mm at 60 to 160 m a minute. Those of the group `bar_feeder` have new bars of 1000 mm, and in another file a program
     /// 9099 that ends the job.
     pub(crate) fn of_examples(rule: &RuleMeta) -> Self {
         Self::of_group(rule.group)
@@ -88,6 +88,7 @@ impl World<'_> {
                     block_time: Some(Seconds(0.01)),
                     look_ahead: Some(2),
                     acceleration: [Axis::X, Axis::Y, Axis::Z].into_iter().map(|axis| (axis, 100.0)).collect(),
+                    spindle_acceleration: Some(Rpm(500.0)),
                     ..Dynamics::default()
                 },
                 ..Machine::default()

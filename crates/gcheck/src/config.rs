@@ -33,7 +33,7 @@ pub use preset_name::PresetName;
 pub(crate) use read::{check_text, layer_of_text};
 pub use settings::{FileSettings, RuleWishes};
 pub(crate) use validate::{
-    implausible_acceleration, rotary_axis, unknown_rule, validate_control, work_offset,
+    JERK_ALONE, NO_LINEAR, implausible_acceleration, rotary_axis, unknown_rule, validate_control, work_offset,
 };
 
 use crate::{Problem, paths};

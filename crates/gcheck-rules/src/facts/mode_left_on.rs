@@ -25,6 +25,8 @@ pub(crate) struct Mode {
     pub(crate) at_end: &'static str,
     /// What is to be switched off: "scaling".
     pub(crate) switched: &'static str,
+    /// Programs choose the mode at their head for all their work, and leave it on.
+    pub(crate) is_usual_from_head: bool,
 }
 
 /// Looks whether a mode is left on: by tools for the next one, or by the program at its end.
@@ -46,11 +48,15 @@ struct Carried {
     own: Option<At>,
     /// The first cut of the main program with a mode that a subprogram has left on, and the block that switched it on.
     after_call: Option<(At, Range<u32>)>,
+    /// The first cut.
+    first_cut: Option<At>,
+    /// The block that switched on the mode with which something was cut last.
+    cut_with: Option<At>,
     /// A cut was reported: later cuts and the end of the program are not.
     is_reported: bool,
 }
 
-remembers!(Carried: first_tool, over, own, after_call);
+remembers!(Carried: first_tool, over, own, after_call, first_cut, cut_with);
 
 impl ModeLeftOn {
     pub(crate) fn new(mode: &'static Mode) -> Self {
@@ -81,9 +87,21 @@ impl ModeLeftOn {
         Some(cx.resting_on(finding, Fact::Mode(role), &format!("`{name}`")))
     }
 
+    /// Was the mode switched on for the whole program: before anything was cut, or where nothing is cut any more?
+    fn is_usual(&self, cx: &PathCx<'_>) -> bool {
+        let set = cx.definitions().set_by(Fact::Mode(self.mode.role));
+        match (set, self.carried.first_cut) {
+            (Some(at), Some(cut)) => is_before(at, cut) || self.carried.cut_with != set,
+            _ => true,
+        }
+    }
+
     fn check_end(&self, cx: &PathCx<'_>, report: &mut Report<'_>) {
         let Mode { rule, role, on, off, at_end, switched, .. } = *self.mode;
         if self.carried.is_reported {
+            return;
+        }
+        if self.mode.is_usual_from_head && self.is_usual(cx) {
             return;
         }
         let Some(finding) = left_at_end(cx, rule, role, |effect| effect == on, at_end) else { return };
@@ -131,9 +149,13 @@ impl PathRule for ModeLeftOn {
 
     fn cut(&mut self, cx: &PathCx<'_>, _: &Event, report: &mut Report<'_>) {
         let role = self.mode.role;
+        self.carried.first_cut.get_or_insert(cx.origin().at);
         let set = cx.definitions().set_by(Fact::Mode(role));
         let is_first = self.carried.after_call.as_ref().is_none_or(|(at, _)| Some(*at) != set);
         let is_on = cx.state().effect(role, cx.model) == Some(self.mode.on);
+        if is_on {
+            self.carried.cut_with = set;
+        }
         if is_on && is_first && cx.depth() == 1 && set != self.carried.own {
             self.carried.after_call = set.map(|at| (at, cx.range()));
         }

@@ -5,7 +5,7 @@
 
 use std::f64::consts::TAU;
 
-use gcheck_controls::Effect;
+use gcheck_controls::{Effect, FeedWithRotary};
 use gcheck_engine::{Abstract, ArcMove, Axis, Domain, FeedMode, Machine, Position, Role, Spindle, Units};
 
 use crate::PathCx;
@@ -37,6 +37,7 @@ impl Holder {
     pub(crate) fn words(self) -> String {
         match self {
             Self::MaxFeed => "the machine feeds".to_owned(),
+            Self::Axis(axis) if axis.is_rotary() => format!("{} turns", axis.name()),
             Self::Axis(axis) => format!("{} moves", axis.name()),
             Self::Turn => "this arc allows".to_owned(),
             Self::Stops => "the axes come to".to_owned(),
@@ -87,11 +88,84 @@ pub(crate) fn length(from: &Position, to: &Position) -> Option<f64> {
     measure(&ways(from, to)?)
 }
 
-/// The highest speed along a straight way, by the rates of its axes.
-pub(crate) fn along(machine: &Machine, from: &Position, to: &Position) -> Option<Reach> {
+/// Does a straight way turn rotary axes, and nothing else? Its speed is in degrees a minute then.
+pub(crate) fn only_turns(from: &Position, to: &Position) -> bool {
+    ways(from, to).is_some_and(|ways| {
+        let moves = |rotary: bool| {
+            Axis::ALL.into_iter().zip(ways).any(|(axis, way)| axis.is_rotary() == rotary && way > 0.0)
+        };
+        moves(true) && !moves(false)
+    })
+}
+
+/// How far an axis goes along a straight way, where that is known.
+pub(crate) fn way(from: &Position, to: &Position, axis: Axis) -> Option<f64> {
+    ways(from, to)?.get(axis.index()).copied()
+}
+
+/// How long a feed makes a straight way take, minutes; `None` where the control's books do not say how it counts.
+pub(crate) fn minutes(cx: &PathCx<'_>, from: &Position, to: &Position) -> Option<f64> {
+    let (number, mode) = feed(cx)?;
     let ways = ways(from, to)?;
     let length = measure(&ways)?;
-    let moving = Axis::ALL.into_iter().zip(ways).filter(|(_, way)| *way > 0.0);
+    match mode {
+        FeedMode::InverseTime => return Some(1.0 / number),
+        FeedMode::PerRevolution => return None,
+        FeedMode::PerMinute => {}
+    }
+    let turned = Axis::ALL.into_iter().zip(ways).filter(|(axis, _)| axis.is_rotary());
+    let turned = turned.fold(0.0_f64, |sum, (_, way)| sum.hypot(way));
+    let is_pure = only_turns(from, to);
+    if turned == 0.0 || !is_pure && feeds_the_tip(cx) {
+        return Some(length / number);
+    }
+    // The feed in effect is in millimetres; a degree counts as much as the unit of the program.
+    let turned = turned * cx.state().units(cx.model)?.in_mm();
+    match cx.model.semantics().feed_with_rotary? {
+        _ if is_pure => Some(turned / number),
+        FeedWithRotary::LinearAxes => Some(length / number),
+        FeedWithRotary::AllAxes => Some(length.hypot(turned) / number),
+    }
+}
+
+/// Is the feed that of the tool along the part, however the axes move for it?
+fn feeds_the_tip(cx: &PathCx<'_>) -> bool {
+    let state = cx.state();
+    state.effect(Role::Length, cx.model) == Some(Effect::ToolCentrePoint)
+        || state.effect(Role::Cylinder, cx.model) == Some(Effect::CylinderMapping)
+}
+
+/// Do the linear axes go where the words say? Modes that tilt the plane or follow the tip of the tool move them elsewhere.
+pub(crate) fn moves_as_written(cx: &PathCx<'_>) -> bool {
+    let state = cx.state();
+    let is = |role, on: &[Effect]| state.effect(role, cx.model).is_none_or(|effect| on.contains(&effect));
+    !is(Role::Length, &[Effect::ToolCentrePoint, Effect::LengthFiveAxis])
+        && !is(Role::TiltedPlane, &[Effect::TiltedPlaneOn])
+        && !is(Role::DynamicOffset, &[Effect::DynamicOffsetOn])
+        && !is(Role::Cylinder, &[Effect::CylinderMapping])
+}
+
+/// May the words of the rotary axis be lengths, or those of a linear axis be turns?
+pub(crate) fn is_on_the_face(cx: &PathCx<'_>) -> bool {
+    let effect = cx.state().effect(Role::PolarInterpolation, cx.model);
+    effect.is_none_or(|effect| effect == Effect::PolarInterpolationOn)
+}
+
+/// The highest speed along a straight way, by the rates of its axes.
+pub(crate) fn along(machine: &Machine, from: &Position, to: &Position) -> Option<Reach> {
+    along_axes(machine, from, to, |_| true)
+}
+
+/// The same by the rates of some axes alone.
+pub(crate) fn along_axes(
+    machine: &Machine,
+    from: &Position,
+    to: &Position,
+    counts: impl Fn(Axis) -> bool,
+) -> Option<Reach> {
+    let ways = ways(from, to)?;
+    let length = measure(&ways)?;
+    let moving = Axis::ALL.into_iter().zip(ways).filter(|(axis, way)| *way > 0.0 && counts(*axis));
     let by_axis = moving.filter_map(|(axis, way)| {
         rate(machine, axis).map(|rate| Reach { speed: rate * length / way, holder: Holder::Axis(axis) })
     });

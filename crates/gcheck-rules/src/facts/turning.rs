@@ -71,7 +71,11 @@ pub(crate) fn turns(cx: &PathCx<'_>) -> bool {
 /// Does the part turn under a tool that does not, in the plane of X and Z?
 pub(crate) fn turns_the_part(cx: &PathCx<'_>) -> bool {
     let state = cx.state();
-    turns(cx) && state.plane(cx.model) == Some(Plane::Zx) && state.live_tool() == Truth::False
+    // While X and the C axis are the coordinates of the face, the part stands where the C axis holds it.
+    let is_face = state
+        .effect(Role::PolarInterpolation, cx.model)
+        .is_none_or(|effect| effect == Effect::PolarInterpolationOn);
+    turns(cx) && !is_face && state.plane(cx.model) == Some(Plane::Zx) && state.live_tool() == Truth::False
 }
 
 /// Does the code remove material layer by layer down to a profile?

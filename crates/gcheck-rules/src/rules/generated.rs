@@ -156,6 +156,8 @@ pub(crate) mod machine {
     pub(crate) mod speed_above_machine_limit;
     pub(crate) mod surface_speed_outside_limits;
     pub(crate) mod synchronised_feed_above_limit;
+    pub(crate) mod tap_runs_past_bottom;
+    pub(crate) mod thread_run_in_too_short;
     pub(crate) mod tool_not_in_table;
     pub(crate) mod units_against_setting;
     pub(crate) mod work_offset_not_listed;
@@ -233,6 +235,7 @@ pub(crate) mod modal {
 
 pub(crate) mod motion {
     pub(crate) mod axis_words_without_motion_mode;
+    pub(crate) mod contour_control_left_on;
     pub(crate) mod corner_before_rapid;
     pub(crate) mod corner_does_not_fit;
     pub(crate) mod curve_not_complete;
@@ -242,6 +245,7 @@ pub(crate) mod motion {
     pub(crate) mod dwell_very_long;
     pub(crate) mod dwell_very_short;
     pub(crate) mod dwell_without_time;
+    pub(crate) mod exact_path_left_on;
     pub(crate) mod exact_stop_in_short_segments;
     pub(crate) mod exact_stop_left_on;
     pub(crate) mod faced_past_the_centre;
@@ -281,6 +285,7 @@ pub(crate) mod motion {
     pub(crate) mod thread_into_shoulder;
     pub(crate) mod thread_without_lead;
     pub(crate) mod tolerance_above_feature;
+    pub(crate) mod tolerance_of_tool_before;
     pub(crate) mod tool_down_at_end;
     pub(crate) mod turned_after_cut_off;
 }
@@ -619,6 +624,8 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &machine::speed_above_machine_limit::RULE,
     &machine::surface_speed_outside_limits::RULE,
     &machine::synchronised_feed_above_limit::RULE,
+    &machine::tap_runs_past_bottom::RULE,
+    &machine::thread_run_in_too_short::RULE,
     &machine::tool_not_in_table::RULE,
     &machine::units_against_setting::RULE,
     &machine::work_offset_not_listed::RULE,
@@ -684,6 +691,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &modal::units_not_stated::RULE,
     &modal::word_in_skipped_block::RULE,
     &motion::axis_words_without_motion_mode::RULE,
+    &motion::contour_control_left_on::RULE,
     &motion::corner_before_rapid::RULE,
     &motion::corner_does_not_fit::RULE,
     &motion::curve_not_complete::RULE,
@@ -693,6 +701,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &motion::dwell_very_long::RULE,
     &motion::dwell_very_short::RULE,
     &motion::dwell_without_time::RULE,
+    &motion::exact_path_left_on::RULE,
     &motion::exact_stop_in_short_segments::RULE,
     &motion::exact_stop_left_on::RULE,
     &motion::faced_past_the_centre::RULE,
@@ -732,6 +741,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &motion::thread_into_shoulder::RULE,
     &motion::thread_without_lead::RULE,
     &motion::tolerance_above_feature::RULE,
+    &motion::tolerance_of_tool_before::RULE,
     &motion::tool_down_at_end::RULE,
     &motion::turned_after_cut_off::RULE,
     &offsets::mirror_left_on::RULE,

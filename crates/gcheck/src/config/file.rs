@@ -134,7 +134,7 @@ pub struct MachineTable {
     /// How tools come from the magazine.
     pub tool_changer: Option<ToolChanger>,
     /// Where the rotary axes sit.
-    pub rotary: Option<Rotary>,
+    pub rotary: Option<Placed<Rotary>>,
     /// Rotary axes from the machine outward; as written in `axes` without it.
     pub rotary_order: Option<Vec<Placed<String>>>,
     /// Sense of rotation by axis, 1 or -1.

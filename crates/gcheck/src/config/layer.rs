@@ -48,17 +48,32 @@ impl Layer {
         let facts = validate::Checked::new(text, file.control.as_ref())?;
         let others = file.overrides.iter().filter_map(|table| Some(table.control.as_ref()?.value.as_str()));
         let others: Vec<&str> = others.collect();
+        // Nothing else speaks of these machines.
+        let is_whole = path.is_some()
+            && file.extend.is_none()
+            && file.overrides.is_empty()
+            && file.machine.preset.is_none();
         let base = Facts {
             control: file.control.as_ref().map(|c| c.value.clone()),
-            machine: facts.machine(&file.machine)?,
+            machine: facts.machine(&file.machine, is_whole)?,
             settings: facts.settings(&file.settings, &others)?,
             codes: facts.codes(&file.codes)?,
-            execution: facts.execution(&file.machine, &file.variables, &file.offsets, &file.tools)?,
+            execution: facts.execution(
+                &file.machine,
+                &file.variables,
+                &file.offsets,
+                &file.tools,
+                is_whole,
+            )?,
             search: text.search(&file.search)?,
             rules: facts.rules(&file.rules)?,
             format: file.format.clone(),
         };
-        let preset = Preset::inherited(&file.machine, text)?.map(inheriting);
+        let preset = Preset::inherited(&file.machine, text)?;
+        if let Some(preset) = &preset {
+            facts.against_preset(&file.machine, &preset.machine)?;
+        }
+        let preset = preset.map(inheriting);
         let mut overrides = Vec::new();
         for table in &file.overrides {
             if table.files.is_empty() {
@@ -114,11 +129,12 @@ fn overriding(
     table: &OverrideTable,
 ) -> Result<(Vec<PathPattern>, Facts), Problem> {
     let facts = validate::Checked::new(text, table.control.as_ref().or(file.control.as_ref()))?;
-    let mut execution = facts.execution(&table.machine, &table.variables, &table.offsets, &table.tools)?;
+    let mut execution =
+        facts.execution(&table.machine, &table.variables, &table.offsets, &table.tools, false)?;
     execution.units = execution.units.or(file.machine.units);
     let own = Facts {
         control: table.control.as_ref().map(|c| c.value.clone()),
-        machine: facts.machine(&table.machine)?,
+        machine: facts.machine(&table.machine, false)?,
         settings: facts.settings(&table.settings, &[])?,
         codes: facts.codes(&table.codes)?,
         execution,

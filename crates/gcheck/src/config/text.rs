@@ -28,6 +28,11 @@ impl Text<'_> {
         Problem::at(self.name, self.text, &placed.range, message)
     }
 
+    /// A problem that has no place in the text.
+    pub(super) fn anywhere(&self, message: impl Into<String>) -> Problem {
+        Problem::with_file(Path::new(self.name), message)
+    }
+
     pub(super) fn patterns(&self, patterns: &[Placed<String>]) -> Result<Vec<PathPattern>, Problem> {
         patterns.iter().map(|pattern| self.pattern(pattern)).collect()
     }

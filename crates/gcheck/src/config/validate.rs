@@ -5,7 +5,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use gcheck_controls::{CodeNumber, Control, Effect, Letter, UserCode};
+use gcheck_controls::{CodeNumber, Control, Effect, Letter, Machine, UserCode};
 use gcheck_geometry::RotaryAxis;
 use gcheck_lint::Selection;
 use gcheck_rules::RULES;
@@ -31,6 +31,22 @@ const SHORTEST_START: f64 = 0.001;
 const LONGEST_START: f64 = 10.0;
 /// Every spindle reaches its highest speed in this time, in seconds.
 const LONGEST_SPINDLE_START: f64 = 300.0;
+
+/// Every spindle gains more than the first and less than the second in a second, 1/min.
+const SPINDLE_GAIN: [f64; 2] = [5.0, 1e6];
+/// No tool change takes longer, nor does an auxiliary function, in seconds.
+const LONGEST_CHANGE: f64 = 3600.0;
+/// Turning the spindle to an angle takes no longer, nor does a pocket of the magazine, in seconds.
+const LONGEST_TURN: f64 = 60.0;
+/// No magazine has more pockets.
+const MOST_POCKETS: u32 = 1000;
+/// No control has a higher feed override, in percent.
+const MOST_FEED_OVERRIDE: f64 = 999.0;
+/// Lowest and highest acceleration of an axis, millimetres a second squared.
+const ACCELERATION: [f64; 2] = [1.0, 1e6];
+/// Lowest and highest jerk of an axis, millimetres a second cubed.
+const JERK: [f64; 2] = [1.0, 1e9];
+const MM_PER_INCH: f64 = 25.4;
 
 /// The rotary axis of a name.
 pub(crate) fn rotary_axis(name: &str) -> Option<RotaryAxis> {
@@ -79,7 +95,8 @@ impl<'t> Checked<'t> {
         }
     }
 
-    pub(super) fn machine(&self, table: &MachineTable) -> Result<MachineTable, Problem> {
+    /// `is_whole`: nothing beside the table says anything about these machines.
+    pub(super) fn machine(&self, table: &MachineTable, is_whole: bool) -> Result<MachineTable, Problem> {
         let lists = [&table.axes, &table.rotary_order].into_iter().flatten().flatten();
         for axis in lists.chain(table.travel.keys()).chain(table.rotary_sign.keys()) {
             self.axis(axis)?;
@@ -90,11 +107,18 @@ impl<'t> Checked<'t> {
                 return Err(self.text.problem(axis, format!("`{}` is listed twice", axis.value)));
             }
         }
+        self.each_axis_once(table.travel.keys())?;
+        self.each_axis_once(table.rotary_sign.keys())?;
+        self.listed_axes(table)?;
         if let Some(bars) = table.bars.as_ref().filter(|bars| bars.value == 0) {
             return Err(self.text.problem(bars, "at least one bar is in the chuck: write 1 or more"));
         }
         for (axis, travel) in &table.travel {
             let [low, high] = travel.value;
+            if !(low.is_finite() && high.is_finite()) {
+                let message = format!("travel of {} must have two finite ends", axis.value);
+                return Err(self.text.problem(travel, message).help("leave out an axis without an end"));
+            }
             if low >= high {
                 let message = format!("travel of {} must go from the lower end to the upper", axis.value);
                 return Err(self.text.problem(travel, message));
@@ -111,7 +135,10 @@ impl<'t> Checked<'t> {
                 return Err(self.text.problem(name, "rotary_order names two different axes"));
             }
         }
-        for sign in table.rotary_sign.values() {
+        for (axis, sign) in &table.rotary_sign {
+            if rotary_axis(&axis.value).is_none() {
+                return Err(self.text.problem(axis, format!("`{}` is not a rotary axis", axis.value)));
+            }
             if !matches!(sign.value, 1 | -1) {
                 return Err(self.text.problem(sign, "a sense of rotation is 1 or -1"));
             }
@@ -146,8 +173,200 @@ impl<'t> Checked<'t> {
         if let Some(number) = not_negative.into_iter().flatten().find(|n| n.value.is_nan() || n.value < 0.0) {
             return Err(self.text.problem(number, "must not be negative"));
         }
+        self.overrides(table)?;
         self.dynamics(table)?;
+        if is_whole {
+            self.whole(table)?;
+        }
+        self.bounds(table)?;
         Ok(table.clone())
+    }
+
+    /// Names of one table: `X` and `x` are one axis.
+    fn each_axis_once<'a>(&self, names: impl Iterator<Item = &'a Placed<String>>) -> Result<(), Problem> {
+        let mut seen: Vec<&Placed<String>> = names.collect();
+        seen.sort_by_key(|name| name.range.start);
+        for (ix, name) in seen.iter().enumerate() {
+            if seen.iter().take(ix).any(|other| other.value.eq_ignore_ascii_case(&name.value)) {
+                let message = format!("the axis {} is listed twice", name.value.to_ascii_uppercase());
+                return Err(self.text.problem(name, message));
+            }
+        }
+        Ok(())
+    }
+
+    /// Where the table lists the machine's axes, it speaks of no others.
+    fn listed_axes(&self, table: &MachineTable) -> Result<(), Problem> {
+        let Some(axes) = &table.axes else { return Ok(()) };
+        if axes.is_empty() {
+            // An empty list has no place of its own.
+            return Err(self.text.anywhere("`axes` is empty: a machine has at least one axis"));
+        }
+        let shown = || axes.iter().map(|axis| axis.value.to_ascii_uppercase()).collect::<Vec<_>>().join(", ");
+        let figures = [&table.rapid, &table.acceleration, &table.jerk].into_iter().flatten();
+        let by_axis = figures.flat_map(|figures| match &figures.value {
+            ByAxis::All(_) => Vec::new(),
+            ByAxis::Each(each) => each.keys().collect(),
+        });
+        let named = table
+            .travel
+            .keys()
+            .chain(table.rotary_sign.keys())
+            .chain(table.rotary_order.iter().flatten())
+            .chain(by_axis);
+        for name in named {
+            if !axes.iter().any(|axis| axis.value.eq_ignore_ascii_case(&name.value)) {
+                let message = format!("`{}` is not among the machine's `axes`: {}", name.value, shown());
+                return Err(self.text.problem(name, message));
+            }
+        }
+        let turning = axes.iter().filter(|axis| rotary_axis(&axis.value).is_some()).count();
+        if let Some(rotary) = table.rotary.as_ref().filter(|_| turning < 2) {
+            let message =
+                format!("`rotary` is for machines with two rotary axes, and `axes` lists {}", shown());
+            return Err(self.text.problem(rotary, message));
+        }
+        Ok(())
+    }
+
+    /// Positions that the control's switches have.
+    fn overrides(&self, table: &MachineTable) -> Result<(), Problem> {
+        let Some(feed) = &table.feed_override else { return Ok(()) };
+        let switch = self.control.as_ref().and_then(|control| control.limits().feed_override.as_ref());
+        if let (Some(switch), Some(control)) = (switch, &self.control)
+            && !switch.takes(feed.value)
+        {
+            let (name, positions) = (control.name(), switch.positions());
+            let message = format!("the feed override of {name} has {positions}  [{}]", switch.source);
+            return Err(self.text.problem(feed, message));
+        }
+        // Where the pages do not give the positions: no feed ends at 0, and no switch goes further than this.
+        if !(feed.value > 0.0 && feed.value <= MOST_FEED_OVERRIDE) && switch.is_none() {
+            let message = format!("a feed override is above 0 and at most {MOST_FEED_OVERRIDE} percent");
+            return Err(self.text.problem(feed, message));
+        }
+        Ok(())
+    }
+
+    /// What needs something else of the same machine.
+    fn whole(&self, table: &MachineTable) -> Result<(), Problem> {
+        if let (Some(jerk), None) = (&table.jerk, &table.acceleration) {
+            return Err(self.text.problem(jerk, JERK_ALONE));
+        }
+        match &table.acceleration {
+            Some(acceleration) if slowest_linear(&acceleration.value).is_none() => {
+                Err(self.text.problem(acceleration, NO_LINEAR))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Figures that no machine has: a slip of the pen, or another unit.
+    fn bounds(&self, table: &MachineTable) -> Result<(), Problem> {
+        for (figures, range, what, power) in [
+            (&table.acceleration, ACCELERATION, "acceleration", "squared"),
+            (&table.jerk, JERK, "jerk", "cubed"),
+        ] {
+            let Some(figures) = figures else { continue };
+            let placed: Vec<(&Placed<String>, &Placed<f64>)> = match &figures.value {
+                ByAxis::All(value) => {
+                    let (unit, [least, most]) = in_units(range, table.units);
+                    if !(least..=most).contains(value) {
+                        let message = format!(
+                            "the {what} of an axis is {least} to {most} {unit} a second {power}, not {value}"
+                        );
+                        return Err(self.text.problem(figures, message));
+                    }
+                    Vec::new()
+                }
+                ByAxis::Each(each) => each.iter().collect(),
+            };
+            for (axis, value) in placed {
+                let (unit, [least, most]) = match rotary_axis(&axis.value) {
+                    Some(_) => ("degrees", range),
+                    None => in_units(range, table.units),
+                };
+                if !(least..=most).contains(&value.value) {
+                    let message = format!(
+                        "the {what} of {} is {least} to {most} {unit} a second {power}, not {}",
+                        axis.value, value.value
+                    );
+                    return Err(self.text.problem(value, message));
+                }
+            }
+        }
+        let [least, most] = SPINDLE_GAIN;
+        if let Some(gain) = table.spindle_acceleration.as_ref().filter(|n| !(least..=most).contains(&n.value))
+        {
+            let message = format!("a spindle gains {least} to {most} 1/min in a second, not {}", gain.value);
+            return Err(self.text.problem(gain, message));
+        }
+        for (seconds, most) in [
+            (&table.tool_change_seconds, LONGEST_CHANGE),
+            (&table.auxiliary_seconds, LONGEST_CHANGE),
+            (&table.spindle_orient_seconds, LONGEST_TURN),
+            (&table.pocket_seconds, LONGEST_TURN),
+        ] {
+            if let Some(seconds) = seconds.as_ref().filter(|seconds| seconds.value > most) {
+                let message = format!("must be at most {most}: it counts in seconds");
+                return Err(self.text.problem(seconds, message));
+            }
+        }
+        if let Some(pockets) = table.pockets.as_ref().filter(|pockets| pockets.value > MOST_POCKETS) {
+            let message = format!("a magazine has at most {MOST_POCKETS} pockets");
+            return Err(self.text.problem(pockets, message));
+        }
+        Ok(())
+    }
+
+    /// What a table says against the preset that it names.
+    pub(super) fn against_preset(&self, own: &MachineTable, preset: &MachineTable) -> Result<(), Problem> {
+        let named = own.preset.as_ref().map_or("", |name| name.value.0.as_str());
+        // Without a unit the figures count as the control does, and that is known where the layers come together.
+        let Some((units, theirs)) = own.units.zip(preset.units) else { return Ok(()) };
+        // From the units of the preset to those of the table.
+        let scale = mm(theirs) / mm(units);
+        let rapid =
+            |table: &MachineTable| table.rapid.as_ref().and_then(|rapid| slowest_linear(&rapid.value));
+        let inherited = rapid(preset).map(|rapid| rapid * scale);
+        if let (Some(feed), None, Some(rapid)) = (&own.max_feed, &own.rapid, inherited)
+            && rapid < feed.value
+        {
+            let message = format!(
+                "max_feed is {}, and the preset `{named}` has a rapid rate of {}: no axis cuts faster than it moves at rapid",
+                feed.value,
+                shown(rapid)
+            );
+            return Err(self.text.problem(feed, message).help("write `rapid` too, or a lower `max_feed`"));
+        }
+        if let (Some(written), Some(own_rapid), None, Some(feed)) =
+            (&own.rapid, rapid(own), &own.max_feed, &preset.max_feed)
+            && own_rapid < feed.value * scale
+        {
+            let message = format!(
+                "the rapid rate is {own_rapid}, and the preset `{named}` has a max_feed of {}: no axis cuts faster than it moves at rapid",
+                shown(feed.value * scale)
+            );
+            return Err(self
+                .text
+                .problem(written, message)
+                .help("write `max_feed` too, or a higher `rapid`"));
+        }
+        let unit = if units == Units::Inch { "inch" } else { "mm" };
+        let gain =
+            |table: &MachineTable| table.acceleration.as_ref().and_then(|gain| slowest_linear(&gain.value));
+        let rapid_in_force = rapid(own).or(inherited);
+        let gain_in_force = gain(own).or_else(|| gain(preset).map(|gain| gain * scale));
+        let written = own.acceleration.as_ref().or(own.rapid.as_ref());
+        if let (Some(rapid), Some(gain), Some(written)) = (rapid_in_force, gain_in_force, written)
+            && let Some(message) = implausible_acceleration(shown(rapid), gain, unit)
+        {
+            return Err(self
+                .text
+                .problem(written, message)
+                .help(format!("the preset `{named}` gives the other figure")));
+        }
+        Ok(())
     }
 
     /// What decides how long a program takes: figures that a machine can have, in the units that are meant.
@@ -234,6 +453,7 @@ impl<'t> Checked<'t> {
             ByAxis::All(_) => Err(self.text.problem(figures, "must be greater than zero, and finite")),
             ByAxis::Each(each) if each.is_empty() => Err(self.text.problem(figures, "names no axis")),
             ByAxis::Each(each) => {
+                self.each_axis_once(each.keys())?;
                 for (axis, value) in each {
                     self.axis(axis)?;
                     if !is_one(value.value) {
@@ -388,6 +608,7 @@ impl<'t> Checked<'t> {
         variables: &BTreeMap<Placed<String>, f64>,
         offsets: &BTreeMap<Placed<String>, BTreeMap<Placed<String>, f64>>,
         tools: &ToolsTable,
+        is_whole: bool,
     ) -> Result<ExecutionFacts, Problem> {
         for (name, value) in variables {
             let inner = name.value.strip_prefix('#').unwrap_or_default();
@@ -442,6 +663,13 @@ impl<'t> Checked<'t> {
             }
             self.by_axis(&tool.offset)?;
             self.cutting(tool)?;
+            if let Some(range) = &tool.surface_speed
+                && self.control.as_ref().is_some_and(|control| only_mills(control))
+                && tool.diameter.map_or(is_whole && tools.table.is_none(), |diameter| diameter <= 0.0)
+            {
+                let message = "a surface speed needs the tool's `diameter`, above zero";
+                return Err(self.text.problem(range, message));
+            }
             by_number.push((parsed, tool.clone()));
         }
         Ok(ExecutionFacts {
@@ -480,6 +708,7 @@ impl<'t> Checked<'t> {
     }
 
     fn by_axis(&self, axes: &BTreeMap<Placed<String>, f64>) -> Result<(), Problem> {
+        self.each_axis_once(axes.keys())?;
         for (axis, value) in axes {
             self.axis(axis)?;
             self.finite(axis, *value)?;
@@ -517,6 +746,42 @@ pub(crate) fn work_offset(name: &str, control: &Control) -> Option<u16> {
         }
         _ => None,
     }
+}
+
+/// Do tools of the control's machines turn, and never the part?
+fn only_mills(control: &Control) -> bool {
+    control.machine() == Machine::Mill && !control.codes().any(|code| code.effect() == Effect::DiameterOn)
+}
+
+/// What a jerk without an acceleration is worth.
+pub(crate) const JERK_ALONE: &str =
+    "`jerk` has no effect without `acceleration`: it is how quickly that changes";
+/// What an acceleration of rotary axes alone is worth.
+pub(crate) const NO_LINEAR: &str =
+    "`acceleration` names no linear axis: times come from it only where X, Y and Z have one";
+
+fn mm(units: Units) -> f64 {
+    match units {
+        Units::Mm => 1.0,
+        Units::Inch => MM_PER_INCH,
+    }
+}
+
+/// A range of millimetres in the units of a table; where it names none, one that both fit in.
+fn in_units([least, most]: [f64; 2], units: Option<Units>) -> (&'static str, [f64; 2]) {
+    // To what people write.
+    let rounded = |value: f64| (value * 100.0).round() / 100.0;
+    let inch = [rounded(least / MM_PER_INCH), (most / MM_PER_INCH).round()];
+    match units {
+        Some(Units::Mm) => ("mm", [least, most]),
+        Some(Units::Inch) => ("inch", inch),
+        None => ("units", [rounded(least / MM_PER_INCH), most]),
+    }
+}
+
+/// A figure that was converted, as people write it.
+fn shown(value: f64) -> f64 {
+    (value * 1e4).round() / 1e4
 }
 
 /// The lowest figure of a linear axis.

@@ -155,6 +155,13 @@ impl Equipment {
 
     /// What layers say together, and a single one did not show.
     fn contradictions(&self, units: Units) -> Result<(), Problem> {
+        let dynamics = &self.machine.dynamics;
+        if !dynamics.jerk.is_empty() && dynamics.acceleration.is_empty() {
+            return Err(Problem::new(format!("[machine] {}", config::JERK_ALONE)));
+        }
+        if !dynamics.acceleration.is_empty() && dynamics.acceleration.keys().all(|axis| axis.is_rotary()) {
+            return Err(Problem::new(format!("[machine] {}", config::NO_LINEAR)));
+        }
         let Some(rapid) = self.machine.rapid else { return Ok(()) };
         let shown = |mm: f64| mm / units.in_mm();
         if let Some(feed) = self.machine.max_feed.filter(|feed| rapid < *feed) {

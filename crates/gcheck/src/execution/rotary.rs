@@ -36,8 +36,8 @@ impl RotaryAxes {
         if let Some(names) = &table.rotary_order {
             self.order = Some(axes(names));
         }
-        if let Some(rotary) = table.rotary {
-            self.arrangement = Some(match rotary {
+        if let Some(rotary) = &table.rotary {
+            self.arrangement = Some(match rotary.value {
                 Rotary::HeadHead => Arrangement::HeadHead,
                 Rotary::HeadTable => Arrangement::HeadTable,
                 Rotary::TableTable => Arrangement::TableTable,

@@ -686,3 +686,147 @@ fn rotary_axes_that_cannot_be() {
     "#]],
     );
 }
+
+/// Each was accepted without a word, or no machine has it.
+#[test]
+fn figures_and_axes_that_no_machine_has() {
+    let mut messages = String::new();
+    for (control, table) in [
+        ("haas-mill", "[machine]\naxes = []"),
+        ("haas-mill", "[machine]\ntravel = { X = [nan, 5.0] }"),
+        ("haas-mill", "[machine]\ntravel = { X = [0.0, inf] }"),
+        ("haas-mill", "[machine]\ntravel = { X = [0.0, 1.0], x = [0.0, 2.0] }"),
+        ("haas-mill", "[machine]\nrapid = { X = 1000.0, x = 2.0 }"),
+        ("haas-mill", "[offsets]\nG54 = { X = 1.0, x = 2.0 }"),
+        ("haas-mill", "[machine]\nfeed_override = 0"),
+        ("haas-mill", "[machine]\nfeed_override = 5000"),
+        ("generic-mill", "[machine]\nfeed_override = 5000"),
+        ("haas-mill", "[machine]\nacceleration = 1000.0\njerk = 1e-9"),
+        ("haas-mill", "[machine]\njerk = 50000.0"),
+        ("haas-mill", "[machine]\nacceleration = { A = 100.0 }"),
+        ("haas-mill", "[machine]\nacceleration = 1e30"),
+        ("haas-mill", "[machine]\nunits = \"inch\"\nacceleration = { X = 1e30 }"),
+        ("haas-mill", "[machine]\nspindle_acceleration = 1"),
+        ("haas-mill", "[machine]\nspindle_acceleration = 1e20"),
+        ("haas-mill", "[machine]\ntool_change_seconds = 1e9"),
+        ("haas-mill", "[machine]\nspindle_orient_seconds = 1e4"),
+        ("haas-mill", "[machine]\npockets = 4000000000"),
+        ("haas-mill", "[machine]\naxes = [\"X\", \"Y\", \"Z\"]\ntravel = { A = [0.0, 90.0] }"),
+        ("haas-mill", "[machine]\naxes = [\"X\", \"Z\"]\nrapid = { X = 100.0, Y = 100.0 }"),
+        ("haas-mill", "[machine]\naxes = [\"X\", \"Y\", \"Z\", \"A\"]\nrotary_order = [\"A\", \"B\"]"),
+        ("haas-mill", "[machine]\naxes = [\"X\", \"Y\", \"Z\", \"A\"]\nrotary = \"table-table\""),
+        ("haas-mill", "[machine]\nrotary_sign = { X = 1 }"),
+        ("haas-mill", "[tools]\n1 = { surface_speed = [60.0, 140.0] }"),
+        ("haas-mill", "[tools]\n1 = { diameter = 0.0, surface_speed = [60.0, 140.0] }"),
+        ("grbl", "[machine]\npreset = \"sherline-5400\"\nunits = \"inch\"\nmax_feed = 900.0"),
+    ] {
+        let config = format!("control = \"{control}\"\n{table}\n");
+        let shop = Shop::with(&[("part.nc", GOOD), ("gcheck.toml", &config)]);
+        let run = shop.gcheck("check part.nc");
+        assert_eq!((run.code, run.stdout.as_str()), (2, ""), "{table}: {run}");
+        let first = run.stderr.lines().next().unwrap_or_default();
+        let _ = writeln!(messages, "{}\n  {first}", table.replace('\n', " | "));
+    }
+    expect![[r#"
+        [machine] | axes = []
+          error: gcheck.toml: `axes` is empty: a machine has at least one axis
+        [machine] | travel = { X = [nan, 5.0] }
+          error: gcheck.toml:3:16: travel of X must have two finite ends
+        [machine] | travel = { X = [0.0, inf] }
+          error: gcheck.toml:3:16: travel of X must have two finite ends
+        [machine] | travel = { X = [0.0, 1.0], x = [0.0, 2.0] }
+          error: gcheck.toml:3:28: the axis X is listed twice
+        [machine] | rapid = { X = 1000.0, x = 2.0 }
+          error: gcheck.toml:3:23: the axis X is listed twice
+        [offsets] | G54 = { X = 1.0, x = 2.0 }
+          error: gcheck.toml:3:18: the axis X is listed twice
+        [machine] | feed_override = 0
+          error: gcheck.toml:3:17: a feed override is above 0 and at most 999 percent
+        [machine] | feed_override = 5000
+          error: gcheck.toml:3:17: a feed override is above 0 and at most 999 percent
+        [machine] | feed_override = 5000
+          error: gcheck.toml:3:17: the feed override of generic-mill has 0 to 150 percent in steps of 10  [TSNC-YH-A1M operation manual p.17]
+        [machine] | acceleration = 1000.0 | jerk = 1e-9
+          error: gcheck.toml:4:8: the jerk of an axis is 0.04 to 1000000000 units a second cubed, not 0.000000001
+        [machine] | jerk = 50000.0
+          error: gcheck.toml:3:8: `jerk` has no effect without `acceleration`: it is how quickly that changes
+        [machine] | acceleration = { A = 100.0 }
+          error: gcheck.toml:3:16: `acceleration` names no linear axis: times come from it only where X, Y and Z have one
+        [machine] | acceleration = 1e30
+          error: gcheck.toml:3:16: the acceleration of an axis is 0.04 to 1000000 units a second squared, not 1000000000000000000000000000000
+        [machine] | units = "inch" | acceleration = { X = 1e30 }
+          error: gcheck.toml:4:22: the acceleration of X is 0.04 to 39370 inch a second squared, not 1000000000000000000000000000000
+        [machine] | spindle_acceleration = 1
+          error: gcheck.toml:3:24: a spindle gains 5 to 1000000 1/min in a second, not 1
+        [machine] | spindle_acceleration = 1e20
+          error: gcheck.toml:3:24: a spindle gains 5 to 1000000 1/min in a second, not 100000000000000000000
+        [machine] | tool_change_seconds = 1e9
+          error: gcheck.toml:3:23: must be at most 3600: it counts in seconds
+        [machine] | spindle_orient_seconds = 1e4
+          error: gcheck.toml:3:26: must be at most 60: it counts in seconds
+        [machine] | pockets = 4000000000
+          error: gcheck.toml:3:11: a magazine has at most 1000 pockets
+        [machine] | axes = ["X", "Y", "Z"] | travel = { A = [0.0, 90.0] }
+          error: gcheck.toml:4:12: `A` is not among the machine's `axes`: X, Y, Z
+        [machine] | axes = ["X", "Z"] | rapid = { X = 100.0, Y = 100.0 }
+          error: gcheck.toml:4:22: `Y` is not among the machine's `axes`: X, Z
+        [machine] | axes = ["X", "Y", "Z", "A"] | rotary_order = ["A", "B"]
+          error: gcheck.toml:4:22: `B` is not among the machine's `axes`: X, Y, Z, A
+        [machine] | axes = ["X", "Y", "Z", "A"] | rotary = "table-table"
+          error: gcheck.toml:4:10: `rotary` is for machines with two rotary axes, and `axes` lists X, Y, Z, A
+        [machine] | rotary_sign = { X = 1 }
+          error: gcheck.toml:3:17: `X` is not a rotary axis
+        [tools] | 1 = { surface_speed = [60.0, 140.0] }
+          error: gcheck.toml:3:23: a surface speed needs the tool's `diameter`, above zero
+        [tools] | 1 = { diameter = 0.0, surface_speed = [60.0, 140.0] }
+          error: gcheck.toml:3:39: a surface speed needs the tool's `diameter`, above zero
+        [machine] | preset = "sherline-5400" | units = "inch" | max_feed = 900.0
+          error: gcheck.toml:5:12: max_feed is 900, and the preset `sherline-5400` has a rapid rate of 25: no axis cuts faster than it moves at rapid
+    "#]].assert_eq(&messages);
+}
+
+/// What one machine has and another lacks, and figures that shops write.
+#[test]
+fn figures_of_real_machines_are_taken() {
+    for (control, table) in [
+        (
+            "haas-mill",
+            "[machine]\nunits = \"inch\"\nrapid = 1000.0\nacceleration = 40.0\njerk = 4000.0\nspindle_acceleration = 4000",
+        ),
+        (
+            "haas-mill",
+            "[machine]\nunits = \"mm\"\nacceleration = { X = 5000.0, A = 2000.0 }\ntool_change_seconds = 90",
+        ),
+        (
+            "haas-mill",
+            "[machine]\naxes = [\"x\", \"Y\", \"Z\", \"B\", \"C\"]\nrotary = \"table-table\"\nrotary_order = [\"B\", \"c\"]\ntravel = { X = [0.0, 9.0] }",
+        ),
+        ("haas-mill", "[machine]\nfeed_override = 120\npockets = 40"),
+        ("generic-mill", "[machine]\nfeed_override = 0"),
+        ("haas-lathe", "[tools]\n1 = { surface_speed = [60.0, 140.0] }"),
+        ("linuxcnc", "[tools]\n1 = { surface_speed = [60.0, 140.0] }"),
+        ("haas-mill", "[tools]\n1 = { diameter = -0.02 }\n2 = { diameter = 0.0 }"),
+    ] {
+        let config = format!("control = \"{control}\"\n{table}\n");
+        let shop = Shop::with(&[("part.nc", GOOD), ("gcheck.toml", &config)]);
+        let run = shop.gcheck("check part.nc");
+        assert!(run.code < 2, "{table}: {run}");
+    }
+}
+
+/// A part of a machine may come with the command line, or with another file.
+#[test]
+fn what_one_text_leaves_out_another_may_give() {
+    let shop = Shop::with(&[
+        ("part.nc", GOOD),
+        ("gcheck.toml", "control = \"haas-mill\"\n[machine]\nacceleration = 1000.0\n"),
+    ]);
+    let run = shop.gcheck("check part.nc --config machine.jerk=50000.0");
+    assert!(run.code < 2, "{run}");
+    let shop = Shop::with(&[("part.nc", GOOD)]);
+    expect![[r#"
+        ! error: [machine] `jerk` has no effect without `acceleration`: it is how quickly that changes
+        exit 2
+    "#]]
+    .assert_eq(&shop.gcheck("check part.nc --control haas-mill --config machine.jerk=50000.0").to_string());
+}

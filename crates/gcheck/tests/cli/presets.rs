@@ -35,16 +35,12 @@ fn the_unit_of_a_preset_is_that_of_its_own_lengths() {
     settings(
         "control = \"fanuc-mill\"\n[machine]\npreset = \"tormach-1100mx\"\nmax_feed = 5000.0\n",
         &expect![[r#"
-            part.nc
-              control: fanuc-mill, by configuration (gcheck.toml)
-              configuration: gcheck.toml
-              preset: tormach-1100mx
-              axes: X Y Z
-              speed: at most 10000 rpm
-              feed: at most 5000 mm/min
-              rapid: X 7620 mm/min, Y 7620 mm/min, Z 5842 mm/min
-
-            exit 0
+            ! error: gcheck.toml:4:12: max_feed is 5000, and the preset `tormach-1100mx` has a rapid rate of 230: no axis cuts faster than it moves at rapid
+            !   |
+            ! 4 | max_feed = 5000.0
+            !   |            ^^^^^^
+            !   help: write `rapid` too, or a lower `max_feed`
+            exit 2
         "#]],
     );
 }
@@ -92,7 +88,11 @@ fn a_preset_that_contradicts_the_file_is_an_error() {
         "control = \"grbl\"\n[machine]\npreset = \"sherline-5400\"\nunits = \"mm\"\nmax_feed = 900.0\n";
     let shop = Shop::with(&[("gcheck.toml", configuration), ("part.nc", GOOD)]);
     expect![[r#"
-        ! error: [machine] rapid is 635 and max_feed 900: no axis cuts faster than it moves at rapid
+        ! error: gcheck.toml:5:12: max_feed is 900, and the preset `sherline-5400` has a rapid rate of 635: no axis cuts faster than it moves at rapid
+        !   |
+        ! 5 | max_feed = 900.0
+        !   |            ^^^^^
+        !   help: write `rapid` too, or a lower `max_feed`
         exit 2
     "#]]
     .assert_eq(&shop.gcheck("check").to_string());

@@ -31,6 +31,15 @@ declare_rule! {
     /// G0 X1. A10.
     /// M30
     /// ```
+    /// Polar interpolation makes the moves of a `Y` that the machine need not have from those of X and the rotary axis.
+    /// ```nc,quiet,haas-lathe
+    /// G21 G98 G18
+    /// G112
+    /// G17 G1 X10. Y5. F100.
+    /// G2 X5. Y10. I-10. J-5.
+    /// G113
+    /// M30
+    /// ```
     rule "axis-not-on-machine" in "machine" {
         summary: "move of an axis that the machine does not have",
         severity: Error,
@@ -90,6 +99,8 @@ fn may_be_nothing(cx: &PathCx<'_>, letter: Letter) -> bool {
 #[cfg(test)]
 mod tests {
     use expect_test::expect;
+    use gcheck_controls::LetterSet;
+    use gcheck_engine::Axis;
 
     use super::{META, RULE};
     use crate::testing::{World, check_rule, check_rule_in};
@@ -118,6 +129,17 @@ mod tests {
             let program = format!("G21 G90\nG0 X1. B{value}\nM30\n");
             check_rule_in(&RULE, "haas-mill", &program, &World::of_examples(&META), &expect![[""]]);
         }
+    }
+
+    #[test]
+    fn polar_interpolation_brings_the_axis_of_its_control() {
+        let mut world = World::of_examples(&META);
+        world.machine.axes = Some(LetterSet::of("XZC"));
+        world.machine.engine.axes = Some(vec![Axis::X, Axis::Z, Axis::C]);
+        let program =
+            |on: &str, off: &str| format!("G21 G18 G98\n{on}\nG1 X10. Y5. F100.\nV5.\n{off}\nG1 Y1.\nM30\n");
+        check_rule_in(&RULE, "haas-lathe", &program("G112", "G113"), &world, &expect![[""]]);
+        check_rule_in(&RULE, "fanuc-lathe", &program("G12.1", "G13.1"), &world, &expect![[""]]);
     }
 
     #[test]

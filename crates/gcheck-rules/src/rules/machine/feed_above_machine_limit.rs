@@ -1,13 +1,19 @@
 //! A feed above the configured limit of the machine.
 
-use gcheck_engine::{Abstract, Domain, Event, FeedMode};
+use std::ops::Range;
+
+use gcheck_engine::{Abstract, At, Axis, Domain, Event, Fact, FeedMode, TravelKind};
 use gcheck_geometry::Mm;
 
 use crate::declare::declare_rule;
-use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
+use crate::facts::reach;
+use crate::{Finding, PathCx, PathRule, Report, Run, Uses, Watch};
+use crate::{Remembers, remembers};
 
 declare_rule! {
     /// A feed per minute (`F`) is above the configured highest feed of the machine.
+    ///
+    /// A feed for moves of rotary axes alone counts degrees: it is reported where a linear axis moves with it.
     ///
     /// ## Why it matters
     /// The control runs slower than the program says, or stops with an alarm. A feed ten times too high often is a missing
@@ -31,13 +37,26 @@ declare_rule! {
         severity: Warning,
         tier: Path,
         since: "0.1.0",
-        run: Run::Path { watch: Watch::CHANGES, make: || Box::new(FeedAboveMachineLimit) },
+        run: Run::Path {
+            watch: Watch::CHANGES.union(Watch::MOVES),
+            make: || Box::new(FeedAboveMachineLimit::default()),
+        },
     }
 }
 
-struct FeedAboveMachineLimit;
+#[derive(Default, Clone, PartialEq)]
+struct FeedAboveMachineLimit {
+    /// A feed above the limit with which only rotary axes have moved: the block that gave it, and its word.
+    turning: Option<(At, Range<u32>)>,
+}
+
+remembers!(FeedAboveMachineLimit: turning);
 
 impl PathRule for FeedAboveMachineLimit {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn concerns(&self, program: &Uses<'_>) -> bool {
         program.environment.machine.engine.max_feed.is_some()
     }
@@ -59,20 +78,50 @@ impl PathRule for FeedAboveMachineLimit {
         if lowest <= highest.0 * (1.0 + 1e-9) {
             return;
         }
-        report.add(
-            cx.finding(
-                &META,
-                cx.letter_range('F'),
-                format!(
-                    "feed of {}/min is above the machine's {}/min (`F`)",
-                    cx.shown(Mm(lowest)),
-                    cx.shown(Mm(highest.0))
-                ),
-            )
-            .label("above the configured highest feed")
-            .help("lower the feed, or correct the limit in the configuration"),
-        );
+        let range = cx.letter_range('F');
+        let letters = cx.origin().letters;
+        let names = |rotary: bool| {
+            Axis::ALL.into_iter().any(|axis| axis.is_rotary() == rotary && letters.contains(axis.letter()))
+        };
+        if names(true) && !names(false) && !reach::is_on_the_face(cx) {
+            self.turning = Some((cx.origin().at, range));
+            return;
+        }
+        self.turning = None;
+        report.add(finding(cx, range, lowest, highest.0));
     }
+
+    fn moved(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
+        let Some((at, range)) = self.turning.clone() else { return };
+        let (Some(highest), Some((feed, mode))) = (cx.environment.machine.engine.max_feed, reach::feed(cx))
+        else {
+            return;
+        };
+        if cx.definitions().set_by(Fact::Feed) != Some(at) || mode != FeedMode::PerMinute {
+            return;
+        }
+        let moves_linear = match event {
+            Event::Travel(travel) if travel.kind == TravelKind::Feed => {
+                reach::length(&travel.from, &travel.to).is_some()
+                    && !reach::only_turns(&travel.from, &travel.to)
+            }
+            Event::Arc(_) => true,
+            _ => false,
+        };
+        if moves_linear {
+            self.turning = None;
+            report.add(
+                finding(cx, range, feed, highest.0).also(cx.range(), "a linear axis moves with it here"),
+            );
+        }
+    }
+}
+
+fn finding(cx: &PathCx<'_>, range: Range<u32>, feed: f64, highest: f64) -> Finding {
+    let (feed, highest) = (cx.shown(Mm(feed)), cx.shown(Mm(highest)));
+    cx.finding(&META, range, format!("feed of {feed}/min is above the machine's {highest}/min (`F`)"))
+        .label("above the configured highest feed")
+        .help("lower the feed, or correct the limit in the configuration")
 }
 
 #[cfg(test)]
@@ -93,6 +142,24 @@ mod tests {
                 2 | G94 G1 X1. F500.
                   |            ^^^^^ warning[feed-above-machine-limit] feed of 500 in/min is above the machine's 393.7008 in/min (`F`)
             "#]],
+        );
+    }
+
+    #[test]
+    fn degrees_are_no_millimetres() {
+        check_rule_in(
+            &RULE,
+            "fanuc-mill",
+            "G21 G94 G0 X0. A0.\nG1 A90. F12000.\nA180.\nM30\n",
+            &World::of_examples(&META),
+            &expect![[""]],
+        );
+        check_rule_in(
+            &RULE,
+            "fanuc-mill",
+            "G21 G94 G0 X0. A0.\nG1 A90. F12000.\nA180.\nX10.\nX20.\nM30\n",
+            &World::of_examples(&META),
+            &expect![[""]],
         );
     }
 

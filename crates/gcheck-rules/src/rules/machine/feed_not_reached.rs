@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use gcheck_engine::{At, Event, Fact, FeedMode, PathMode, Position, TravelKind};
+use gcheck_engine::{ArcMove, At, Event, Fact, FeedMode, PathMode, Position, TravelKind};
 use gcheck_geometry::Mm;
 
 use crate::declare::declare_rule;
@@ -14,8 +14,9 @@ declare_rule! {
     /// A move asks for a feed of which the axes reach less than 70 %: their rapid rate is lower (`[machine] rapid`, by axis),
     /// or they do not turn an arc so fast, or do not come to that speed between two stops (`[machine] acceleration`).
     ///
-    /// It also holds inverse time to the highest feed: `F` is moves a minute there, so that no number shows the speed.
-    /// Each `F` is reported once.
+    /// It also holds inverse time to the highest feed: `F` is moves a minute there, so that no number shows the speed. Where
+    /// rotary axes move, it holds them to their rate (`[machine] rotary_rapid`): in inverse time, and with a feed a minute where
+    /// the control's manual says what that counts. Each `F` is reported once.
     ///
     /// ## Why it matters
     /// The control runs slower than the program says: each tooth cuts less, the tool rubs, and times are longer than the feed
@@ -74,65 +75,87 @@ impl PathRule for FeedNotReached {
     }
 
     fn moved(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
-        let Some((asked, reach)) = speeds(cx, event) else { return };
-        if reach.speed >= asked * ENOUGH || cx.is_called_only() {
+        let Some(asked) = asked(cx, event) else { return };
+        if asked.share >= ENOUGH || cx.is_called_only() {
             return;
         }
         if !self.told.insert(cx.definitions().set_by(Fact::Feed)) {
             return;
         }
-        let only_turns = matches!(reach.holder, Holder::Axis(axis) if axis.is_rotary());
-        let rate = |speed: f64| {
-            if only_turns { format!("{speed:.0} deg/min") } else { format!("{}/min", cx.shown(Mm(speed))) }
-        };
         let finding = cx
-            .finding(
-                &META,
-                cx.range(),
-                format!(
-                    "the feed comes to {}, and {} {} at most",
-                    rate(asked),
-                    reach.holder.words(),
-                    rate(reach.speed)
-                ),
-            )
-            .label(format!("{:.0} % of the feed is reached here", (reach.speed / asked * 100.0).floor()))
+            .finding(&META, cx.range(), asked.words)
+            .label(format!("{:.0} % of the feed is reached here", (asked.share * 100.0).floor()))
             .help("lower the feed, or correct the machine in the configuration");
         report.add(cx.resting_on(finding, Fact::Feed, "the feed"));
     }
 }
 
-/// The speed along the path that a move asks for, and the highest one that the axes reach.
-fn speeds(cx: &PathCx<'_>, event: &Event) -> Option<(f64, Reach)> {
+/// What a move asks for.
+struct Asked {
+    /// The part of it that the machine reaches.
+    share: f64,
+    /// Both as the message says them.
+    words: String,
+}
+
+fn asked(cx: &PathCx<'_>, event: &Event) -> Option<Asked> {
     let machine = &cx.environment.machine.engine;
     let (from, to): (&Position, &Position) = match event {
         Event::Travel(travel) if travel.kind == TravelKind::Feed => (&travel.from, &travel.to),
-        Event::Arc(arc) => (&arc.from, &arc.to),
+        Event::Arc(arc) => return on_arc(cx, arc),
         _ => return None,
     };
-    let (number, mode) = reach::feed(cx)?;
-    let is_straight = matches!(event, Event::Travel(_));
-    let asked = match mode {
-        FeedMode::PerMinute => {
-            // Without linear axes the number of the feed counts degrees, in whatever units the program is.
-            let only_turns = reach::along(machine, from, to)
-                .is_some_and(|reach| matches!(reach.holder, Holder::Axis(axis) if axis.is_rotary()));
-            if only_turns {
-                return None;
-            }
-            number
-        }
-        FeedMode::InverseTime => number * reach::length(from, to).filter(|_| is_straight)?,
-        FeedMode::PerRevolution => return None,
-    };
-    let axes = if is_straight { reach::along(machine, from, to) } else { None };
-    let turn = if let Event::Arc(arc) = event { reach::around(machine, arc) } else { None };
-    let is_stopped = is_straight && cx.state().path_mode(cx.model) == Some(PathMode::ExactStop);
+    let (_, mode) = reach::feed(cx)?;
+    if reach::is_on_the_face(cx) {
+        return None;
+    }
+    let minutes = reach::minutes(cx, from, to)?;
+    let asked = reach::length(from, to)? / minutes;
+    let (only_turns, is_as_written) = (reach::only_turns(from, to), reach::moves_as_written(cx));
+    let by_rate = reach::along_axes(machine, from, to, |axis| is_as_written || axis.is_rotary());
+    let is_stopped = is_as_written && cx.state().path_mode(cx.model) == Some(PathMode::ExactStop);
     let stops = if is_stopped { reach::between_stops(machine, from, to) } else { None };
     // A feed a minute above the highest feed is told where it is given.
-    let feed = reach::by_feed(machine).filter(|_| mode == FeedMode::InverseTime);
-    let reach = [axes, turn, stops, feed].into_iter().fold(None, reach::lower)?;
-    Some((asked, reach))
+    let feed = reach::by_feed(machine).filter(|_| mode == FeedMode::InverseTime && !only_turns);
+    let reach = [by_rate, stops, feed].into_iter().fold(None, reach::lower)?;
+    let share = reach.speed / asked;
+    let words = match reach.holder {
+        Holder::Axis(axis) if axis.is_rotary() => {
+            let speed = reach::way(from, to, axis)? / minutes;
+            format!(
+                "the feed asks {} for {speed:.0} deg/min, and {} {:.0} deg/min at most",
+                axis.name(),
+                reach.holder.words(),
+                speed * share
+            )
+        }
+        _ if only_turns => format!(
+            "the feed comes to {asked:.0} deg/min, and {} {:.0} deg/min at most",
+            reach.holder.words(),
+            reach.speed
+        ),
+        _ => in_length(cx, asked, reach),
+    };
+    Some(Asked { share, words })
+}
+
+fn on_arc(cx: &PathCx<'_>, arc: &ArcMove) -> Option<Asked> {
+    let machine = &cx.environment.machine.engine;
+    let (asked, mode) = reach::feed(cx)?;
+    if mode != FeedMode::PerMinute || reach::is_on_the_face(cx) || !reach::moves_as_written(cx) {
+        return None;
+    }
+    let reach = reach::around(machine, arc)?;
+    Some(Asked { share: reach.speed / asked, words: in_length(cx, asked, reach) })
+}
+
+fn in_length(cx: &PathCx<'_>, asked: f64, reach: Reach) -> String {
+    format!(
+        "the feed comes to {}/min, and {} {}/min at most",
+        cx.shown(Mm(asked)),
+        reach.holder.words(),
+        cx.shown(Mm(reach.speed))
+    )
 }
 
 #[cfg(test)]
@@ -170,6 +193,55 @@ mod tests {
                 3 | G1 X100 F200
                   | ^^^^^^^^^^^^ hint[feed-not-reached] the feed comes to 20000 mm/min, and the machine feeds 10000 mm/min at most
             "#]],
+        );
+    }
+
+    fn world_with_a_table() -> World<'static> {
+        let mut world = World::of_examples(&META);
+        world.machine.engine.dynamics.rotary_rapid = Some(3600.0);
+        world
+    }
+
+    #[test]
+    fn inverse_time_holds_the_rotary_axis_of_a_mixed_move() {
+        for control in ["haas-mill", "fanuc-mill", "linuxcnc"] {
+            check_rule_in(
+                &RULE,
+                control,
+                "G21 G90 G94 G0 X0. Y0. Z5. A0.\nG93 G1 X22. A360. F60.\nX0. A0. F8.\nM30\n",
+                &world_with_a_table(),
+                &expect![[""]],
+            );
+        }
+    }
+
+    #[test]
+    fn a_feed_a_minute_counts_as_the_manual_says() {
+        let program = "G21 G90 G94 G0 X0. Y0. Z5. A0.\nG1 X22. A360. F800.\nA0. F9000.\nA100. F3000.\nM30\n";
+        check_rule_in(&RULE, "linuxcnc", program, &world_with_a_table(), &expect![[""]]);
+        check_rule_in(&RULE, "fanuc-mill", program, &world_with_a_table(), &expect![[""]]);
+        check_rule_in(&RULE, "haas-mill", program, &world_with_a_table(), &expect![[""]]);
+    }
+
+    #[test]
+    fn degrees_are_degrees_in_an_inch_program() {
+        check_rule_in(
+            &RULE,
+            "fanuc-mill",
+            "G20 G90 G94 G0 X0. Y0. Z5. A0.\nG1 A100. F3000.\nA0. F9000.\nM30\n",
+            &world_with_a_table(),
+            &expect![[""]],
+        );
+    }
+
+    #[test]
+    fn near_the_pole_the_tip_asks_for_more_than_the_table_turns() {
+        check_rule_in(
+            &RULE,
+            "haas-mill",
+            "G21 G90 G94\nG234 H1 X0. Y0. Z10. B1. C0.\nG1 X1. B0.05 C0. F1000.\nX1.5 B.02 C45.\nM30\n",
+            &world_with_a_table(),
+            &expect![[""]],
         );
     }
 

@@ -1,21 +1,28 @@
 //! A spindle speed above the configured limit of the machine.
 
-use gcheck_controls::Effect;
+use gcheck_controls::{CodeIx, Effect};
 use gcheck_engine::{Abstract, Domain, Event, Role};
 
 use crate::declare::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 
 declare_rule! {
-    /// A spindle speed (`S`) is above the configured highest speed of the machine.
+    /// A spindle speed (`S`), or the limit of the speed under constant surface speed (`G50 S`, `G96 D`), is above the configured
+    /// highest speed of the machine.
     ///
     /// ## Why it matters
-    /// The control runs slower than the program says, so that the feed no longer fits, or stops with an alarm.
+    /// The control runs slower than the program says, so that the feed no longer fits, or stops with an alarm. A limit above
+    /// that of the machine limits nothing: near the centre the chuck turns as fast as it can.
     ///
     /// ## Reported
     /// On a machine with 8000 turns a minute:
     /// ```nc,reported,haas-mill
     /// S12000 M3
+    /// M30
+    /// ```
+    /// ```nc,reported,fanuc-lathe
+    /// G50 S9000
+    /// G96 S200 M3
     /// M30
     /// ```
     /// ## Not reported
@@ -34,7 +41,10 @@ declare_rule! {
         severity: Warning,
         tier: Path,
         since: "0.1.0",
-        run: Run::Path { watch: Watch::CHANGES, make: || Box::new(SpeedAboveMachineLimit) },
+        run: Run::Path {
+            watch: Watch::CHANGES.union(Watch::BLOCKS),
+            make: || Box::new(SpeedAboveMachineLimit),
+        },
     }
 }
 
@@ -43,6 +53,24 @@ struct SpeedAboveMachineLimit;
 impl PathRule for SpeedAboveMachineLimit {
     fn concerns(&self, program: &Uses<'_>) -> bool {
         program.environment.machine.engine.max_rpm.is_some()
+    }
+
+    fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
+        let (Some(highest), Some(letter)) = (cx.environment.machine.engine.max_rpm, limit_word(cx)) else {
+            return;
+        };
+        let Some(limit) = cx.known_number(letter).map(f64::abs).filter(|limit| *limit > highest.0) else {
+            return;
+        };
+        report.add(
+            cx.finding(
+                &META,
+                cx.letter_range(letter),
+                format!("speed limit of {limit:.0} rpm is above the machine's {:.0} rpm (`{letter}`)", highest.0),
+            )
+            .label("this limits nothing")
+            .help("lower the limit to what chuck and part may turn, or correct the machine's in the configuration"),
+        );
     }
 
     fn changed(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
@@ -71,6 +99,18 @@ impl PathRule for SpeedAboveMachineLimit {
             .help("lower the speed, or correct the limit in the configuration"),
         );
     }
+}
+
+/// The word of the block that limits the speed under constant surface speed.
+fn limit_word(cx: &PathCx<'_>) -> Option<char> {
+    if cx.has_effect(|effect| effect == Effect::SpeedLimitOrSetPosition) {
+        return Some('S');
+    }
+    let reads_d = |code: &CodeIx| {
+        cx.model.effect(*code) == Effect::SurfaceSpeed
+            && cx.code_of(*code).is_some_and(|code| code.entry().words.iter().any(|word| word.letter == "D"))
+    };
+    cx.codes().iter().any(reads_d).then_some('D')
 }
 
 #[cfg(test)]
@@ -105,6 +145,24 @@ mod tests {
                 2 | G97 S9000
                   |     ^^^^^ warning[speed-above-machine-limit] speed of 9000 rpm is above the machine's 8000 rpm (`S`)
             "#]],
+        );
+    }
+
+    #[test]
+    fn a_limit_in_the_block_of_the_mode() {
+        check_rule_in(
+            &RULE,
+            "linuxcnc",
+            "G96 D9000 S300 M3\nG96 D7000 S300\nM2\n",
+            &World::of_examples(&META),
+            &expect![[""]],
+        );
+        check_rule_in(
+            &RULE,
+            "fanuc-lathe",
+            "G50 S7000\nG50 X0. Z0.\nG50 S#1\nG50 S8500\nM30\n",
+            &World::of_examples(&META),
+            &expect![[""]],
         );
     }
 

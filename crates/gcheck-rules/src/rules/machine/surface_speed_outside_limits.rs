@@ -2,18 +2,21 @@
 
 use std::collections::BTreeSet;
 
-use gcheck_engine::{At, Event, Fact, Units};
+use gcheck_controls::Effect;
+use gcheck_engine::{Abstract, At, Domain, Event, Fact, Role, Spindle, Units};
 use gcheck_geometry::Rpm;
 
 use crate::declare::declare_rule;
 use crate::facts::cutting::is_cut;
 use crate::facts::edge;
+use crate::facts::turning::turns_the_part;
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// The edge of the tool runs slower or faster than the range that the configuration gives for the tool: its diameter times
-    /// the speed of the spindle (`[tools] surface_speed`, `diameter`).
+    /// The edge of the tool runs slower or faster than the range that the configuration gives for the tool
+    /// (`[tools] surface_speed`): its diameter times the speed of the spindle that turns it, or where the part turns the `S` of
+    /// constant surface speed (`G96`).
     ///
     /// The rule is silent about tools without a range: none is guessed. Each speed is reported once.
     ///
@@ -31,7 +34,25 @@ declare_rule! {
     /// G1 X50. F1000.
     /// M30
     /// ```
+    /// ```nc,reported,fanuc-lathe
+    /// G21 G99 G18
+    /// T0101
+    /// G50 S3000
+    /// G96 S300 M3
+    /// G0 X50. Z2.
+    /// G1 Z-20. F0.2
+    /// M30
+    /// ```
     /// ## Not reported
+    /// ```nc,quiet,fanuc-lathe
+    /// G21 G99 G18
+    /// T0101
+    /// G50 S3000
+    /// G96 S120 M3
+    /// G0 X50. Z2.
+    /// G1 Z-20. F0.2
+    /// M30
+    /// ```
     /// ```nc,quiet,fanuc-mill
     /// G21 G90 G94 G17
     /// T1 M6
@@ -67,13 +88,12 @@ impl PathRule for SurfaceSpeedOutsideLimits {
     }
 
     fn cut(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
-        if !cx.is_mill() || !is_cut(cx, event) {
+        if !is_cut(cx, event) {
             return;
         }
         let Some((number, cutting)) = edge::cutting(cx) else { return };
-        let (Some((low, high)), Some(turns)) = (cutting.surface_speed, edge::turns(cx)) else { return };
-        let Some(tool) = cx.environment.machine.engine.tools.get(&number) else { return };
-        let speed = tool.surface_speed(Rpm(turns));
+        let (Some((low, high)), Some(run)) = (cutting.surface_speed, runs(cx, number)) else { return };
+        let speed = run.speed;
         let above = speed > high * 1.005;
         if speed.is_nan() || !above && speed >= low * 0.995 {
             return;
@@ -100,13 +120,49 @@ impl PathRule for SurfaceSpeedOutsideLimits {
                     shown(limit)
                 ),
             )
-            .label(format!("{turns:.0} rpm at a diameter of {}", cx.shown(tool.diameter)))
+            .label(run.by)
             .help(format!(
-                "turn at {:.0} rpm, or correct the range in the configuration",
-                turns * limit / speed
+                "{}{:.0}{}, or correct the range in the configuration",
+                run.set.0,
+                run.set.1 * limit / speed,
+                run.set.2
             ));
         report.add(cx.resting_on(finding, Fact::Speed, "the speed"));
     }
+}
+
+/// How the edge runs.
+struct Runs {
+    /// Metres a minute.
+    speed: f64,
+    /// What makes it so.
+    by: String,
+    /// What sets it: "turn at ", a number, " rpm".
+    set: (&'static str, f64, &'static str),
+}
+
+fn runs(cx: &PathCx<'_>, tool: u32) -> Option<Runs> {
+    let state = cx.state();
+    let code = state.mode(Role::SpindleMode).only()?;
+    let is_by_surface = cx.model.effect(code) == Effect::SurfaceSpeed;
+    if !is_by_surface && cx.is_mill() {
+        let (turns, tool) = (edge::turns(cx)?, cx.environment.machine.engine.tools.get(&tool)?);
+        return Some(Runs {
+            speed: tool.surface_speed(Rpm(turns)),
+            by: format!("{turns:.0} rpm at a diameter of {}", cx.shown(tool.diameter)),
+            set: ("turn at ", turns, " rpm"),
+        });
+    }
+    if !is_by_surface || !turns_the_part(cx) || state.spindle().is_none_or(|way| way == Spindle::Stopped) {
+        return None;
+    }
+    let number = Abstract::known(state.speed()).filter(|number| *number > 0.0)?;
+    let metres = if state.units(cx.model)? == Units::Inch { number * 0.3048 } else { number };
+    Some(Runs {
+        speed: metres,
+        by: format!("constant surface speed of {number} (`{}`)", cx.name_of(code)),
+        set: ("write S", number, ""),
+    })
 }
 
 #[cfg(test)]

@@ -67,6 +67,7 @@ static MODE: Mode = Mode {
     of_tool: "the exact stop",
     at_end: "exact stop",
     switched: "exact stop",
+    is_usual_from_head: false,
 };
 
 #[cfg(test)]

@@ -33,6 +33,17 @@ declare_rule! {
     /// G0 X150. Z100.
     /// M30
     /// ```
+    /// Under polar interpolation X is a coordinate of the face, with two sides.
+    /// ```nc,quiet,fanuc-lathe
+    /// G21 G98 G40 T0101
+    /// G97 S900 M3
+    /// G0 X64. Z0. C0.
+    /// G12.1
+    /// G1 X-16. F200.
+    /// G13.1
+    /// G0 X150. Z100.
+    /// M30
+    /// ```
     rule "faced-past-the-centre" in "motion" {
         summary: "facing cut far beyond the centre of the part",
         severity: Warning,

@@ -3,8 +3,8 @@
 use std::collections::BTreeSet;
 use std::f64::consts::FRAC_PI_3;
 
-use gcheck_controls::Effect;
-use gcheck_engine::{At, Event, Fact, PathMode, Position, Role, TravelKind};
+use gcheck_controls::{Control, CornerRules, Effect};
+use gcheck_engine::{At, Event, Fact, PathMode, Position, Role, Smoothing, TravelKind};
 use gcheck_geometry::Mm;
 
 use crate::declare::declare_rule;
@@ -12,11 +12,11 @@ use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// Corners are blended with a tolerance (`G64 P`) that is larger than the radius of an arc, or than a step between two
-    /// sharp corners.
+    /// Corners are blended with a tolerance that is larger than the radius of an arc, or than a step between two sharp corners.
     ///
-    /// Arcs count from a sixth of a turn on, and steps between corners of 60 degrees and more, where the moves beside them are
-    /// much longer. Each tolerance is reported once.
+    /// The tolerance is that of `G64 P`, or of `G187 E`, or without both that of the control's setting, where `[settings]`
+    /// gives it. Arcs count from a sixth of a turn on, with `G64 P`; steps between corners of 60 degrees and more, where
+    /// the moves beside them are much longer. Each tolerance is reported once.
     ///
     /// ## Why it matters
     /// The control may leave the path by the tolerance at each corner, so that a feature of that size may be missing from the
@@ -30,6 +30,14 @@ declare_rule! {
     /// G3 X10.2 Y0.2 J0.2
     /// G1 Y10
     /// M2
+    /// ```
+    /// ```nc,reported,haas-mill
+    /// G21 G90 G17 G187 P1 E2.
+    /// G0 X0. Y0.
+    /// G1 X10. F500.
+    /// Y0.3
+    /// X20.
+    /// M30
     /// ```
     /// ## Not reported
     /// ```nc,quiet,linuxcnc
@@ -45,7 +53,10 @@ declare_rule! {
         severity: Info,
         tier: Path,
         since: "0.1.0",
-        run: Run::Path { watch: Watch::MOVES, make: || Box::new(ToleranceAboveFeature::default()) },
+        run: Run::Path {
+            watch: Watch::MOVES.union(Watch::CHANGES),
+            make: || Box::new(ToleranceAboveFeature::default()),
+        },
     }
 }
 
@@ -58,11 +69,24 @@ const NOISE: f64 = 0.1;
 struct ToleranceAboveFeature {
     /// The straight moves before this one, the last one last.
     before: [Option<Way>; 2],
-    /// The blocks that gave the tolerances that were reported.
+    /// The tolerance of smoothing, millimetres, and the block that gave it.
+    smoothing: Option<f64>,
+    smoothed: Option<At>,
+    /// The blocks that gave the tolerances that were reported; none for that of the control's setting.
     told: BTreeSet<Option<At>>,
 }
 
-remembers!(ToleranceAboveFeature: told);
+remembers!(ToleranceAboveFeature: smoothed, told);
+
+/// A tolerance in effect.
+struct Tolerance {
+    mm: f64,
+    /// The block that gave it.
+    set: Option<At>,
+    /// As messages name it.
+    name: String,
+    is_blending: bool,
+}
 
 /// Direction and length of a straight move in X, Y and Z.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -96,7 +120,22 @@ impl PathRule for ToleranceAboveFeature {
     }
 
     fn concerns(&self, program: &Uses<'_>) -> bool {
-        program.may(|effect| effect == Effect::PathBlending)
+        program.may(|effect| matches!(effect, Effect::PathBlending | Effect::Smoothing))
+            || setting(program.environment.control())
+                .is_some_and(|number| program.environment.machine.engine.settings.contains_key(number))
+    }
+
+    fn changed(&mut self, cx: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
+        match event {
+            // A level alone keeps the tolerance.
+            Event::Smoothing(Smoothing { level: Some(_), tolerance: None }) => {}
+            Event::Smoothing(smoothing) => {
+                self.smoothing = smoothing.tolerance.map(|tolerance| tolerance.0);
+                self.smoothed = Some(cx.origin().at);
+            }
+            Event::End => (self.smoothing, self.smoothed) = (None, None),
+            _ => {}
+        }
     }
 
     fn moved(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
@@ -108,12 +147,11 @@ impl PathRule for ToleranceAboveFeature {
         };
         let [first, step] = self.before;
         self.before = [step, way];
-        let Some(PathMode::Blending { tolerance, .. }) = cx.state().path_mode(cx.model) else { return };
-        if tolerance.0.is_nan() || tolerance.0 <= 0.0 {
-            return;
-        }
+        let Some(tolerance) = self.tolerance(cx) else { return };
         let (size, what) = match (event, first, step, way) {
-            (Event::Arc(arc), ..) if !arc.expanded && arc.sweep.abs() >= FRAC_PI_3 - 1e-9 => {
+            (Event::Arc(arc), ..)
+                if tolerance.is_blending && !arc.expanded && arc.sweep.abs() >= FRAC_PI_3 - 1e-9 =>
+            {
                 let (from, (one, other, _)) = (arc.from.values(), arc.plane.axes());
                 let ends = from.get(one).zip(from.get(other));
                 let Some((x, y)) = ends else { return };
@@ -123,32 +161,72 @@ impl PathRule for ToleranceAboveFeature {
                 if first.turns_into(&step)
                     && step.turns_into(&next)
                     && first.length.min(next.length) > STEP * step.length
-                    && step.length > NOISE * tolerance.0 =>
+                    && step.length > NOISE * tolerance.mm =>
             {
                 (step.length, "the step before this")
             }
             _ => return,
         };
-        let fact = Fact::Mode(Role::PathControl);
-        let set_by = cx.definitions().set_by(fact);
-        if size.is_nan() || size >= tolerance.0 * (1.0 - 1e-9) || !self.told.insert(set_by) {
+        if size.is_nan() || size >= tolerance.mm * (1.0 - 1e-9) || !self.told.insert(tolerance.set) {
             return;
         }
-        let name = cx.code_name(Role::PathControl).unwrap_or_default();
         let finding = cx
             .finding(
                 &META,
                 cx.range(),
                 format!(
-                    "the tolerance of {} is larger than {} of {} (`{name}`)",
-                    cx.shown(Mm(tolerance.0)),
+                    "the tolerance of {} is larger than {} of {} ({})",
+                    cx.shown(Mm(tolerance.mm)),
                     what,
-                    cx.shown(Mm(size))
+                    cx.shown(Mm(size)),
+                    tolerance.name
                 ),
             )
             .label("the control may cut across it")
             .help("give a tolerance below the smallest feature");
-        report.add(cx.resting_on(finding, fact, &format!("`{name}`")));
+        let here = cx.origin().at;
+        report.add(match tolerance.set.filter(|set| *set != here).and_then(|set| cx.range_of(set)) {
+            Some(range) => finding.also(range, format!("{} set here", tolerance.name)),
+            None => finding,
+        });
+    }
+}
+
+/// The numbered setting that holds the tolerance while the program gives none.
+fn setting(control: &Control) -> Option<&str> {
+    match &control.motion().corners {
+        CornerRules::Rounded { tolerance_setting, .. } => tolerance_setting.as_deref(),
+        _ => None,
+    }
+}
+
+impl ToleranceAboveFeature {
+    fn tolerance(&self, cx: &PathCx<'_>) -> Option<Tolerance> {
+        let Some(PathMode::Blending { tolerance, .. }) = cx.state().path_mode(cx.model) else { return None };
+        if tolerance.0.is_nan() {
+            return None;
+        }
+        if tolerance.0 > 0.0 {
+            let set = cx.definitions().set_by(Fact::Mode(Role::PathControl));
+            let name = format!("`{}`", cx.code_name(Role::PathControl).unwrap_or_default());
+            return Some(Tolerance { mm: tolerance.0, set, name, is_blending: true });
+        }
+        if let Some(mm) = self.smoothing {
+            let name = cx.name_of_effect(Effect::Smoothing).unwrap_or_default();
+            return Some(Tolerance {
+                mm,
+                set: self.smoothed,
+                name: format!("`{name} E`"),
+                is_blending: false,
+            });
+        }
+        let number = setting(cx.control())?;
+        let machine = &cx.environment.machine.engine;
+        let value: f64 = machine.settings.get(number)?.parse().ok()?;
+        // Whatever units the control is switched on with, a setting counts in those of the machine.
+        let units = machine.units.or_else(|| cx.model.units_at_power_on(&machine.settings))?;
+        let mm = value * units.in_mm();
+        (mm > 0.0).then(|| Tolerance { mm, set: None, name: format!("setting {number}"), is_blending: false })
     }
 }
 
@@ -157,7 +235,31 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::testing::check_rule;
+    use crate::testing::{World, check_rule, check_rule_in};
+
+    #[test]
+    fn the_setting_counts_where_the_program_gives_nothing() {
+        let mut world = World::default();
+        world.machine.engine.settings.insert("85".to_owned(), "0.5".to_owned());
+        world.machine.engine.units = Some(gcheck_engine::Units::Mm);
+        check_rule_in(
+            &RULE,
+            "haas-mill",
+            "G21 G90 G0 X0. Y0.\nG1 X10. F500.\nY0.3\nX20.\nG187 E0.01\nY.6\nX30.\nG187\nG3 X30.2 Y.8 J.2\nM30\n",
+            &world,
+            &expect![[""]],
+        );
+    }
+
+    #[test]
+    fn a_level_keeps_the_tolerance_and_exact_stop_needs_none() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G21 G90 G187 E0.5\nG187 P3\nG0 X0. Y0.\nG61 G1 X10. F500.\nY0.3\nX20.\nG64 Y.6\nX30.\nM30\n",
+            &expect![[""]],
+        );
+    }
 
     #[test]
     fn a_step_between_two_corners() {

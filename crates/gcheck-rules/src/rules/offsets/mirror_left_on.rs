@@ -49,6 +49,7 @@ static MODE: Mode = Mode {
     of_tool: "the mirror image",
     at_end: "the mirror image",
     switched: "the mirror",
+    is_usual_from_head: false,
 };
 
 #[cfg(test)]

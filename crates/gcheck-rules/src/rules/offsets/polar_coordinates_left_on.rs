@@ -49,6 +49,7 @@ static MODE: Mode = Mode {
     of_tool: "the polar coordinates",
     at_end: "programming in polar coordinates",
     switched: "polar coordinates",
+    is_usual_from_head: false,
 };
 
 #[cfg(test)]

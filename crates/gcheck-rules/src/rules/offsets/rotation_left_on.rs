@@ -71,6 +71,7 @@ static MODE: Mode = Mode {
     of_tool: "the rotation",
     at_end: "the rotation",
     switched: "the rotation",
+    is_usual_from_head: false,
 };
 
 #[cfg(test)]

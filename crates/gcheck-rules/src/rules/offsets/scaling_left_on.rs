@@ -47,6 +47,7 @@ static MODE: Mode = Mode {
     of_tool: "the scaling",
     at_end: "scaling",
     switched: "scaling",
+    is_usual_from_head: false,
 };
 
 #[cfg(test)]

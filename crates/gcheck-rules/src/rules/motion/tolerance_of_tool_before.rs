@@ -1,0 +1,184 @@
+//! A loose tolerance of one tool's work that the next tool cuts with.
+
+use gcheck_controls::Effect;
+use gcheck_engine::{At, Event, Fact, PathMode, Smoothing};
+use gcheck_geometry::Mm;
+
+use crate::declare::declare_rule;
+use crate::facts::boundary::{Boundary, boundary, is_before, with_tool_change};
+use crate::facts::cutting::is_cut;
+use crate::facts::edge::cuts_across;
+use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
+use crate::{Remembers, remembers};
+
+declare_rule! {
+    /// A tool mills with a loose tolerance (more than 0.1 mm, 0.004 inch) that the work of the tool before gave: `G64 P`,
+    /// `G187 E`.
+    ///
+    /// A tolerance from before the first tool is meant for all of them.
+    ///
+    /// ## Why it matters
+    /// The control may leave the path by the tolerance at each corner. What is right for roughing takes the edges and small
+    /// radii off where the next tool finishes.
+    ///
+    /// ## Reported
+    /// ```nc,reported,linuxcnc
+    /// G21 G90 G94 G17 G64 P0.01
+    /// T1 M6
+    /// G64 P0.5
+    /// G0 X0 Y0
+    /// G1 X10 F500
+    /// T2 M6
+    /// G0 X0 Y0
+    /// G1 X10 F200
+    /// M2
+    /// ```
+    /// ```nc,reported,haas-mill
+    /// T1 M6
+    /// G21 G90 G0 X0. Y0.
+    /// G187 P1 E0.5
+    /// G1 X10. F500.
+    /// T2 M6
+    /// G0 X0. Y0.
+    /// G1 X10. F200.
+    /// M30
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,linuxcnc
+    /// G21 G90 G94 G17 G64 P0.5
+    /// T1 M6
+    /// G0 X0 Y0
+    /// G1 X10 F500
+    /// T2 M6
+    /// G0 X0 Y0
+    /// G1 X10 F200
+    /// M2
+    /// ```
+    /// ```nc,quiet,haas-mill
+    /// T1 M6
+    /// G21 G90 G0 X0. Y0.
+    /// G187 P1 E0.5
+    /// G1 X10. F500.
+    /// G187
+    /// T2 M6
+    /// G0 X0. Y0.
+    /// G1 X10. F200.
+    /// M30
+    /// ```
+    rule "tolerance-of-tool-before" in "motion" {
+        summary: "loose tolerance of the tool before",
+        severity: Info,
+        tier: Path,
+        since: "0.1.0",
+        run: Run::Path {
+            watch: Watch::BLOCKS.union(Watch::CHANGES).union(Watch::CUTS),
+            make: || Box::new(ToleranceOfToolBefore::default()),
+        },
+    }
+}
+
+/// Millimetres: more than a finishing pass takes.
+const LOOSE: f64 = 0.1;
+
+#[derive(Default, Clone, PartialEq)]
+struct ToleranceOfToolBefore {
+    /// Where the first tool comes.
+    first_tool: Option<At>,
+    /// The block that gave the tolerance in effect, while that is loose.
+    set: Option<At>,
+    /// Millimetres.
+    tolerance: Option<f64>,
+    /// It is one of smoothing, not of blending.
+    is_smoothing: bool,
+}
+
+remembers!(ToleranceOfToolBefore: first_tool, set);
+
+impl PathRule for ToleranceOfToolBefore {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
+    fn concerns(&self, program: &Uses<'_>) -> bool {
+        program.may(|effect| matches!(effect, Effect::PathBlending | Effect::Smoothing))
+    }
+
+    fn block(&mut self, cx: &PathCx<'_>, _: &mut Report<'_>) {
+        if boundary(cx) == Some(Boundary::ToolChange) {
+            self.first_tool.get_or_insert(cx.origin().at);
+        }
+    }
+
+    fn changed(&mut self, cx: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
+        let (tolerance, is_smoothing) = match event {
+            Event::PathMode(PathMode::Blending { tolerance, .. }) => (Some(*tolerance), false),
+            Event::PathMode(_) | Event::End => (None, false),
+            // A level alone keeps the tolerance.
+            Event::Smoothing(Smoothing { level: Some(_), tolerance: None }) => return,
+            Event::Smoothing(smoothing) => (smoothing.tolerance, true),
+            _ => return,
+        };
+        let loose = tolerance.map(|tolerance| tolerance.0).filter(|tolerance| *tolerance > LOOSE);
+        *self = Self {
+            first_tool: self.first_tool,
+            set: loose.map(|_| cx.origin().at),
+            tolerance: loose,
+            is_smoothing,
+        };
+    }
+
+    fn cut(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
+        let (Some(set), Some(first), Some(tolerance)) = (self.set, self.first_tool, self.tolerance) else {
+            return;
+        };
+        let Some(changed) = cx.definitions().set_by(Fact::Tool) else { return };
+        if !is_before(first, set) || !is_before(set, changed) || !is_cut(cx, event) || !cuts_across(event) {
+            return;
+        }
+        self.set = None;
+        let (effect, letter) =
+            if self.is_smoothing { (Effect::Smoothing, 'E') } else { (Effect::PathBlending, 'P') };
+        let name = cx.name_of_effect(effect).unwrap_or_default();
+        let finding = cx
+            .finding(
+                &META,
+                cx.range(),
+                format!("the tool cuts with the tolerance of the tool before (`{name} {letter}`)"),
+            )
+            .label(format!("the path may be {} off at corners", cx.shown(Mm(tolerance))))
+            .help(format!("give the tolerance of this tool before it cuts: `{name} {letter}`"));
+        let finding = with_tool_change(cx, finding);
+        report.add(match cx.range_of(set) {
+            Some(range) => finding.also(range, "the tolerance is given here"),
+            None => finding,
+        });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::check_rule;
+
+    #[test]
+    fn each_tolerance_is_told_once() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "T1 M6\nG20 G90 G0 X0. Y0.\nG187 P1 E0.02\nG1 X1. F50.\nT2 M6\nG1 X2. F20.\nX3.\nT3 M6\nX4.\nM30\n",
+            &expect![[""]],
+        );
+    }
+
+    #[test]
+    fn a_drill_leaves_no_corners() {
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "G21 G90 G17\nT1 M6\nG64 P0.5\nG1 X10 F500\nT2 M6\nG81 X1 Y1 Z-5 R1 F100\nG80\nM2\n",
+            &expect![[""]],
+        );
+    }
+}
