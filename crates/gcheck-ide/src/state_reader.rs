@@ -8,7 +8,7 @@ use gcheck_engine::{
     Abstract, AbstractValue, Axis, Domain as _, FeedMode, Model, PathMode, Position, Role, Spindle, State,
     Truth, Units,
 };
-use gcheck_geometry::Rpm;
+use gcheck_geometry::{Mm, Rpm};
 
 use crate::number_text::{coordinate, decimals, plain, unit, value};
 
