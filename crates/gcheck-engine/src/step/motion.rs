@@ -420,6 +420,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     /// `G53`: the words are machine coordinates.
     fn machine_move(&mut self, kind: TravelKind, state: &mut State<D>) -> Step {
+        self.check_named_axes()?;
         let polar = self.words.present().intersects(super::POLAR);
         if (polar || state.is_incremental(self.model) == Some(true)) && self.refuses_incomplete() {
             return Err(Fault::Conflict);
