@@ -104,6 +104,8 @@ pub enum Fault {
 
     /// A jump to a sequence number that the program does not have.
     NoSuchLabel(u32),
+    /// A jump to a number that no block can have: below zero, or too large.
+    JumpTarget(f64),
     /// A call of a program that is not found.
     NoSuchProgram,
     /// Calls nest too deep.

@@ -721,6 +721,7 @@ impl<'a, 'p, 'o, 'd, O: FlowObserver> Flow<'a, 'p, 'o, 'd, O> {
         let may_lead_elsewhere = matches!(
             fault,
             Fault::NoSuchLabel(_)
+                | Fault::JumpTarget(_)
                 | Fault::NoSuchProgram
                 | Fault::LoopMismatch
                 | Fault::StrayReturn

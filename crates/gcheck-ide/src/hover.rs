@@ -7,9 +7,10 @@
 use std::fmt::Write as _;
 use std::ops::Range;
 
-use gcheck_controls::{Code, CodeIx, Control, Effect, Letter, Need, Variable, WordEntry, WordKind};
+use gcheck_controls::{Code, CodeIx, Control, Effect, Letter, Motion, Need, Variable, WordEntry, WordKind};
 use gcheck_db::{BlockPlace, Cancelled, Database, DocumentId, Snapshot, StateAt};
 use gcheck_engine::{Abstract, AbstractValue, At, Axis, Domain as _, Look, Position, Role, State, Truth};
+use gcheck_geometry::Plane;
 use gcheck_program::{ExprIx, StatementKind, Value, Word};
 use gcheck_syntax::SyntaxKind;
 
@@ -18,11 +19,11 @@ use crate::describe;
 use crate::foreign::Foreign;
 use crate::keywords;
 use crate::lexemes::{lexemes_of_line, touches};
-use crate::number_text::{coordinate, plain, unit, value};
+use crate::number_text::{coordinate, decimals, plain, unit, value};
 use crate::remarks::title;
 use crate::state_at::look_at;
 use crate::state_reader::{Item, StateReader};
-use crate::symbols::{Symbol, occurrences_in, symbol_at};
+use crate::symbols::{Symbol, occurrences_in, program_around, symbol_at};
 
 /// Places that set a variable which are shown.
 const MOST_ASSIGNMENTS: usize = 5;
@@ -195,7 +196,8 @@ impl Cx<'_> {
                 let around = look.as_deref().map(|look| self.around(look)).or_else(|| self.way());
                 let head: Vec<String> = title.into_iter().chain(around).collect();
                 parts.push(head.join("\n\n"));
-                parts.extend(code.map(in_short));
+                let plane = look.as_deref().and_then(|look| self.plane(look));
+                parts.extend(code.map(|code| in_short(code, plane)));
             }
             Subject::Word(_, word) => parts.push(self.word(word, look)),
             Subject::Symbol(_, symbol) => parts.push(self.symbol(symbol, look.take())),
@@ -352,6 +354,7 @@ impl Cx<'_> {
                 after.into_iter().filter(|item| before.contains(item)).map(|(_, item)| item).collect()
             }
         };
+        lines.extend(after.and_then(|after| self.wrap(after, &reader)));
         if !in_effect.is_empty() {
             lines.push(format!("in effect: {}", list(&in_effect)));
         }
@@ -359,19 +362,75 @@ impl Cx<'_> {
         lines.join("\n\n")
     }
 
-    /// The code that gives a word its meaning: one of the block, else the cycle or motion in effect.
+    /// What a block that has the code for it wraps, and around what.
+    fn wrap(&self, after: &State<Abstract>, reader: &StateReader<'_>) -> Option<String> {
+        let mut words = self.place.table.words(self.place.block()).iter();
+        let wraps = |word: &Word| reader.model.effect(word.code) == Effect::CylinderMapping;
+        if !words.any(wraps) {
+            return None;
+        }
+        let cylinder = after.wrapped().cylinder()?;
+        let units = reader.units(after);
+        let diameter = if cylinder.diameter.is_finite() {
+            format!("{} {}", plain(cylinder.diameter / units.in_mm(), decimals(units)), unit(units))
+        } else {
+            "not known".to_owned()
+        };
+        let (linear, rotary) = (cylinder.linear.name(), cylinder.rotary.name());
+        Some(format!("`{linear}` goes around the cylinder on `{rotary}`, diameter {diameter}"))
+    }
+
+    /// The plane of the block, where it is known.
+    fn plane(&self, look: &Look<'_, '_>) -> Option<Plane> {
+        let state = self.state?;
+        state.after.as_ref().unwrap_or(&state.before).plane(look.model())
+    }
+
+    /// What is in effect at the block and may read its words: the cycle, the motion, compensation and length.
+    fn in_effect(&self, look: &Look<'_, '_>) -> Vec<Code<'_>> {
+        let control = self.snapshot.control();
+        let Some(state) = self.state else { return Vec::new() };
+        let words = self.place.table.words(self.place.block());
+        let is_changed = |role: Role| {
+            words.iter().any(|word| word.code.is_some() && look.model().role(word.code) == Some(role))
+        };
+        let mode = |role: Role| state.before.mode(role).only().filter(|_| !is_changed(role));
+        let cycle = state.before.active_cycle(look.model());
+        let motion = state.before.mode(Role::Motion).only();
+        let modes = [cycle, motion, mode(Role::Compensation), mode(Role::Length)];
+        modes.into_iter().flatten().filter_map(|code| control.code_at(code)).collect()
+    }
+
+    /// Under inverse time the feed is a time, whatever other code of the block reads it.
+    fn inverse_time(&self, look: Option<&Look<'_, '_>>) -> Option<Code<'_>> {
+        let control = self.snapshot.control();
+        let mut words = self.place.table.words(self.place.block()).iter();
+        let own = words.find_map(|word| {
+            control.code_at(word.code).filter(|code| Role::of(code.effect()) == Some(Role::FeedMode))
+        });
+        let before = || {
+            let (_, state) = look.zip(self.state)?;
+            control.code_at(state.before.mode(Role::FeedMode).only()?)
+        };
+        own.or_else(before).filter(|code| code.effect() == Effect::FeedInverseTime)
+    }
+
+    /// The code that gives a word its meaning: one of the block, else one in effect.
     fn reader(&self, word: &Word, look: Option<&Look<'_, '_>>) -> Option<(Code<'_>, &WordEntry)> {
         let control = self.snapshot.control();
         let words = || self.place.table.words(self.place.block()).iter();
         let in_block = words().filter_map(|word| control.code_at(word.code));
         // After a call words are arguments, whatever motion is in effect.
         let look = look.filter(|_| !in_block.clone().any(|code| code.entry().any_words));
-        let in_effect = look.zip(self.state).into_iter().flat_map(|(look, state)| {
-            let cycle = state.before.active_cycle(look.model());
-            let motion = state.before.mode(Role::Motion).only();
-            [cycle, motion].into_iter().flatten().filter_map(|code| control.code_at(code)).collect::<Vec<_>>()
-        });
-        in_block.chain(in_effect).find_map(|code| Some((code, describe::word_of(code, word.letter)?)))
+        let in_effect = look.map(|look| self.in_effect(look)).unwrap_or_default();
+        let found =
+            in_block.chain(in_effect).find_map(|code| Some((code, describe::word_of(code, word.letter)?)));
+        let is_feed = word.letter == Letter::of('F')
+            && found.as_ref().is_none_or(|(code, _)| code.motion() != Motion::None);
+        match self.inverse_time(look).filter(|_| is_feed) {
+            Some(code) => Some((code, describe::word_of(code, word.letter)?)),
+            None => found,
+        }
     }
 
     /// A word that is not a code: its meaning, what its number counts, where the axis is.
@@ -379,6 +438,7 @@ impl Cx<'_> {
         let control = self.snapshot.control();
         let general = control.letter(word.letter);
         let reader = self.reader(word, look.as_deref());
+        let plane = look.as_deref().and_then(|look| self.plane(look));
         let calls = self
             .place
             .table
@@ -387,7 +447,16 @@ impl Cx<'_> {
             .find_map(|word| control.code_at(word.code).filter(|code| code.entry().any_words));
         let mut text = match (&reader, calls, general) {
             (Some((code, entry)), _, _) => {
-                let is = format!("{} (`{}`)", self.meaning(*code, entry), code.entry().code);
+                let height = match self.axis(word.letter) {
+                    Some(axis)
+                        if code.motion() == Motion::Arc
+                            && plane.is_some_and(|plane| is_across(axis, plane)) =>
+                    {
+                        ", the height of the helix"
+                    }
+                    _ => "",
+                };
+                let is = format!("{}{height} (`{}`)", self.meaning(*code, entry), code.entry().code);
                 format!("**{}** {}", word.letter, describe::meaning(&is, &describe::needs(entry)))
             }
             (None, Some(code), _) if argument(control, word.letter).is_some() => {
@@ -404,6 +473,7 @@ impl Cx<'_> {
             (None, _, None) => format!("**{}** no address of {}", word.letter, control.title()),
         };
         let kind = reader.as_ref().map(|(_, entry)| entry.kind).or(general.map(|entry| entry.kind));
+        let or_label = reader.as_ref().is_some_and(|(_, entry)| entry.or_label);
         let moved = self.moved(word, reader);
         // What an argument counts is for the macro to say.
         let counted =
@@ -418,12 +488,28 @@ impl Cx<'_> {
             _ => None,
         };
         if let Some(occurrence) = target {
-            let _ = write!(text, "\n\n{}", self.symbol(&occurrence.symbol, None));
+            let symbol = self.label_of(&occurrence.symbol).filter(|_| or_label).unwrap_or(occurrence.symbol);
+            let _ = write!(text, "\n\n{}", self.symbol(&symbol, None));
         }
         if let (Some(look), Some(axis), None) = (look, moved.axis.filter(|_| moved.is_target), calls) {
             text.push_str(&self.coordinate(axis, look));
+            let wrapped = self.state.and_then(|state| state.after.as_ref()?.wrapped().cylinder().copied());
+            if let Some(cylinder) = wrapped.filter(|cylinder| cylinder.linear == axis) {
+                let _ = write!(text, "\n\nturns `{}` instead:", cylinder.rotary.name());
+                text.push_str(&self.coordinate(cylinder.rotary, look));
+            }
         }
         text
+    }
+
+    /// The label of the program under way that has the number of a called one: newer software looks there first.
+    fn label_of(&self, symbol: &Symbol) -> Option<Symbol> {
+        let Symbol::Program(number) = symbol else { return None };
+        let program = program_around(self.snapshot, self.place.range().start);
+        let labels = &self.snapshot.file_index().labels;
+        let is_it =
+            |label: &gcheck_program::Label| label.number == *number && program.contains(&label.range.start);
+        labels.iter().any(is_it).then(|| Symbol::Label { number: *number, program: program.clone() })
     }
 
     /// What a word means to a code. Of a code of two blocks, what it means in this one.
@@ -729,25 +815,85 @@ fn changed(before: &str, after: &str) -> Option<String> {
     }
 }
 
+/// Is the axis perpendicular to the plane?
+fn is_across(axis: Axis, plane: Plane) -> bool {
+    let (_, _, across) = plane.axes();
+    Axis::ALL.get(across) == Some(&axis)
+}
+
 /// What a code does, how long, and which words it reads.
-fn in_short(code: Code<'_>) -> String {
+fn in_short(code: Code<'_>, plane: Option<Plane>) -> String {
     let entry = code.entry();
     let lasts = if code.group().modal { "stays in effect" } else { "for its own block" };
     let mut text = format!("{} *({}, {lasts})*", entry.summary, code.group().title);
-    let names = |of: &dyn Fn(&WordEntry) -> bool| {
-        entry.words.iter().filter(|word| of(word)).map(|word| word.letter.clone()).collect::<Vec<_>>()
-    };
-    let needed = names(&|word| matches!(word.need, Need::Required | Need::Modal));
-    let others = names(&|word| matches!(word.need, Need::Optional | Need::Conditional));
-    let words: Vec<String> = [("needs", needed), ("may have", others)]
-        .into_iter()
-        .filter(|(_, letters)| !letters.is_empty())
-        .map(|(verb, letters)| format!("{verb} {}", list(&letters)))
-        .collect();
+    let words = words_in_short(code, plane);
     if !words.is_empty() {
-        let _ = write!(text, "\n\n{}", words.join(", "));
+        let _ = write!(text, "\n\n{}", words.join("; "));
     }
     text
+}
+
+/// The words of a code: those that it needs, those of which it needs one, those that an earlier block may give, the others.
+fn words_in_short(code: Code<'_>, plane: Option<Plane>) -> Vec<String> {
+    let entry = code.entry();
+    // The centre of an arc is in its plane.
+    let stray = plane.filter(|_| code.motion() == Motion::Arc).map(|plane| match plane {
+        Plane::Xy => "K",
+        Plane::Zx => "J",
+        Plane::Yz => "I",
+    });
+    let mut left: Vec<&WordEntry> =
+        entry.words.iter().filter(|word| Some(word.letter.as_str()) != stray).collect();
+    let mut take = |of: &dyn Fn(&WordEntry) -> bool| {
+        let (taken, others): (Vec<_>, Vec<_>) = left.iter().copied().partition(|word| of(word));
+        left = others;
+        taken.into_iter().map(|word| word.letter.clone()).collect::<Vec<_>>()
+    };
+    let mut said: Vec<String> = Vec::new();
+    let needed = take(&|word| word.need == Need::Required);
+    if !needed.is_empty() {
+        said.push(format!("needs {}", list(&needed)));
+    }
+    let has = |letters: &[String], word: &WordEntry| letters.contains(&word.letter);
+    for letters in &entry.one_of {
+        let choice = take(&|word| has(letters, word));
+        if choice.is_empty() {
+            continue;
+        }
+        let excludes = entry.not_together.iter().any(|set| choice.iter().all(|letter| set.contains(letter)));
+        let how = if excludes { "exactly one of" } else { "at least one of" };
+        said.push(if code.motion() == Motion::Arc && choice.iter().any(|letter| letter == "R") {
+            let centre: Vec<String> = choice.into_iter().filter(|letter| letter != "R").collect();
+            format!("a centre {} or `R`", list(&centre))
+        } else {
+            format!("{how} {}", list(&choice))
+        });
+    }
+    let lasting = take(&|word| {
+        let is_here_or = word.when.as_deref().is_some_and(|when| when.starts_with("here or "));
+        word.need == Need::Modal || word.need == Need::Conditional && is_here_or
+    });
+    if !lasting.is_empty() {
+        said.push(format!("here or earlier {}", list(&lasting)));
+    }
+    let mut others: Vec<String> = Vec::new();
+    for letters in &entry.not_together {
+        let exclusive = letters.iter().all(|letter| left.iter().any(|word| word.letter == *letter));
+        if exclusive {
+            let (of, rest): (Vec<_>, Vec<_>) = left.iter().copied().partition(|word| has(letters, word));
+            left = rest;
+            let of: Vec<String> = of.into_iter().map(|word| word.letter.clone()).collect();
+            others.push(format!("one of {}", list(&of)));
+        }
+    }
+    let rest: Vec<String> = left.into_iter().map(|word| word.letter.clone()).collect();
+    if !rest.is_empty() {
+        others.push(list(&rest));
+    }
+    if !others.is_empty() {
+        said.push(format!("may have {}", others.join(", ")));
+    }
+    said
 }
 
 #[cfg(test)]
@@ -846,7 +992,7 @@ mod tests {
 
                 Calls the blocks from N = P on in this program; M99 brings it back. *(calls, jumps, questions, for its own block)*
 
-                needs `P`, may have `L`
+                needs `P`; may have `L`
             "#]],
         );
     }
@@ -978,7 +1124,7 @@ mod tests {
 
                 Drills in pecks and goes up to R after each to clear the chips. *(canned cycle, stays in effect)*
 
-                needs `Z` `R` `F` `Q`, may have `X` `Y` `A` `B` `C` `L` `I` `J` `K` `P` `E`
+                here or earlier `Z` `R` `F` `Q`; may have `X` `Y` `A` `B` `C` `L` `I` `J` `K` `P` `E`
             "#]],
         );
     }
@@ -1163,7 +1309,7 @@ mod tests {
 
                 Moves the named axes on a straight line at the programmed feed. *(motion, stays in effect)*
 
-                needs `F`, may have `X` `Y` `Z` `A` `B` `C` `U` `V` `W` `L` `,C` `,R`
+                here or earlier `F`; may have `X` `Y` `Z` `A` `B` `C` `U` `V` `W` `L` `,C` `,R`
             "#]],
         );
     }
@@ -1241,7 +1387,7 @@ mod tests {
 
                 Calls the lines from N P of this program up to M99, L times. *(calls and jumps, for its own block)*
 
-                needs `P`, may have `L`
+                needs `P`; may have `L`
             "#]],
         );
     }
@@ -1478,5 +1624,128 @@ mod tests {
             named in 1 place
         "#]],
         );
+    }
+
+    /// The paragraphs of the hover that hold some words.
+    fn lines_with(control: &str, text: &str, words: &str) -> String {
+        let mut fixture = Fixture::new(control, text);
+        let found = hover(&mut fixture.database, fixture.document, fixture.offset, &|| false);
+        let markdown = found.map(|found| found.markdown).unwrap_or_default();
+        let lines = markdown.lines().filter(|line| line.contains(words));
+        lines.map(|line| format!("{line}\n")).collect()
+    }
+
+    #[test]
+    fn the_vector_of_a_mode_is_no_arc_centre() {
+        let program = |block: &str| {
+            format!("O1\nG20 G90 G94\nG1 G141 D1 X0. Y0. Z0.5 I0. J0. K1. F20.\n{block}\nG40\nM30\n")
+        };
+        for block in
+            ["X1. Y0.2 Z0.5 $0I0. J0.6 K0.8", "G1 X1. Y0.2 Z0.5 $0I0. J0.6 K0.8", "$0I0. J0.6 K0.8 X1."]
+        {
+            let shown = lines_with("haas-mill", &program(block), "**I**");
+            assert!(
+                shown.contains("X part of the unit vector") && shown.contains("`G141`"),
+                "{block}: {shown}"
+            );
+        }
+        let shown = lines_with("haas-mill", &program("G40\nG2 X1. Y1. $0I1. J0."), "**I**");
+        assert!(!shown.contains("vector"), "{shown}");
+    }
+
+    #[test]
+    fn a_feed_of_inverse_time_is_one_in_any_order() {
+        for block in ["G93 G1 X1. $0F20.", "G1 G93 X1. $0F20.", "G93\nG1 X1. $0F20.", "G93\nX1. $0F20."] {
+            let program = format!("O1\nG20 G90 G94\nG1 X0. F10.\n{block}\nG94\nM30\n");
+            let shown = lines_with("haas-mill", &program, "**F**");
+            assert!(shown.contains("moves a minute") && shown.contains("`G93`"), "{block}: {shown}");
+        }
+        let shown = lines_with("haas-mill", "O1\nG20 G90 G93\nG94 G1 X1. $0F20.\nM30\n", "**F**");
+        assert!(!shown.contains("moves a minute"), "{shown}");
+    }
+
+    #[test]
+    fn words_of_a_code_are_told_as_choices() {
+        for (control, block, words) in [
+            (
+                "haas-mill",
+                "$0G150 G41 D1 P77 Z-0.5 Q0.25 R0.1 I0.3 F15.",
+                "exactly one of `I` `J`; here or earlier `R` `D` `F`; may have",
+            ),
+            (
+                "haas-mill",
+                "$0G107 Y0. A0. Q2.5",
+                "may have one of `X` `Y` `Z`, one of `A` `B`, one of `Q` `R`",
+            ),
+            (
+                "haas-mill",
+                "$0G136 Y1. F10.",
+                "needs `F`; at least one of `X` `Y` `Z` `A`; may have `I` `J` `K`",
+            ),
+            (
+                "haas-mill",
+                "$0G141 D1 X0. Y0. Z0.",
+                "here or earlier `D`; may have `X` `Y` `Z` `A` `B` `I` `J` `K` `F`",
+            ),
+            (
+                "haas-mill",
+                "$0G143 H1 X0. Y0. Z0. A0. B0.",
+                "here or earlier `H`; may have `X` `Y` `Z` `A` `B` `F`",
+            ),
+            ("generic-mill", "$0G4 P500", "may have one of `P` `X` `U`"),
+            (
+                "generic-mill",
+                "G17 $0G2 X1. Y1. I1. J0. F100.",
+                "a centre `I` `J` or `R`; here or earlier `F`;",
+            ),
+            (
+                "generic-mill",
+                "G18 $0G2 X1. Z1. I1. K0. F100.",
+                "a centre `I` `K` or `R`; here or earlier `F`;",
+            ),
+        ] {
+            let shown = lines_with(control, &format!("O1\nG90\n{block}\nM30\n"), words);
+            assert!(!shown.is_empty(), "{control} {block}: {words}");
+        }
+    }
+
+    #[test]
+    fn the_outline_may_be_a_label_of_the_program() {
+        let program = |label: &str| {
+            format!(
+                "O1\nG20 G90\nG150 G41 D1 $0P77 X0. Y0. Z-0.5 Q0.25 R0.1 I0.3 F15.\nG40 X1.\nM30\n{label} G1 Y1.\nX1.\nM99\n"
+            )
+        };
+        assert_eq!(
+            lines_with("haas-mill", &program("N77"), "77** "),
+            "**N77** sequence number, line 6: `N77 G1 Y1.`\n"
+        );
+        assert_eq!(
+            lines_with("haas-mill", &program("O77"), "77** "),
+            "**O77** program, line 6: `O77 G1 Y1.`\n"
+        );
+    }
+
+    #[test]
+    fn a_wrapped_word_tells_the_angle() {
+        let program = "O1\nG20 G90 G54\nG0 X0. Y0. Z1. A0.\nG107 Y0. A0. Q2.5\nG1 $0Y1. F20.\nG107\nM30\n";
+        assert_eq!(lines_with("haas-mill", program, "| work"), "| work | 0 | 1 |\n| work | 0 | 45.837 |\n");
+        let program = "O1\nG20 G90 G54\nG0 X0. Y0. Z1. A0.\n$0G107 Y0. A0. Q2.5\nG1 Y1. F20.\nG107\nM30\n";
+        assert_eq!(
+            lines_with("haas-mill", program, "around the cylinder on `A`"),
+            "`Y` goes around the cylinder on `A`, diameter 2.5 inch\n"
+        );
+    }
+
+    #[test]
+    fn the_word_across_the_plane_is_the_height() {
+        let program = |block: &str| format!("O1\nG21 G90 G54\nG0 X0. Y0. Z0.\n{block}\nG17\nM30\n");
+        for block in ["G17 G2 X10. Y10. $0Z-3. I10. J0. F100.", "G18 G3 X20. Z0. R10. $0Y12. F100."] {
+            let shown = lines_with("tsnc-yh-a1m", &program(block), "the height of the helix");
+            assert!(!shown.is_empty(), "{block}");
+        }
+        for block in ["G17 G2 $0X10. Y10. Z-3. I10. J0. F100.", "G1 $0Z-3. F100."] {
+            assert_eq!(lines_with("tsnc-yh-a1m", &program(block), "helix"), "", "{block}");
+        }
     }
 }

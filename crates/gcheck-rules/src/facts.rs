@@ -9,6 +9,7 @@ pub(crate) mod beside;
 pub(crate) mod block_delete;
 pub(crate) mod boundary;
 pub(crate) mod callers;
+pub(crate) mod cancelled_length;
 pub(crate) mod compensation;
 pub(crate) mod computed_words;
 pub(crate) mod coolant;

@@ -13,7 +13,7 @@ mod testing;
 #[cfg(test)]
 mod tests;
 
-use gcheck_diagnostics::{Edit, Finding, Fix, RuleMeta, Severity};
+use gcheck_diagnostics::{Certainty, Edit, Finding, Fix, RuleMeta, Severity};
 use gcheck_lint::{
     BlockCx, Environment, FileCx, FileFact, FinishCx, FollowedCx, MakeShared, PathCx, PathRule, ProgramText,
     Reads, Remembers, Report, Run, SharedMemory, Suppression, Suppressions, Uses, Watch, WordFacts, limit,

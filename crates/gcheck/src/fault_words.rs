@@ -2,7 +2,7 @@
 //!
 //! Knows: the wording of every fault. Must not know: where it happened, how it is printed.
 
-use gcheck_controls::{Code, CodeIx, Letter, LetterSet};
+use gcheck_controls::{Code, CodeIx, Letter, LetterSet, Motion};
 use gcheck_engine::{
     ArcFault, CompensationFault, CornerFault, CycleFault, Fault, Model, Role, Units, ValueFault,
 };
@@ -127,6 +127,9 @@ pub(crate) fn words(fault: &Fault, model: &Model<'_>, block: &Written<'_>, units
         }
 
         Fault::NoSuchLabel(number) => Words::new(format!("the program has no block `N{number}` to jump to")),
+        Fault::JumpTarget(number) => Words::new(format!("the jump leads to block {number}, which cannot exist"))
+            .why("sequence numbers are whole numbers from 0 on")
+            .help("correct the target, or the variables that it reads"),
         Fault::NoSuchProgram => Words::new("the called program is not found")
             .help("it may be in the folder of the program, or in one of `[search] paths` of gcheck.toml"),
         Fault::TooDeep => Words::new("calls are nested deeper than the control allows")
@@ -150,6 +153,11 @@ pub(crate) struct Written<'m> {
 
 /// A word that the block does not have, with those that would do as well.
 fn missing(letter: Letter, block: &Written<'_>) -> Words {
+    if block.letters.contains(letter) {
+        return Words::new(format!("`{letter}` has no value in this block"))
+            .why("its variable holds nothing, and the control ignores the word")
+            .help("set the variable before this block");
+    }
     let needs = |code: &&Code<'_>| code.reads().contains(letter);
     let Some(code) = block.codes.iter().find(needs) else {
         return Words::new(format!("`{letter}` is missing in this block"))
@@ -308,20 +316,29 @@ fn of_corner(fault: CornerFault, units: Units) -> Words {
 }
 
 fn of_cycle(fault: CycleFault, block: &Written<'_>) -> Words {
+    // As the block names it; a block of a cycle in effect does not.
+    let is_cycle = |code: &&Code<'_>| matches!(code.motion(), Motion::Cycle | Motion::Operation);
+    let code = block.codes.iter().find(is_cycle);
+    let cycle = code.map_or_else(|| "the canned cycle".to_owned(), |code| format!("`{}`", code.entry().code));
     match fault {
         CycleFault::Missing(letter) if block.letters.contains(letter) => {
-            Words::new(format!("`{letter}` of the canned cycle has no value that the control can use"))
+            Words::new(format!("`{letter}` of {cycle} has no value that the control can use"))
                 .why("a variable that is empty takes its word out, and a value below zero counts as none")
         }
-        CycleFault::Missing(letter) => Words::new(format!("the canned cycle needs `{letter}`"))
+        CycleFault::Missing(letter) => Words::new(format!("{cycle} needs `{letter}`"))
             .why("it is neither in this block nor in an earlier one of the cycle"),
-        CycleFault::RBelowBottom => Words::new("the retract level `R` lies below the bottom of the hole"),
+        CycleFault::RBelowBottom => Words::new("the retract level `R` lies below the final depth"),
         CycleFault::NotPositive(letter) => {
-            Words::new(format!("`{letter}` of the canned cycle must be above zero"))
+            let takes_zero = code.is_some_and(|code| {
+                let mut words = code.entry().words.iter();
+                words.any(|word| Letter::parse(&word.letter) == Some(letter) && word.min == Some(0.0))
+            });
+            let bound = if takes_zero { "not be below zero" } else { "be above zero" };
+            Words::new(format!("`{letter}` of {cycle} must {bound}"))
         }
         CycleFault::Zero(letter) => Words::new(format!("`{letter}` of the pattern is zero"))
             .why("all its holes would lie on each other"),
-        CycleFault::ZeroRepeats => Words::new("the canned cycle is repeated `L0` times"),
+        CycleFault::ZeroRepeats => Words::new(format!("{cycle} is repeated `L0` times")),
         CycleFault::Rotary => Words::new("rotary axes cannot move in a canned cycle"),
         CycleFault::InverseTime => Words::new("a canned cycle cannot run with inverse-time feed")
             .help("go back to feed per minute (`G94`) before it"),

@@ -94,7 +94,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     fn label(&self, number: f64, at: At) -> Step<Option<At>> {
         let whole = number.round();
         if !(0.0..=f64::from(u32::MAX)).contains(&whole) {
-            return Err(Fault::WordRange(Letter::of('N')));
+            return Err(Fault::JumpTarget(whole));
         }
         let Some(file) = self.file(at.file) else { return Ok(None) };
         let forward = self.model.semantics().goto_forward_first;

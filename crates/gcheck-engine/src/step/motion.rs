@@ -258,7 +258,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             let Some((own, is_increment)) = self.model.axis_of(letter) else { continue };
             let Some(mut value) = self.words.number(letter) else { continue };
             let axis = self.axis_on_face(own, state);
-            let is_drawn = axis == Axis::Y && *state.face() != Face::Off;
+            let is_drawn = self.is_second_on_face(own) && *state.face() != Face::Off;
             if let Some(machine) = &self.machine.axes
                 && !machine.contains(&own)
                 && !is_drawn
@@ -301,9 +301,13 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// The axis that a word for this one moves: on the face of a part some controls write the second coordinate with the
     /// address of the rotary axis.
     fn axis_on_face(&self, own: Axis, state: &State<D>) -> Axis {
+        if self.is_second_on_face(own) && state.face().plane().is_some() { Axis::Y } else { own }
+    }
+
+    /// Is the second coordinate on the face of a part written with the address of this axis?
+    fn is_second_on_face(&self, own: Axis) -> bool {
         let rules = self.model.semantics().polar_interpolation;
-        let is_second = rules.is_some_and(|rules| Letter::of(rules.second) == own.letter());
-        if is_second && state.face().plane().is_some() { Axis::Y } else { own }
+        rules.is_some_and(|rules| Letter::of(rules.second) == own.letter())
     }
 
     /// `@` and `^`: distance and angle from the XY origin.
@@ -434,6 +438,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     /// `G53`: the words are machine coordinates.
     fn machine_move(&mut self, kind: TravelKind, state: &mut State<D>) -> Step {
+        self.check_named_axes()?;
         let polar = self.words.present().intersects(super::POLAR);
         if (polar || state.is_incremental(self.model) == Some(true)) && self.refuses_incomplete() {
             return Err(Fault::Conflict);

@@ -118,6 +118,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     /// `G92`: the present position reads as programmed.
     pub(super) fn set_position(&mut self, state: &mut State<D>) -> Step {
+        self.check_named_axes()?;
         let mut named = self.named(state);
         let position = if state.compensation.is_followed() { *state.position() } else { *state.actual() };
         let adds = self.model.semantics().increments_set_position;
@@ -171,6 +172,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     /// `G52`.
     pub(super) fn local_shift(&mut self, state: &mut State<D>) -> Step {
+        self.check_named_axes()?;
         let named = self.named(state);
         if named.is_empty() && self.refuses_incomplete() {
             return Err(Fault::NoAxisWords);
@@ -472,7 +474,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     }
 
     /// Axes that the machine does not have.
-    fn check_named_axes(&self) -> Step {
+    pub(super) fn check_named_axes(&self) -> Step {
         let Some(own) = &self.machine.axes else { return Ok(()) };
         let mut absent = self.model.axes.iter().filter(|axis| !own.contains(axis)).map(|axis| axis.letter());
         match absent.find(|letter| self.words.has(*letter)) {

@@ -86,6 +86,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let letter = Letter::of('P');
         let needed = |letter: char| Fault::Cycle(CycleFault::Missing(Letter::of(letter)));
         let Some(program) = self.count(letter)? else { return Err(Fault::MissingWord(letter)) };
+        if !self.words.has(Letter::of('Z')) {
+            return Err(needed('Z'));
+        }
         let layer = self.length(Letter::of('Q'), state).ok_or(needed('Q'))?;
         let r = match self.length(Letter::of('R'), state) {
             Some(r) => r,

@@ -157,7 +157,8 @@ impl AbstractValue {
         }
     }
 
-    fn may_be_vacant(&self) -> bool {
+    /// May it be nothing, as an unset variable is on some controls?
+    pub fn may_be_vacant(&self) -> bool {
         match self {
             Self::Vacant | Self::Unknown => true,
             Self::Number(_) => false,

@@ -187,7 +187,7 @@ mod tests {
             }
         }
         expect![[r#"
-            I missing: warning[bar-length-missing]
+            I missing: info[bar-length-missing]
             I twice: warning[word-given-twice]
             I -1.: warning[number-out-of-range]
             I 0: info[bar-initial-push-zero]

@@ -182,7 +182,9 @@ pub(crate) fn clash_finding(
         Effect::CompensationOff
     })?;
     let finding = cx.finding(rule, range, format!("{} (`{other}`) {may}under `{name}`", kind(code))).label(
-        if is_here {
+        if is_here && Role::of(code.effect()) == Some(Role::Compensation) {
+            format!("`{name}` moves the tool off its path already, and takes no second offset")
+        } else if is_here {
             format!("`{name}` works with straight moves only")
         } else {
             format!("`{other}` is still active")

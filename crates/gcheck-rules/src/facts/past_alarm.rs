@@ -9,6 +9,7 @@ pub(crate) fn loses_way(fault: &Fault) -> bool {
     matches!(
         fault,
         Fault::NoSuchLabel(_)
+            | Fault::JumpTarget(_)
             | Fault::NoSuchProgram
             | Fault::LoopMismatch
             | Fault::StrayReturn

@@ -141,10 +141,11 @@ pub(crate) fn mode_demands<'a>(cx: &'a PathCx<'a>) -> Vec<ModeDemand<'a>> {
     required.chain(recommended).chain(forbidden).collect()
 }
 
-/// `G43 H0` is not a length.
+/// `G43 H0` is not a length; `G43` without any `H` takes one that the last program left.
 fn has_no_length(cx: &PathCx<'_>) -> bool {
     !cx.origin().letters.contains(Letter::of('H'))
         && Abstract::known(cx.state().h()).is_some_and(|h| h.abs() < 0.5)
+        && cx.state().length().get(Axis::Z) == Some(0.0)
 }
 
 /// The words of a finding about a mode.

@@ -88,6 +88,9 @@ fn said(fault: &Fault) -> &'static [&'static str] {
         Fault::OverTravel(_) => &["move-outside-travel"],
         Fault::NoSavedModes => &["saved-modes-missing"],
         Fault::NoSuchLabel(_) => &["jump-target-missing", "jump-to-missing-block"],
+        Fault::JumpTarget(_) => {
+            &["jump-to-missing-block", "computed-value-out-of-range", "sign-not-accepted"]
+        }
         Fault::NoSuchProgram => {
             &["subprogram-missing", "o-word-subroutine-missing", "turning-profile-not-usable"]
         }
@@ -170,6 +173,7 @@ fn plain_faults() -> Vec<Fault> {
         Fault::OverTravel(letter),
         Fault::NoSavedModes,
         Fault::NoSuchLabel(1),
+        Fault::JumpTarget(-1.0),
         Fault::NoSuchProgram,
         Fault::TooDeep,
         Fault::LoopMismatch,
@@ -299,6 +303,9 @@ fn a_program_that_cannot_be_executed_has_a_finding() {
         ),
         ("linuxcnc", "M72\nM2\n", Fault::NoSavedModes),
         ("fanuc-mill", "O1\nGOTO 50\nM30\n", Fault::NoSuchLabel(50)),
+        ("fanuc-mill", "O1\nGOTO-3\nM30\n", Fault::JumpTarget(-3.0)),
+        ("haas-mill", "O1\n#100=-3\nGOTO#100\nM30\n", Fault::JumpTarget(-3.0)),
+        ("haas-lathe", "O1\nGOTO[0-3]\nM30\n", Fault::JumpTarget(-3.0)),
         ("linuxcnc", "o7 call\nM2\n", Fault::NoSuchProgram),
         ("fanuc-mill", "O1\nM98 P2\nM30\nO2\nM98 P2\nM99\n", Fault::TooDeep),
         ("fanuc-mill", "O1\nEND1\nM30\n", Fault::LoopMismatch),

@@ -27,7 +27,8 @@ A word of a program goes wrong in six ways, and each has its column:
 A cell names the tests, or says in brackets why the sentence has none of the kind.
 
 A *rule*, with its severity in brackets, is proved by two programs: one that it reports, one that it does not.
-*Motion*, *figures*, *assumption* and *explanation* are what `gcheck run`, `gcheck stats`, the end of `gcheck check`, and `gcheck explain` (and hover) print.
+*Motion*, *figures*, *assumption* and *explanation* are what `gcheck run`, `gcheck stats`, the end of `gcheck check`, and `gcheck explain` print.
+Hover shows the code's summary and words with the state around the block, and names `gcheck explain` for the rest.
 *Same motion* is that of the same words as numbers.
 **Open** is what the manual demands and gcheck does not do yet.
 ";

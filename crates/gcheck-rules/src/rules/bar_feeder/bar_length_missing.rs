@@ -83,6 +83,8 @@ impl PathRule for BarLengthMissing {
         let pin = format!("\"#{}\" = …", first.variable(rules));
         let words: Vec<String> =
             missing.iter().map(|one| format!("`{}` ({})", one.letter(), one.words())).collect();
+        // The page of the control gives the first push where the block leaves it out.
+        let is_usual = missing.iter().all(|one| *one == Length::Initial);
         let finding = cx
             .finding(&META, bar_feed_range(cx), title)
             .label(format!(
@@ -97,7 +99,7 @@ impl PathRule for BarLengthMissing {
                 "give {} in the block, or configure the values of the page: {pin} under `[variables]`",
                 listed(&words)
             ));
-        report.add(if is_described { finding } else { finding.at_most(Severity::Info) });
+        report.add(if is_described && !is_usual { finding } else { finding.at_most(Severity::Info) });
     }
 }
 

@@ -10,7 +10,8 @@ use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// The push of the bar (`J` of `G105`, `#3100`) is shorter than the part: the parting cut is farther from the face.
+    /// The push of the bar (`J` of `G105`, `#3100`) is shorter than the part: the parting cut is farther from the face. Or the
+    /// push of a new bar (`I`, `#3101`) is shorter than the part with its cutoff (`J`).
     ///
     /// The part is assumed to reach from `Z0` to the deepest cut across the centre. The width of the parting tool comes
     /// on top; it is not counted here.
@@ -28,6 +29,12 @@ declare_rule! {
     /// G0 X6. Z6.
     /// M5
     /// G105 J1.5
+    /// M99
+    /// ```
+    /// ```nc,reported,haas-lathe
+    /// G20
+    /// M5
+    /// G105 J1. I0.5 K1.
     /// M99
     /// ```
     /// ## Not reported
@@ -84,6 +91,11 @@ impl PathRule for BarPushShorterThanPart {
 
     fn changed(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
         let Some(told) = lengths(event) else { return };
+        // Zero is the reference position, whose length is on the control's page.
+        let fits = cx.environment.machine.engine.bar.new_bar.is_none_or(|bar| told.part < bar);
+        if told.initial > Mm::ZERO && told.part.0 - told.initial.0 > 1e-3 && fits && !cx.is_malformed() {
+            report.add(new_bar_pushed_short(cx, told.initial, told.part));
+        }
         let Some(parting) = self.deepest.take() else { return };
         let length = Mm(-parting.z.0);
         // Another rule reports a push of zero.
@@ -108,12 +120,19 @@ impl PathRule for BarPushShorterThanPart {
     }
 }
 
+fn new_bar_pushed_short(cx: &PathCx<'_>, initial: Mm, part: Mm) -> crate::Finding {
+    cx.finding(&META, length_range(cx, Length::Initial), "new bar is pushed by less than a part is long")
+        .label(format!("pushes {}; a part with its cutoff takes {}", cx.shown(initial), cx.shown(part)))
+        .note("the first part of each new bar comes out too short, or its face is not cut")
+        .help("push a new bar by a part with its cutoff at least (`I` or its variable)")
+}
+
 #[cfg(test)]
 mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::testing::check_rule;
+    use crate::testing::{World, check_rule, findings, only};
 
     #[test]
     fn in_the_cutoff_program_and_by_a_variable() {
@@ -163,5 +182,23 @@ mod tests {
             "G20\nG0 X2.1 Z-2.\nG1 X0. F0.004\nG0 X6.\nM5\nG105 J2.1\nS900 M3\nG0 X2.1 Z-1.\nG1 X0.\nG0 X6.\nM5\nG105 J1.1\nM30\n",
             &expect![[""]],
         );
+    }
+
+    #[test]
+    fn a_new_bar_is_pushed_by_a_part_at_least() {
+        let found = |feed: &str| {
+            let program = format!("O1\nG20\n{feed}\nM99\n");
+            findings(&only(&RULE), "haas-lathe", &program, &World::default()).len()
+        };
+        let short = ["G105 J1. K1. I0.5", "G105 J1. K1. I[0.25*2]", "#3101=0.5\nG105 J1. K1."];
+        assert_eq!(short.map(found), [1, 1, 1]);
+        let right = [
+            "G105 J1. K1. I1.2",
+            "G105 J1. K1. I1.",
+            "G105 J1. K1. I0.",
+            "G105 J1. K1.",
+            "G105 J1. K1. I#500",
+        ];
+        assert_eq!(right.map(found), [0; 5]);
     }
 }

@@ -75,8 +75,12 @@ impl PathRule for CycleInInverseTime {
         if cx.model.semantics().compensation.freezes_modes || !cx.has_effect(makes_moves) {
             return;
         }
-        let changes = cx.has_effect(|effect| Role::of(effect) == Some(Role::FeedMode));
-        if !changes && cx.state().feed_mode(cx.model) == Some(FeedMode::InverseTime) {
+        // A feed mode beside the cycle holds for it already.
+        let is_inverse_time = match cx.code_of_role(Role::FeedMode) {
+            Some(code) => cx.model.effect(code) == Effect::FeedInverseTime,
+            None => cx.state().feed_mode(cx.model) == Some(FeedMode::InverseTime),
+        };
+        if is_inverse_time {
             self.tell(cx, Severity::Warning, report);
         }
     }
@@ -91,10 +95,15 @@ fn makes_moves(effect: Effect) -> bool {
 impl CycleInInverseTime {
     fn tell(&mut self, cx: &PathCx<'_>, severity: Severity, report: &mut Report<'_>) {
         let fact = Fact::Mode(Role::FeedMode);
-        if !self.told.insert(cx.definitions().set_by(fact)) {
+        let own = cx.code_of_role(Role::FeedMode);
+        let set_by = if own.is_some() { Some(cx.origin().at) } else { cx.definitions().set_by(fact) };
+        if !self.told.insert(set_by) {
             return;
         }
-        let name = cx.code_name(Role::FeedMode).unwrap_or_default();
+        let name = match own {
+            Some(code) => cx.name_of(code),
+            None => cx.code_name(Role::FeedMode).unwrap_or_default(),
+        };
         let (what, short) = if cx.has_effect(|e| is_round_pocket(e) || e == Effect::GeneralPocket) {
             ("pocket", "pocket")
         } else if cx.has_effect(is_cycle) {
@@ -107,7 +116,10 @@ impl CycleInInverseTime {
             .label(format!("`F` sets the time of one move, and a {short} makes many"))
             .help(format!("go back to feed per minute (`G94`) before the {short}"))
             .at_most(severity);
-        report.add(cx.resting_on(finding, fact, &format!("`{name}`")));
+        report.add(match own {
+            Some(_) => finding,
+            None => cx.resting_on(finding, fact, &format!("`{name}`")),
+        });
     }
 }
 
@@ -116,7 +128,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::testing::check_rule;
+    use crate::testing::{World, check_rule, findings, only};
 
     #[test]
     fn the_cycle_is_marked() {
@@ -128,6 +140,35 @@ mod tests {
                 3 | G81 X2. Z-.5 R.1 F5.
                   | ^^^ warning[cycle-in-inverse-time] canned cycle under inverse-time feed (`G93`)
             "#]],
+        );
+    }
+
+    #[test]
+    fn the_mode_may_be_in_the_block_of_the_cycle() {
+        let program = |block: &str| format!("G20 G90 G17 G0 X0. Y0. Z1.\n{block}\nG80 G94 F10.\nM30\n");
+        for block in [
+            "G93 G81 X1. Z-0.5 R0.1 F10.\nX2.",
+            "G81 G93 X1. Z-0.5 R0.1 F10.",
+            "G93 G12 I0.5 Z-0.1 D01 F10.",
+            "G93 G150 G41 D01 P2000 X0. Y0. Z-0.5 Q0.25 R0.1 J0.3 F15.",
+        ] {
+            let found = findings(&only(&RULE), "haas-mill", &program(block), &World::default());
+            assert_eq!(found.len(), 1, "{block}");
+        }
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "G21 G90 G0 X0 Y0 Z10\nG93 G81 X10 Z-5 R2 F10\nM2\n",
+            &expect![[r#"
+            2 | G93 G81 X10 Z-5 R2 F10
+              |     ^^^ error[cycle-in-inverse-time] canned cycle under inverse-time feed (`G93`)
+        "#]],
+        );
+        check_rule(
+            &RULE,
+            "haas-mill",
+            &program("G93 G1 X1. F10.\nG94 G81 X1. Z-0.5 R0.1 F10."),
+            &expect![[""]],
         );
     }
 }

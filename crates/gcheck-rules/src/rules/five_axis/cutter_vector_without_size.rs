@@ -72,7 +72,9 @@ impl PathRule for CutterVectorWithoutSize {
                     format!("3D cutter compensation without an offset (`{name}` without `D`)"),
                 );
                 if is_given_elsewhere(cx) {
-                    finding.label("no `D` here, and the one before is zero").at_most(Severity::Warning)
+                    finding
+                        .label("no `D` here, and none in effect on the way here")
+                        .at_most(Severity::Warning)
                 } else {
                     finding.label("no `D` here, and no earlier one in effect")
                 }
@@ -103,7 +105,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::testing::check_rule;
+    use crate::testing::{World, check_rule, findings, only};
 
     #[test]
     fn computed_and_remembered_numbers_are_numbers() {
@@ -113,6 +115,14 @@ mod tests {
             "G90 G1 G41 D2 X1. F20.\nG40 X2.\nG141 X1. Y0. Z0. I0. J0. K1.\nG40\nG141 D#500 X1. I0. J0. K1.\nG40\nM30\n",
             &expect![[""]],
         );
+    }
+
+    #[test]
+    fn an_offset_that_one_way_does_not_give_is_no_zero() {
+        let program = "G90 G1 F20.\n/D01\nG141 X1. Y0. Z0. I0. J0. K1.\nG40\nM30\n";
+        let found = findings(&only(&RULE), "haas-mill", program, &World::default());
+        assert!(found.iter().all(|one| one.label == "no `D` here, and none in effect on the way here"));
+        assert_eq!(found.len(), 1);
     }
 
     #[test]

@@ -65,7 +65,7 @@ impl PathRule for CheckedPastAlarm {
             return;
         }
         // `M99 P…` of a program that is called from another file names a block there.
-        let is_elsewhere = matches!(fault, Fault::NoSuchLabel(_))
+        let is_elsewhere = matches!(fault, Fault::NoSuchLabel(_) | Fault::JumpTarget(_))
             && cx.file_index.is_called_from_elsewhere()
             && cx.state().frames().len() <= 1;
         // What the machine's builder or user added is not in the file.
@@ -79,7 +79,9 @@ impl PathRule for CheckedPastAlarm {
             crate::Finding::new(&META, cx.range(), "note on this block's alarm: the check goes on after it")
                 .label(match fault {
                     Fault::NoSuchProgram => "the control stops here if it does not have the program",
-                    Fault::NoSuchLabel(_) => "the control stops when it takes this jump",
+                    Fault::NoSuchLabel(_) | Fault::JumpTarget(_) => {
+                        "the control stops when it takes this jump"
+                    }
                     _ => "the control stops here",
                 })
                 .note("the rest is checked as if this block were corrected")

@@ -11,7 +11,7 @@ declare_rule! {
     /// the program does not have.
     ///
     /// ## Why it matters
-    /// The control searches the program for the number and stops with an alarm.
+    /// The control searches the program for the number and stops with an alarm. No block has a number below zero.
     ///
     /// ## Reported
     /// ```nc,reported,fanuc-mill
@@ -19,6 +19,12 @@ declare_rule! {
     /// #1=2
     /// GOTO [#1*10]
     /// N10 G0 X1.
+    /// M30
+    /// ```
+    /// ```nc,reported,fanuc-mill
+    /// O0001
+    /// #1=2
+    /// GOTO [#1-5]
     /// M30
     /// ```
     /// ```nc,reported,fanuc-mill
@@ -49,7 +55,11 @@ struct JumpToMissingBlock;
 
 impl PathRule for JumpToMissingBlock {
     fn fault(&mut self, cx: &PathCx<'_>, fault: &Fault, report: &mut Report<'_>) {
-        let Fault::NoSuchLabel(number) = fault else { return };
+        let number = match fault {
+            Fault::NoSuchLabel(number) => number,
+            Fault::JumpTarget(number) => return self.impossible(cx, *number, report),
+            _ => return,
+        };
         let block = cx.range();
         // Other rules report a written number without executing the program.
         let literal = cx.file_index.jumps.iter().any(|jump| {
@@ -87,12 +97,27 @@ impl PathRule for JumpToMissingBlock {
     }
 }
 
+impl JumpToMissingBlock {
+    /// A number that no block can have. That of a word (`M99 P-3`) is outside of its range, which other rules report.
+    fn impossible(&self, cx: &PathCx<'_>, number: f64, report: &mut Report<'_>) {
+        if cx.has_effect(|effect| effect == Effect::Return) {
+            return;
+        }
+        report.add(
+            cx.finding(&META, cx.range(), format!("jump to block {number}, which cannot exist"))
+                .label(format!("the target is {number}"))
+                .note("sequence numbers are whole numbers from 0 on; the control stops with an alarm when it takes the jump")
+                .help("correct the target, or the variables that it reads"),
+        );
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::testing::check_rule;
+    use crate::testing::{World, check_rule, findings, only, words};
 
     #[test]
     fn the_block_that_jumps_is_marked() {
@@ -123,6 +148,24 @@ mod tests {
               | ^^^^^^^ error[jump-to-missing-block] jump to `N50`, which does not exist
         "#]],
         );
+    }
+
+    #[test]
+    fn no_block_has_a_number_below_zero() {
+        for jump in ["GOTO-3", "GOTO[0-3]", "#100=-3\nGOTO#100", "#100=-3\nIF[#100LT0]GOTO#100"] {
+            for control in ["haas-mill", "haas-lathe", "fanuc-mill", "fanuc-lathe"] {
+                let found =
+                    findings(&only(&RULE), control, &format!("O1\n{jump}\nN3 M30\n"), &World::default());
+                expect![[r#"
+                    jump to block -3, which cannot exist
+                      here: the target is -3
+                      note: sequence numbers are whole numbers from 0 on; the control stops with an alarm when it takes the jump
+                      help: correct the target, or the variables that it reads
+                "#]]
+                .assert_eq(&found.iter().map(words).collect::<String>());
+            }
+        }
+        check_rule(&RULE, "fanuc-mill", "O1\n#100=3\nGOTO#100\nN3 M30\n", &expect![[""]]);
     }
 
     #[test]

@@ -69,7 +69,10 @@ fn finding(cx: &BlockCx<'_>, code: Code<'_>, word: &Word) -> Finding {
         let letter = Letter::parse(&row.letter).filter(|letter| ROTARY.contains(*letter))?;
         Some((cx.words().iter().find(|word| word.letter == letter)?, row.why.as_str()))
     });
-    let finding = Finding::new(&META, cx.range(word), format!("the cylinder has no rotary axis (`{name}`)"))
+    if let Some((word, why)) = disputed {
+        return of_other_pages(cx, code, word, why);
+    }
+    Finding::new(&META, cx.range(word), format!("the cylinder has no rotary axis (`{name}`)"))
         .label(format!("{what} needs {} in the block", choice(reads)))
         .note(format!(
             "`{}` ({}) stops with an alarm when a linear axis or a size comes without a rotary axis  [{}]",
@@ -80,14 +83,26 @@ fn finding(cx: &BlockCx<'_>, code: Code<'_>, word: &Word) -> Finding {
             "name the axis that turns the part: `{}0.`",
             reads.iter().next().unwrap_or(Letter::of('A'))
         ))
-        .at_most(limit(entry.confidence));
-    match disputed {
-        Some((word, why)) => finding
-            .also(cx.range(word), "this axis may carry the cylinder on newer controls")
-            .note(format!("the pages of `{}` differ: {why}", entry.code))
-            .at_most(Severity::Warning),
-        None => finding,
-    }
+        .at_most(limit(entry.confidence))
+}
+
+/// An axis that some pages list and others do not.
+fn of_other_pages(cx: &BlockCx<'_>, code: Code<'_>, word: &Word, why: &str) -> Finding {
+    let entry = code.entry();
+    let (name, letter) = (cx.written(code), word.letter);
+    Finding::new(
+        &META,
+        cx.range(word),
+        format!("not every control takes a cylinder on `{letter}` (`{name}`)"),
+    )
+    .label("an older control finds no rotary axis here, and stops with an alarm")
+    .note(format!("the pages of `{}` differ: {why}  [{}]", entry.code, entry.source))
+    .help(format!(
+        "look up whether the control's own page lists `{letter}`; if not, the part must turn on {}",
+        choice(code.reads().and(ROTARY))
+    ))
+    .at_most(Severity::Warning)
+    .at_most(limit(entry.confidence))
 }
 
 #[cfg(test)]
@@ -115,7 +130,7 @@ mod tests {
                 5 | G107 R-1.
                   |      ^^^^ error[cylinder-without-rotary-axis] the cylinder has no rotary axis (`G107`)
                 7 | G107 Y0. C0. Q2.
-                  |      ^^^ warning[cylinder-without-rotary-axis] the cylinder has no rotary axis (`G107`)
+                  |          ^^^ warning[cylinder-without-rotary-axis] not every control takes a cylinder on `C` (`G107`)
             "#]],
         );
     }

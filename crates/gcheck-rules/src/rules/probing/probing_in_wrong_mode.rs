@@ -80,7 +80,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::testing::check_rule;
+    use crate::testing::{World, check_rule, findings, only};
 
     #[test]
     fn cutter_compensation() {
@@ -111,6 +111,15 @@ mod tests {
     #[test]
     fn a_length_of_nothing_is_off() {
         check_rule(&RULE, "haas-mill", "G90 G43 H0 Z1.\nG91 G36 Y-1. F10.\nG90\nM30\n", &expect![[""]]);
+    }
+
+    #[test]
+    fn a_length_without_a_number_is_one() {
+        let program = |on: &str| {
+            format!("G90 G54 G0 X0. Y5.\n{on}\nG91 G31 Y-1. F10. M75\nG0 Y-8.\nG136 Y1. F10.\nG90 G49\nM30\n")
+        };
+        let found = |on: &str| findings(&only(&RULE), "haas-mill", &program(on), &World::default()).len();
+        assert_eq!([found("G43"), found("G43 H1"), found("G43 H0"), found("G49")], [1, 1, 0, 0]);
     }
 
     #[test]

@@ -85,8 +85,15 @@ impl PathRule for TouchesDoNotMeet {
         else {
             return;
         };
+        // A word that the code does not read moves no axis; another rule reports it.
+        let codes = cx.codes();
+        let mut codes = codes.iter().filter(|code| is_second_touch(cx.model.effect(**code)));
+        let Some(code) = codes.find_map(|code| cx.code_of(*code)) else { return };
         for (axis, way) in driven(second) {
             let letter = axis.name();
+            if !code.reads().contains(axis.letter()) {
+                continue;
+            }
             let keep = keeping_code(cx);
             let (message, label, help) = match (first.of(axis), way) {
                 (Way::Still, _) => (
@@ -133,6 +140,14 @@ mod tests {
                   |      ^^^^ warning[touches-do-not-meet] both touches are in the same direction along Y
             "#]],
         );
+    }
+
+    #[test]
+    fn a_word_that_the_code_does_not_read_is_another_matter() {
+        for word in ["C1.", "B1."] {
+            let program = format!("G91 G31 X-1. F10. M75\nG0 X-8.\nG136 X1. F10. {word}\nG90\nM30\n");
+            check_rule(&RULE, "haas-mill", &program, &expect![[""]]);
+        }
     }
 
     #[test]

@@ -66,9 +66,11 @@ impl PathRule for SpeedMissing {
             return;
         }
         let set_by = cx.definitions().set_by(Fact::Speed);
-        // A laser is off at `S0`, and its blocks that move say so, long after it was started.
+        // A laser is off at `S0`, and its blocks that move say so, long after it was started. No program changes one.
         let moves = |place: Place| cx.has_axis_among(place.block().letters);
-        if set_by != started_by && set_by.and_then(|at| cx.place_of(at)).is_some_and(moves) {
+        let changes_tools = cx.definitions().set_by(Fact::Tool).is_some();
+        if !changes_tools && set_by != started_by && set_by.and_then(|at| cx.place_of(at)).is_some_and(moves)
+        {
             return;
         }
         self.told = started_by;
@@ -120,7 +122,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::testing::check_rule;
+    use crate::testing::{World, check_rule, findings, only};
 
     #[test]
     fn the_first_cut_is_marked() {
@@ -177,6 +179,25 @@ mod tests {
     #[test]
     fn a_laser_is_off_at_speed_zero() {
         check_rule(&RULE, "grbl", "M4\nG1 X-2 F6000 S0\nG1 X-10 S300\nG1 X-2 S0\nM5\nM2\n", &expect![[""]]);
+    }
+
+    #[test]
+    fn speed_zero_may_be_in_the_block_that_cuts() {
+        let program = |block: &str| {
+            format!(
+                "G20 G17 G90 G94\nT1 M06\nG00 G54 X0. Y0.\nS3000 M03\nG43 H01 Z1.\n{block}\nM30\nO2000\nG01 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n"
+            )
+        };
+        let g150 = "G150 G41 D01 P2000 X0. Y0. Z-0.5 Q0.25 R0.1 J0.3 K0.01 F15.";
+        for block in
+            ["G01 Z-0.1 F10. S0", "S0\nG01 Z-0.1 F10.", &format!("{g150} S0"), &format!("{g150} S[1-1]")]
+        {
+            let found = findings(&only(&RULE), "haas-mill", &program(block), &World::default());
+            assert_eq!(found.len(), 1, "{block}");
+        }
+        for block in ["G01 Z-0.1 F10. S2000", &format!("{g150} S2000"), "G01 Z-0.1 F10."] {
+            check_rule(&RULE, "haas-mill", &program(block), &expect![[""]]);
+        }
     }
 
     #[test]

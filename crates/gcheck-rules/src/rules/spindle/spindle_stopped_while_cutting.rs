@@ -8,7 +8,7 @@ use crate::facts::cutting::{is_cut, starts_spindle};
 use crate::facts::cycles::cycle_code;
 use crate::facts::feed::goes_by_feed;
 use crate::facts::live_tool::{LiveTool, live_tool};
-use crate::facts::probing::{is_near, touches_work};
+use crate::facts::probing::{is_measurement, is_near, is_probing_move, touches_work};
 use crate::facts::program_calls::calls_other_files;
 use crate::facts::tool_words::ToolWords;
 use crate::{Finding, PathCx, PathRule, Report, Run, Severity, Watch, limit};
@@ -145,9 +145,11 @@ impl PathRule for SpindleStoppedWhileCutting {
         let stands = cx.state().spindle() == Some(Spindle::Stopped) && cx.state().live_tool() == Truth::False;
         // A program that chose feed per turn needs the spindle for every move.
         let by_turns = cx.state().feed_mode(cx.model) == Some(FeedMode::PerRevolution);
+        // Probing has the spindle stopped, but a feed per turn does not move the probe then.
+        let measures = is_probing_move(event) && cx.has_effect(is_measurement);
         let needs_turns = by_turns
             && cx.definitions().set_by(Fact::Mode(Role::FeedMode)).is_some()
-            && goes_by_feed(event)
+            && (goes_by_feed(event) || measures)
             && !cx.has_effect(|effect| matches!(effect, Effect::MachineCoordinates | Effect::Skip));
         // A strict control refuses the block, which is reported as a fault.
         let is_refused =
@@ -170,7 +172,10 @@ impl PathRule for SpindleStoppedWhileCutting {
             return;
         }
         let probes = !gives_speed_after(cx, touches_work);
-        if probes && is_near(cx, touches_work) || feeds_bar(cx) || ToolWords::of(cx).needs_no_spindle() {
+        if probes && !(needs_turns && measures) && is_near(cx, touches_work)
+            || feeds_bar(cx)
+            || !measures && ToolWords::of(cx).needs_no_spindle()
+        {
             return;
         }
         let live = live_tool(cx);
@@ -738,5 +743,17 @@ mod tests {
               there: stopped here
               help: start the spindle with `S` and `M3` or `M4`; probing, engraving and drag knives are exceptions to suppress
         "#]].assert_eq(&found.iter().map(words).collect::<String>());
+    }
+
+    #[test]
+    fn a_probe_waits_for_the_spindle_under_feed_per_turn() {
+        let program = |before: &str| {
+            format!(
+                "G20 G17 G90 G94\nT1 M06\nG00 G54 X0. Y1.\nG91 G31 Y-1. F10. M75\nG00 Y-3.\n{before}\nG136 Y1. F0.01\nG94 G90\nM30\n"
+            )
+        };
+        let found =
+            |before: &str| findings(&only(&RULE), "haas-mill", &program(before), &World::default()).len();
+        assert_eq!([found("M05\nG95"), found("M05\nG94")], [1, 0]);
     }
 }

@@ -4,12 +4,14 @@ use gcheck_controls::{Effect, Letter};
 use gcheck_engine::{At, Axis, Event, Fact, Role, TravelKind};
 
 use crate::declare::declare_rule;
+use crate::facts::cancelled_length::{cancelled, number_as_written};
 use crate::facts::cutting::is_cut;
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// A tool has moved in Z or worked with its length in effect, the length is cancelled (`G49`), and then the tool cuts along Z.
+    /// A tool has moved in Z or worked with its length in effect, the length is cancelled (`G49`, or `H0` where the control takes
+    /// it for the same), and then the tool cuts along Z.
     ///
     /// ## Why it matters
     /// From there Z is the position of the spindle nose: the tool goes deeper by its own length.
@@ -73,6 +75,8 @@ struct LengthCancelledBeforeCut {
     came: Option<At>,
     /// The cancelling block that was reported.
     told: Option<At>,
+    /// The length that was in effect last, in millimetres, where it is known.
+    length: Option<f64>,
 }
 
 remembers!(LengthCancelledBeforeCut: worked, came, told);
@@ -90,13 +94,14 @@ impl PathRule for LengthCancelledBeforeCut {
         if !cx.origin().letters.contains(Letter::of('Z')) {
             return;
         }
-        let (fact, changed) = (Fact::Mode(Role::Length), cx.definitions().set_by(Fact::Tool));
-        let length = cx.state().effect(Role::Length, cx.model);
-        let is_off = length == Some(Effect::LengthOff);
-        if matches!(length, Some(Effect::LengthPlus | Effect::LengthMinus)) && changed.is_some() {
+        let changed = cx.definitions().set_by(Fact::Tool);
+        let off = cancelled(cx);
+        if off.is_none() && has_length(cx) && changed.is_some() {
             self.came = changed;
+            self.length = cx.state().length().get(Axis::Z);
         }
-        if cx.model.semantics().tools.offset_in_t || !is_off || changed.is_none() || self.worked != changed {
+        let Some(fact) = off else { return };
+        if cx.model.semantics().tools.offset_in_t || changed.is_none() || self.worked != changed {
             return;
         }
         let (Event::Travel(travel), Some(cancelled)) = (event, cx.definitions().set_by(fact)) else { return };
@@ -108,11 +113,12 @@ impl PathRule for LengthCancelledBeforeCut {
         });
         let is_absolute = cx.state().is_incremental(cx.model) == Some(false);
         let is_near = travel.to.raw(Axis::Z) < NEAR_THE_PART;
-        if goes_elsewhere || !is_absolute || !is_near || self.told == Some(cancelled) {
+        if goes_elsewhere || !is_absolute || !is_near || self.told == Some(cancelled) || self.was_no_longer()
+        {
             return;
         }
         self.told = Some(cancelled);
-        let off = cx.code_name(Role::Length).unwrap_or_default();
+        let off = written(cx, fact, cancelled);
         let machine = cx.name_of_effect(Effect::MachineCoordinates).unwrap_or_default();
         let finding = cx
             .finding(
@@ -130,15 +136,16 @@ impl PathRule for LengthCancelledBeforeCut {
         if rules.offset_in_t {
             return;
         }
-        let (fact, changed) = (Fact::Mode(Role::Length), cx.definitions().set_by(Fact::Tool));
-        let Some(changed) = changed else { return };
-        match cx.state().effect(Role::Length, cx.model) {
-            Some(Effect::LengthPlus | Effect::LengthMinus) if is_cut(cx, event) => {
+        let Some(changed) = cx.definitions().set_by(Fact::Tool) else { return };
+        match cancelled(cx) {
+            None if has_length(cx) && is_cut(cx, event) => {
                 self.worked = Some(changed);
+                self.length = cx.state().length().get(Axis::Z);
             }
-            Some(Effect::LengthOff)
+            Some(fact)
                 if (self.worked == Some(changed) || self.came == Some(changed))
-                    && goes_into_the_part(cx, event) =>
+                    && goes_into_the_part(cx, event)
+                    && !self.was_no_longer() =>
             {
                 let Some(cancelled) = cx.definitions().set_by(fact).filter(|at| self.told != Some(*at))
                 else {
@@ -148,7 +155,7 @@ impl PathRule for LengthCancelledBeforeCut {
                     return;
                 }
                 self.told = Some(cancelled);
-                let off = cx.code_name(Role::Length).unwrap_or_default();
+                let off = written(cx, fact, cancelled);
                 let on = cx.name_of_effect(Effect::LengthPlus).unwrap_or_default();
                 let finding = cx
                     .finding(
@@ -164,6 +171,27 @@ impl PathRule for LengthCancelledBeforeCut {
             }
             _ => {}
         }
+    }
+}
+
+impl LengthCancelledBeforeCut {
+    /// Is the length that was cancelled known, and zero or below? Without it the tool goes no deeper.
+    fn was_no_longer(&self) -> bool {
+        self.length.is_some_and(|length| length <= 0.0)
+    }
+}
+
+/// Is a length along Z in effect?
+fn has_length(cx: &PathCx<'_>) -> bool {
+    let effect = cx.state().effect(Role::Length, cx.model);
+    matches!(effect, Some(Effect::LengthPlus | Effect::LengthMinus))
+}
+
+/// What the block at `at` says to end the length: the code, or the offset number zero.
+fn written(cx: &PathCx<'_>, fact: Fact, at: At) -> String {
+    match fact {
+        Fact::Length => number_as_written(cx, at),
+        _ => cx.code_name(Role::Length).unwrap_or_default(),
     }
 }
 
@@ -233,6 +261,27 @@ mod tests {
               |                   ^^^^^ warning[length-cancelled-before-cut] the tool cuts after its length was cancelled (`G49`)
         "#]],
         );
+    }
+
+    #[test]
+    fn offset_number_zero_cancels_too() {
+        let program = |block: &str| {
+            format!(
+                "T1 M6\nG21 S1000 M3\nG90 G54 G0 X0. Y0.\nG43 H1 Z10.\nG1 Z-1. F100.\n{block}\nG1 Z-2.\nM30\n"
+            )
+        };
+        for control in ["haas-mill", "fanuc-mill", "generic-mill", "tsnc-yh-a1m"] {
+            check_rule(
+                &RULE,
+                control,
+                &program("G0 H00 Z60."),
+                &expect![[r#"
+                7 | G1 Z-2.
+                  |    ^^^^ warning[length-cancelled-before-cut] the tool cuts after its length was cancelled (`H00`)
+            "#]],
+            );
+            check_rule(&RULE, control, &program("G0 Z60."), &expect![[""]]);
+        }
     }
 
     #[test]

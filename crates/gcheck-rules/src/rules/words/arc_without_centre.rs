@@ -1,6 +1,6 @@
 //! An arc without centre or radius.
 
-use gcheck_controls::{Code, LetterSet, Motion};
+use gcheck_controls::{Code, Effect, Letter, LetterSet, Machine, Motion};
 use gcheck_program::{BlockFlags, Word};
 
 use crate::declare::declare_rule;
@@ -55,11 +55,33 @@ fn is_end_point(cx: &BlockCx<'_>, code: Code<'_>, word: &Word) -> bool {
 
 fn finding(cx: &BlockCx<'_>, word: &Word, end: &Word, code: Code<'_>, letters: LetterSet) -> Finding {
     let entry = code.entry();
+    let planes = planes(cx);
+    let radius = Letter::of('R');
+    let (needs, note) = match planes.as_slice() {
+        // The block tells the plane, or the control has no other.
+        [(_, centre)] => {
+            let mut fit = centre.and(letters);
+            if letters.contains(radius) {
+                fit.insert(radius);
+            }
+            (choice(fit), format!("`{}` needs {} in its block", entry.code, choice(fit)))
+        }
+        _ => {
+            let of_plane =
+                |(code, centre): &(String, LetterSet)| format!("{} in `{code}`", choice(centre.and(letters)));
+            let each: Vec<String> = planes.iter().map(of_plane).collect();
+            let or_radius = if letters.contains(radius) { " or `R`" } else { "" };
+            (
+                format!("a centre in its plane{or_radius}"),
+                format!("the centre of `{}` is {}", entry.code, each.join(", ")),
+            )
+        }
+    };
     let finding =
         Finding::new(&META, cx.range(word), format!("arc without centre or radius: `{}`", cx.text(word)))
-            .label(format!("needs {}", choice(letters)))
+            .label(format!("needs {needs}"))
             .also(cx.range(end), "an end point alone does not define an arc")
-            .note(format!("`{}` needs {} in its block  [{}]", entry.code, choice(letters), entry.source))
+            .note(format!("{note}  [{}]", entry.source))
             .help("add the centre or the radius, or write a straight move (`G1`)")
             .at_most(limit(entry.choice_confidence.unwrap_or(entry.confidence)));
     match cx.control().semantics().arcs.straight_setting.as_deref() {
@@ -70,12 +92,34 @@ fn finding(cx: &BlockCx<'_>, word: &Word, end: &Word, code: Code<'_>, letters: L
     }
 }
 
+/// The planes that the arc may be in, each with its code and the words of a centre: the plane of the block, or those that the
+/// control can choose from.
+fn planes(cx: &BlockCx<'_>) -> Vec<(String, LetterSet)> {
+    let centre = |effect| match effect {
+        Effect::PlaneXy => Some(LetterSet::of("IJ")),
+        Effect::PlaneZx => Some(LetterSet::of("IK")),
+        Effect::PlaneYz => Some(LetterSet::of("JK")),
+        _ => None,
+    };
+    let plane = |code: Code<'_>| Some((code.number().to_string(), centre(code.effect())?));
+    let own: Vec<_> = cx.codes().filter_map(|(_, code)| plane(code)).collect();
+    if let [_] = own.as_slice() {
+        return own;
+    }
+    let all: Vec<_> = cx.control().codes().filter_map(plane).collect();
+    if !all.is_empty() {
+        return all;
+    }
+    let only = if cx.control().machine() == Machine::Mill { "IJ" } else { "IK" };
+    vec![(String::new(), LetterSet::of(only))]
+}
+
 #[cfg(test)]
 mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::testing::{World, check_rule, check_rule_in, findings, only, words};
+    use crate::testing::{World, check_rule, check_rule_in, findings, only};
 
     #[test]
     fn the_code_is_marked() {
@@ -120,9 +164,23 @@ mod tests {
     }
 
     #[test]
-    fn words_list_the_choice() {
-        let found = findings(&only(&RULE), "haas-mill", "G2 X10. Y5. F100.\n", &World::default());
-        let text = words(&found[0]);
-        assert!(text.contains("here: needs `I`, `J`, `K` or `R`"), "{text}");
+    fn words_name_what_fits_the_plane() {
+        let label = |control: &str, program: &str| {
+            let found = findings(&only(&RULE), control, program, &World::default());
+            let [found] = found.as_slice() else { panic!("{control}: {program}") };
+            format!("{}; {}", found.label, found.notes.join("; "))
+        };
+        for (block, needs) in [
+            ("G17 G2 X10. Y5. F100.", "needs `I`, `J` or `R`;"),
+            ("G18 G2 X10. Z5. F100.", "needs `I`, `K` or `R`;"),
+            ("G19 G2 Y10. Z5. F100.", "needs `J`, `K` or `R`;"),
+            (
+                "G2 X10. Y5. F100.",
+                "needs a centre in its plane or `R`; the centre of `G2` is `I` or `J` in `G17`, ",
+            ),
+        ] {
+            let said = label("haas-mill", block);
+            assert!(said.starts_with(needs), "{block}: {said}");
+        }
     }
 }
