@@ -38,7 +38,7 @@
 
 ;;;###autoload
 (add-to-list 'auto-mode-alist
-             '("\\.\\(nc\\|ngc\\|cnc\\|tap\\|eia\\|ncf\\|gcode\\|mpf\\)\\'\\|/O[0-9]\\{4,5\\}\\'" . gcode-mode))
+             '("\\.\\(nc\\|ngc\\|cnc\\|tap\\|eia\\|ncf\\|gcode\\|iso\\|din\\|prg\\|mpf\\|spf\\|min\\)\\'\\|/O[0-9]\\{4,5\\}\\'" . gcode-mode))
 
 (with-eval-after-load 'eglot
   (add-to-list 'eglot-server-programs (cons 'gcode-mode gcheck-command)))

@@ -189,6 +189,39 @@ mod tests {
     }
 
     #[test]
+    fn names_of_controls_count_where_they_are_no_other_words() {
+        let named = |text: &str| foreign(&with_comment(text, &[])).map(|foreign| foreign.name);
+        for text in [
+            "MITSUBISHI M70",
+            "SIEMENS 840D",
+            "BROTHER S700",
+            "SYNTEC 21MA",
+            "DELTA NC300",
+            "NUM 1060",
+            "TinyG",
+            "DDCSV3.1",
+            "Smoothieware",
+            "Estlcam",
+            "Marlin 2.1",
+            "Duet 3",
+            "FluidNC 3.7",
+        ] {
+            assert!(named(text).is_some(), "{text}");
+        }
+        for text in ["TOOL NUM 3", "MITSUBISHI INSERT", "POSTED BY SIEMENS NX", "DELTA X", "HAAS BRACKET"] {
+            assert_eq!(named(text), None, "{text}");
+        }
+        let control = |text: &str, codes: &[&str]| {
+            let codes = codes.iter().map(|code| (*code).to_owned()).collect();
+            guess(&Evidence { codes, ..with_comment(text, &[]) }).map(|guess| guess.control)
+        };
+        assert_eq!(control("PathPilot", &[]).as_deref(), Some("linuxcnc"));
+        // They read more than grbl does, and would get its findings for what is right on them.
+        assert_eq!(control("FOR grblHAL", &[]), None);
+        assert_eq!(control("FluidNC, grbl", &["M6"]), None);
+    }
+
+    #[test]
     fn a_guess_names_the_control_that_fits_nearly_as_well() {
         let lathe = with_comment("", &[SyntaxForm::PackedTool]);
         assert_eq!(guess(&lathe).and_then(|guess| guess.rival).as_deref(), Some("haas-lathe"));

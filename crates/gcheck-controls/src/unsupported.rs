@@ -51,6 +51,13 @@ pub struct UnsupportedDialect {
     hints: Vec<Hint>,
 }
 
+impl UnsupportedDialect {
+    /// Which files are in it, and that gcheck does not read them.
+    pub fn sentence(&self) -> String {
+        format!("the file is for {}, which gcheck does not read", self.name)
+    }
+}
+
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Hint {
@@ -224,6 +231,26 @@ mod tests {
         check("S1000 M3 P11\nM3 P1000\n", None);
         check("G38.3 Z-50 F100\nG43.1 Z#PRBZ\n", Some("a sender program"));
         check("#<PRBX> = 5 ; kept in #PRBX\n(laser module from Snapmaker on a grbl frame)\nG0 X1\n", None);
+    }
+
+    #[test]
+    fn printers_by_their_slicers_macros_and_temperatures() {
+        for slicer in ["ideaMaker", "KISSlicer", "Kiri:Moto", "SuperSlicer"] {
+            check(&format!("; sliced by {slicer} 4.1\nM104 S200\nG28\n"), Some("a 3-D printer"));
+        }
+        check("START_PRINT BED=60 EXTRUDER=200\nG28\n", Some("a 3-D printer"));
+        check("M104\nG1 X1 E1.1\nG1 X2 E1.2\nG1 Y2 E1.3\n", Some("a 3-D printer"));
+        // A fish, a user's own codes, and words that end elsewhere.
+        check("(MARLIN BRACKET)\nM104 P1\nG1 X1.\n", None);
+        check("(PRINT_STARTED BY HAND)\nG0 X1.\n", None);
+    }
+
+    #[test]
+    fn routers_that_read_words_with_commas() {
+        check("'SHOPBOT FILE\nMS,2,1\nJZ,0.5\nJ2,1,1\nMZ,-0.1\nM2,3,1\n", Some("a ShopBot"));
+        check_named("VD,1\n", Some("sbp"), Some("a ShopBot"));
+        check("units(METRIC);\nfeed(400);\n", Some("a script interpreter"));
+        check("M3\nM2\n", None);
     }
 
     #[test]

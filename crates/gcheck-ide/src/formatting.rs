@@ -42,13 +42,29 @@ pub fn format_on_type_in(snapshot: &Snapshot, style: &Style, offset: u32) -> Vec
 }
 
 fn format_lines(snapshot: &Snapshot, style: &Style, lines: Option<Range<u32>>) -> Vec<Edit> {
+    // What is written for another control is not ours to write anew.
+    if snapshot.settings().unsupported.is_some() {
+        return Vec::new();
+    }
     gcheck_format::format(&snapshot.text(), &snapshot.dialect(), style, lines)
 }
 
 #[cfg(test)]
 mod tests {
+    use gcheck_db::Settings;
+
     use super::{format, format_on_type};
     use crate::fixture::{Fixture, applied};
+
+    #[test]
+    fn a_program_of_another_dialect_stays_as_it_is() {
+        let mut settings = Settings::new(gcheck_controls::load("generic-mill").unwrap(), gcheck_rules::RULES);
+        let text = "%00214\nN0 T1.1\nN10   M6\n";
+        let edits = |settings: &Settings| format(&Fixture::with(text, settings).snapshot(), None);
+        assert!(!edits(&settings).is_empty());
+        settings.unsupported = gcheck_controls::unsupported_dialect(text, None);
+        assert_eq!(edits(&settings), []);
+    }
 
     #[test]
     fn a_document_some_lines_and_the_line_just_typed() {

@@ -56,6 +56,11 @@ pub fn hover(
     let snapshot = database.indexed(document)?;
     let place = snapshot.block_at(offset).filter(|place| touches(&place.range(), offset))?;
     let subject = subject(&snapshot, &place, offset);
+    if let Some(dialect) = snapshot.settings().unsupported {
+        // What the words mean there is not known here.
+        let markdown = format!("{}; name a control to read it all the same", dialect.sentence());
+        return Some(Hover { range: subject.range(), markdown, code: None, is_without_state: false });
+    }
     let with_state = parts_with_state(database, document, &snapshot, &place, &subject, stop);
     let is_without_state = with_state.is_err();
     let mut parts = with_state.ok().flatten().unwrap_or_else(|| {
@@ -1747,5 +1752,18 @@ mod tests {
         for block in ["G17 G2 $0X10. Y10. Z-3. I10. J0. F100.", "G1 $0Z-3. F100."] {
             assert_eq!(lines_with("tsnc-yh-a1m", &program(block), "helix"), "", "{block}");
         }
+    }
+
+    #[test]
+    fn in_a_dialect_that_no_control_reads_nothing_is_said_of_modes() {
+        let mut settings = Settings::new(gcheck_controls::load("generic-mill").unwrap(), gcheck_rules::RULES);
+        let text = "G92 E0\nG1 X1 E1.1\nG1 X2 E1.2\nG1 Y2 E1.3\n";
+        settings.unsupported = gcheck_controls::unsupported_dialect(text, None);
+        let mut fixture = Fixture::with(text, &settings);
+        let found = hover(&mut fixture.database, fixture.document, 8, &|| false).unwrap();
+        assert_eq!(
+            found.markdown,
+            "the file is for a 3-D printer, which gcheck does not read; name a control to read it all the same"
+        );
     }
 }

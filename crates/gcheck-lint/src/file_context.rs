@@ -146,6 +146,18 @@ impl<'a> FileCx<'a> {
         })
     }
 
+    /// The numbers of the lines of places, from 1; the places ascend.
+    pub fn line_numbers<const N: usize>(&self, places: [u32; N]) -> [u32; N] {
+        let mut starts = self.lines().map(|(start, _)| start).peekable();
+        let mut line = 0;
+        places.map(|place| {
+            while starts.next_if(|start| *start <= place).is_some() {
+                line += 1;
+            }
+            line
+        })
+    }
+
     /// The line around a place, at most [`LINE`] bytes of it on either side.
     pub fn line_around(&self, place: Range<u32>) -> Range<u32> {
         let (base, text) = self.text.around(place.start);

@@ -70,6 +70,12 @@ pub struct Malformed {
     pub help: &'static str,
 }
 
+/// Does the text begin as every baseline does? Nobody is told to delete anything else.
+fn is_ours(text: &str) -> bool {
+    let inside = text.trim_start().strip_prefix('{').map(str::trim_start);
+    inside.is_some_and(|inside| inside.starts_with("\"version\""))
+}
+
 const WRITE_ANEW: &str = "delete it, and `--update-baseline` writes it again";
 
 impl Baseline {
@@ -86,6 +92,13 @@ impl Baseline {
                 reason: "a merge left conflict marks".to_owned(),
                 line: at + 1,
                 help: "keep the entries of both sides and delete the marks",
+            });
+        }
+        if !is_ours(text) {
+            return Err(Malformed {
+                reason: "this is not a baseline that gcheck wrote".to_owned(),
+                line: 1,
+                help: "name another file; `--update-baseline` writes a new one",
             });
         }
         let form: Form = serde_json::from_str(text).map_err(|error| Malformed {
@@ -411,13 +424,17 @@ mod tests {
         };
         let good = known(on_lines("G1\n")).to_text();
         let mut all = why("");
+        all += &why("%\nO2000\nG0 X1.\nM30\n%\n");
+        all += &why(good.get(..good.len() / 2).unwrap());
         all += &why("{\"version\": 2, \"findings\": []}");
         all += &why(&good.replace("  {", "<<<<<<< ours\n  {"));
         all += &why(&good.replace("\"fingerprint\":\"", "\"fingerprint\":\"x"));
         all += &why(&good.replace("\"rule\"", "\"rul\""));
         all += &why("{\"version\": 1, \"findings\": [{\"file\": \"a\", \"rule\": \"r\"}]}");
         expect![[r#"
-            1: is not a baseline: EOF while parsing a value (delete it, and `--update-baseline` writes it again)
+            1: this is not a baseline that gcheck wrote (name another file; `--update-baseline` writes a new one)
+            1: this is not a baseline that gcheck wrote (name another file; `--update-baseline` writes a new one)
+            4: is not a baseline: EOF while parsing a string (delete it, and `--update-baseline` writes it again)
             1: is of version 2; this gcheck reads version 1 (use the gcheck that wrote it, or delete it and write it again with `--update-baseline`)
             4: a merge left conflict marks (keep the entries of both sides and delete the marks)
             4: entry 1 has no fingerprint but `xd83bb959ae86b76009503b31cb70d96f` (delete it, and `--update-baseline` writes it again)

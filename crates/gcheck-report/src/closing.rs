@@ -8,7 +8,8 @@ use std::iter;
 
 use gcheck_diagnostics::Severity;
 
-use crate::report::is_fixable;
+use crate::fold::of_files;
+use crate::report::{InFold, is_fixable};
 use crate::shown::{number, one_line};
 use crate::{Report, Summary};
 
@@ -28,6 +29,12 @@ pub fn summary_line(summary: &Summary) -> String {
     let found = if counts.is_empty() { "no findings".to_owned() } else { counts.join(", ") };
     let files = count(summary.files, "file", "files");
     let mut line = format!("{found} in {files} ({})", count(summary.lines, "line", "lines"));
+    // A problem that is not one of a single file is told beside the findings.
+    let unread: BTreeSet<&str> =
+        summary.skipped.iter().map(|skipped| skipped.file.as_str()).filter(|file| !file.is_empty()).collect();
+    if !unread.is_empty() {
+        line = format!("{line}; {} could not be checked", count(unread.len(), "more file", "more files"));
+    }
 
     if summary.omitted > 0 {
         line = format!("{line}; {} of them counted but not shown", number(summary.omitted));
@@ -151,7 +158,25 @@ pub fn statistics(report: &Report) -> String {
 /// Findings by file, those with the worst first: how many of each severity. Files without findings are left out.
 pub fn file_counts(report: &Report) -> String {
     let mut rows: Vec<([usize; 4], &str)> = Vec::new();
+    let mut folds: Vec<[String; 5]> = Vec::new();
     for file in report.files() {
+        match (&file.in_fold, file.findings.as_slice()) {
+            (InFold::Hidden, _) => continue,
+            (InFold::First(count), [finding]) => {
+                let of = |severity| if finding.severity == severity { number(*count) } else { number(0) };
+                let [errors, warnings, infos, hints] =
+                    [Severity::Error, Severity::Warning, Severity::Info, Severity::Hint].map(of);
+                folds.push([
+                    errors,
+                    warnings,
+                    infos,
+                    hints,
+                    one_line(&of_files(*count, finding)).into_owned(),
+                ]);
+                continue;
+            }
+            _ => {}
+        }
         let mut row = [0; 4];
         let kept = file.findings.iter().map(|finding| (finding.severity, 1));
         let omitted = file.omitted.iter().map(|(_, severity, count)| (*severity, *count));
@@ -172,7 +197,7 @@ pub fn file_counts(report: &Report) -> String {
     let cells = rows.into_iter().map(|([errors, warnings, infos, hints], path)| {
         [number(errors), number(warnings), number(infos), number(hints), one_line(path).into_owned()]
     });
-    table(["errors", "warnings", "infos", "hints", "file"], 4, cells)
+    table(["errors", "warnings", "infos", "hints", "file"], 4, cells.chain(folds))
 }
 
 /// Columns as wide as their cells, the first `numbers` of them to the right; empty without rows.
@@ -214,8 +239,8 @@ fn count(n: usize, one: &str, many: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::FailedRule;
     use crate::testing::{ARC_OFF_CIRCLE, FEED_MISSING, file};
+    use crate::{FailedRule, Skipped};
     use expect_test::expect;
     use gcheck_diagnostics::{Finding, Fix};
 
@@ -235,6 +260,12 @@ mod tests {
         assert_eq!(
             line(fuel),
             "3 errors, 1 warning in 2 files (1,204 lines); analysis ended early, out of fuel: a, b, c, 1 more"
+        );
+        let skipped = |file: &str| Skipped { file: file.to_owned(), reason: "is a pipe".to_owned() };
+        let unread = Summary { files: 2, lines: 5, ..Summary::default() };
+        assert_eq!(
+            line(Summary { skipped: vec![skipped("a.nc"), skipped("b.nc"), skipped("")], ..unread }),
+            "no findings in 2 files (5 lines); 2 more files could not be checked"
         );
         let failed = FailedRule { file: "a.nc".to_owned(), rule: "feed-missing" };
         assert_eq!(

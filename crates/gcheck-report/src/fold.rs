@@ -7,11 +7,8 @@ use std::collections::BTreeMap;
 use gcheck_diagnostics::{Finding, Severity};
 
 use crate::Report;
-use crate::report::File;
+use crate::report::{File, InFold, SHOWN};
 use crate::shown::number;
-
-/// Findings of one rule and severity that a file shows one by one; with more of them, the others are folded.
-const SHOWN: usize = 5;
 
 /// What a format for people tells next.
 #[derive(Debug)]
@@ -20,6 +17,8 @@ pub(crate) enum Told<'r> {
     One(&'r Finding),
     /// The findings that repeat the last ones of this rule.
     Fold(Fold<'r>),
+    /// The finding of this file and of others, in the words that stand for all of them.
+    Files(&'r Finding, String),
 }
 
 /// Findings of one rule and severity after those that are shown.
@@ -42,6 +41,11 @@ impl Fold<'_> {
 
 /// The findings of a file as they are told, in order; a fold is where the first of its findings would be.
 pub(crate) fn told<'r>(report: &Report, file: &'r File) -> Vec<Told<'r>> {
+    match (&file.in_fold, file.findings.as_slice()) {
+        (InFold::Hidden, _) => return Vec::new(),
+        (InFold::First(count), [finding]) => return vec![Told::Files(finding, of_files(*count, finding))],
+        _ => {}
+    }
     if !report.folds() || file.findings.len() <= SHOWN {
         return file.findings.iter().map(Told::One).collect();
     }
@@ -65,9 +69,15 @@ pub(crate) fn told<'r>(report: &Report, file: &'r File) -> Vec<Told<'r>> {
     told
 }
 
+/// `… and 19,995 more files: the file is for a 3-D printer, which gcheck does not read`
+pub(crate) fn of_files(count: usize, finding: &Finding) -> String {
+    format!("… and {} more files: {}", number(count), finding.message)
+}
+
 /// Findings that folds hide from people.
 pub fn folded(report: &Report) -> usize {
-    if report.folds() { report.files().iter().map(hidden).sum() } else { 0 }
+    let of_file = |file: &File| hidden(file) + usize::from(file.in_fold != InFold::Not);
+    if report.folds() { report.files().iter().map(of_file).sum() } else { 0 }
 }
 
 fn hidden(file: &File) -> usize {
@@ -104,7 +114,7 @@ mod tests {
     use gcheck_diagnostics::{Finding, Severity};
 
     use super::folded;
-    use crate::testing::{ARC_OFF_CIRCLE, FEED_MISSING, file, render};
+    use crate::testing::{ARC_OFF_CIRCLE, FEED_MISSING, UNSUPPORTED, file, render};
     use crate::{Format, Report};
 
     /// A line for each finding, and what the first finding of each line says.
@@ -144,6 +154,52 @@ mod tests {
             "{full}"
         );
         assert_eq!(folded(&report), 1_195);
+    }
+
+    /// Files for a printer, and one for another control.
+    fn printed(count: usize) -> Report {
+        let finding = |of: &str| {
+            let message = format!("the file is for {of}, which gcheck does not read");
+            Finding::new(&UNSUPPORTED, 0..2, message)
+        };
+        let one = |n: usize| file(&format!("p{n:02}.gcode"), "G1\n", vec![finding("a 3-D printer")]);
+        let files: Vec<_> = (0..count).map(one).collect();
+        let other = file("z.mpf", "G1\n", vec![finding("a SINUMERIK control")]);
+        Report::new(files.into_iter().chain([other]).collect())
+    }
+
+    #[test]
+    fn files_for_a_control_that_is_not_read_are_counted_after_the_fifth() {
+        let report = printed(12).folded();
+        expect![[r#"
+            p00.gcode:1:1: warning[unsupported-dialect] the file is for a 3-D printer, which gcheck does not read
+            p01.gcode:1:1: warning[unsupported-dialect] the file is for a 3-D printer, which gcheck does not read
+            p02.gcode:1:1: warning[unsupported-dialect] the file is for a 3-D printer, which gcheck does not read
+            p03.gcode:1:1: warning[unsupported-dialect] the file is for a 3-D printer, which gcheck does not read
+            p04.gcode:1:1: warning[unsupported-dialect] the file is for a 3-D printer, which gcheck does not read
+            p05.gcode:1:1: warning[unsupported-dialect] … and 7 more files: the file is for a 3-D printer, which gcheck does not read
+            z.mpf:1:1: warning[unsupported-dialect] the file is for a SINUMERIK control, which gcheck does not read
+        "#]].assert_eq(&render(&report, Format::Concise));
+        let grouped = render(&report, Format::Grouped);
+        assert_eq!(grouped.matches(".gcode\n").count(), 6, "{grouped}");
+        let full = render(&report, Format::Full);
+        assert!(
+            full.contains("warning[unsupported-dialect]: … and 7 more files: the file is for a 3-D printer"),
+            "{full}"
+        );
+        expect![[r#"
+            errors  warnings  infos  hints  file
+                 0         1      0      0  p00.gcode
+                 0         1      0      0  p01.gcode
+                 0         1      0      0  p02.gcode
+                 0         1      0      0  p03.gcode
+                 0         1      0      0  p04.gcode
+                 0         1      0      0  z.mpf
+                 0         7      0      0  … and 7 more files: the file is for a 3-D printer, which gcheck does not read
+        "#]].assert_eq(&crate::file_counts(&report));
+        assert_eq!(folded(&report), 7);
+        assert_eq!(render(&printed(12).folded(), Format::Json), render(&printed(12), Format::Json));
+        assert!(!render(&printed(6).folded(), Format::Concise).contains('…'));
     }
 
     #[test]

@@ -2,7 +2,9 @@
 //!
 //! Knows: files in order, findings in order, sums. Must not know: how anything looks.
 
+use std::borrow::Cow;
 use std::cmp::Ordering;
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use gcheck_diagnostics::{Finding, RuleMeta, Severity, StatedAssumption};
@@ -10,7 +12,7 @@ use gcheck_syntax::SourceText;
 use serde::Serialize;
 
 use crate::source::Source;
-use crate::{ControlChoice, ControlSource, Fingerprint, Fingerprinter};
+use crate::{ControlChoice, ControlSource, Fingerprint, Fingerprinter, PathBase};
 
 /// What a check found in one file.
 #[derive(Debug, Clone)]
@@ -81,10 +83,56 @@ pub struct Report {
     related: Vec<(String, Source)>,
     rules: Vec<&'static RuleMeta>,
     folds: bool,
+    base: Option<PathBase>,
+    fails_from: Option<Severity>,
+    fails_when_incomplete: bool,
+    passed: &'static str,
 }
 
 /// The rule that reports that a budget was used up.
 const INCOMPLETE: &str = "analysis-incomplete";
+
+/// The rule that reports a file as one that is for no control of ours.
+const UNSUPPORTED: &str = "unsupported-dialect";
+
+/// Findings of one rule and severity that a file shows one by one, and files that show the same finding; with more of them, the
+/// others are folded.
+pub(crate) const SHOWN: usize = 5;
+
+/// A file among others that have the same only finding.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) enum InFold {
+    /// It is told as every file is.
+    Not,
+    /// It stands for this many files, itself among them.
+    First(usize),
+    /// Another one stands for it.
+    Hidden,
+}
+
+/// Folds the files of which all that is found is that they are for one and the same control, which gcheck does not read.
+fn fold_files(files: &mut [File]) {
+    let mut alike: BTreeMap<String, Vec<usize>> = BTreeMap::new();
+    for (index, file) in files.iter().enumerate() {
+        if let [finding] = file.findings.as_slice()
+            && finding.rule.id == UNSUPPORTED
+        {
+            alike.entry(finding.message.clone()).or_default().push(index);
+        }
+    }
+    for indexes in alike.into_values() {
+        let folded = indexes.get(SHOWN..).unwrap_or_default();
+        // One line in place of one line folds nothing.
+        if folded.len() < 2 {
+            continue;
+        }
+        for (at, index) in folded.iter().enumerate() {
+            if let Some(file) = files.get_mut(*index) {
+                file.in_fold = if at == 0 { InFold::First(folded.len()) } else { InFold::Hidden };
+            }
+        }
+    }
+}
 
 /// A file that was to be checked and could not be.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize)]
@@ -110,6 +158,10 @@ pub(crate) fn is_fixable(finding: &Finding) -> bool {
 #[derive(Debug)]
 pub(crate) struct File {
     pub(crate) path: String,
+    /// From the root of the repository, where that is another path.
+    rooted: Option<String>,
+    /// What becomes of the file's only finding, which is that of other files too.
+    pub(crate) in_fold: InFold,
     pub(crate) source: Source,
     pub(crate) control: ControlChoice,
     pub(crate) findings: Vec<Finding>,
@@ -181,7 +233,41 @@ impl Report {
     pub fn new(files: Vec<FileReport>) -> Self {
         let mut files: Vec<File> = files.into_iter().map(File::new).collect();
         files.sort_by(|a, b| a.path.cmp(&b.path));
-        Self { files, skipped: Vec::new(), related: Vec::new(), rules: Vec::new(), folds: false }
+        Self {
+            files,
+            skipped: Vec::new(),
+            related: Vec::new(),
+            rules: Vec::new(),
+            folds: false,
+            base: None,
+            fails_from: Some(Severity::Error),
+            fails_when_incomplete: false,
+            passed: "no findings",
+        }
+    }
+
+    /// With the root from which the formats of servers name files.
+    #[must_use]
+    pub fn with_path_base(mut self, base: Option<PathBase>) -> Self {
+        for file in &mut self.files {
+            file.rooted = base.as_ref().map(|base| base.rooted(&file.path).into_owned());
+        }
+        self.base = base;
+        self
+    }
+
+    /// With what makes the run fail: findings from a severity on (`None`: no finding does), and an analysis that ended early.
+    #[must_use]
+    pub fn failing(mut self, from: Option<Severity>, when_incomplete: bool) -> Self {
+        (self.fails_from, self.fails_when_incomplete) = (from, when_incomplete);
+        self
+    }
+
+    /// With the name of the test of a file without findings.
+    #[must_use]
+    pub fn with_passed(mut self, name: &'static str) -> Self {
+        self.passed = name;
+        self
     }
 
     /// With texts of files that labels point to; without its text a file is named, but no line of it is shown.
@@ -220,10 +306,12 @@ impl Report {
         self
     }
 
-    /// With repeats of one rule in one file folded, in the formats that people read: a few, and the number of the others.
+    /// With repeats of one rule in one file folded, in the formats that people read: a few, and the number of the others. Files
+    /// that are all for the same control, which gcheck does not read, are folded in the same way.
     #[must_use]
     pub fn folded(mut self) -> Self {
         self.folds = true;
+        fold_files(&mut self.files);
         self
     }
 
@@ -232,10 +320,11 @@ impl Report {
         self.findings().filter(|(_, finding)| is_fixable(finding)).count()
     }
 
-    /// Files with findings of which nobody said, and nothing in them shows, which control runs them.
+    /// Files of which nobody said, and nothing in them shows, which control runs them. One that is for a control that gcheck
+    /// does not have is not among them: it shows it, and the choice has that for a reason.
     pub fn files_by_default(&self) -> usize {
         let is_default =
-            |file: &&File| file.control.source == ControlSource::Default && !file.findings.is_empty();
+            |file: &&File| file.control.source == ControlSource::Default && file.control.because.is_none();
         self.files.iter().filter(is_default).count()
     }
 
@@ -281,6 +370,27 @@ impl Report {
 
     pub(crate) fn files(&self) -> &[File] {
         &self.files
+    }
+
+    /// The files that could not be checked.
+    pub(crate) fn skipped(&self) -> &[Skipped] {
+        &self.skipped
+    }
+
+    /// A path as the formats of servers name it.
+    pub(crate) fn rooted<'p>(&self, path: &'p str) -> Cow<'p, str> {
+        self.base.as_ref().map_or(Cow::Borrowed(path), |base| base.rooted(path))
+    }
+
+    /// Does the finding make the run fail?
+    pub(crate) fn is_failed_by(&self, finding: &Finding) -> bool {
+        self.fails_from.is_some_and(|from| finding.severity >= from)
+            || self.fails_when_incomplete && finding.rule.id == INCOMPLETE
+    }
+
+    /// The name of the test of a file without findings.
+    pub(crate) fn passed(&self) -> &'static str {
+        self.passed
     }
 
     /// Every finding with its file, in order.
@@ -329,6 +439,8 @@ impl File {
         findings.sort_by(order);
         Self {
             path,
+            rooted: None,
+            in_fold: InFold::Not,
             source: Source::new(text),
             control,
             findings,
@@ -343,8 +455,14 @@ impl File {
         }
     }
 
+    /// The path as the formats of servers name it.
+    pub(crate) fn rooted(&self) -> &str {
+        let path = self.rooted.as_ref().unwrap_or(&self.path);
+        path.strip_prefix("./").unwrap_or(path)
+    }
+
     /// One for each finding.
     pub(crate) fn fingerprints(&self) -> Vec<Fingerprint> {
-        Fingerprinter::all(&self.path, self.source.text(), &self.findings)
+        Fingerprinter::all(self.rooted.as_ref().unwrap_or(&self.path), self.source.text(), &self.findings)
     }
 }

@@ -41,6 +41,21 @@ pub(crate) static ARC_OFF_CIRCLE: RuleMeta = RuleMeta {
     raw_docs: "",
 };
 
+pub(crate) static UNSUPPORTED: RuleMeta = RuleMeta {
+    id: "unsupported-dialect",
+    group: "program",
+    summary: "dialect that is not read",
+    severity: Severity::Warning,
+    tier: Tier::Program,
+    recommended: true,
+    other_sets: &[],
+    control_specific: false,
+    fixability: Fixability::Never,
+    since: "0.1.0",
+    aliases: &[],
+    raw_docs: "",
+};
+
 /// A file checked for a control that everybody knows.
 pub(crate) fn file(path: &str, text: &str, findings: Vec<Finding>) -> FileReport {
     let control = ControlChoice {

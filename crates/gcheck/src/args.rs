@@ -19,7 +19,7 @@ use crate::Problem;
 pub use edit::{About, EditCommand, EditTarget, Lines, MirrorAxis, QuarterTurns};
 pub(crate) use values::FUEL;
 pub use values::{Assignment, BlockSkip, Switch, VariableName};
-use values::{assignment, block_skip, numbering, tolerance};
+use values::{assignment, block_skip, control_name, numbering, tolerance};
 
 /// Reads CNC part programs (G-code) the way the control will, before the control does.
 #[derive(Debug, Parser)]
@@ -37,7 +37,7 @@ pub struct Arguments {
 #[derive(Debug, Args)]
 pub struct Global {
     /// The control that runs the programs; `gcheck controls` lists them
-    #[arg(long, global = true, value_name = "NAME")]
+    #[arg(long, global = true, value_name = "NAME", value_parser = control_name)]
     pub control: Option<String>,
     /// A configuration file, or a key of one: `--config control=NAME` (may be repeated)
     #[arg(long, global = true, value_name = "FILE|KEY=VALUE")]
@@ -87,6 +87,12 @@ pub enum Command {
     /// Cycle time, distances, extents, feeds and speeds of a program, by tool and in total
     Stats(StatsOptions),
     /// Compare two programs by what they make the machine do
+    ///
+    /// The verdict is about moves, feeds, speeds, tools, offsets, coolant, dwells, stops and how corners are taken. It is not
+    /// about codes whose effect gcheck does not follow (air blast, clamps, conveyors, relays of the shop), diameters of tools
+    /// that a program writes (`G10 L12`), or messages. Where two programs differ in such codes, the verdict is "the same as far
+    /// as known" and names them, and it is so too where cutting moves start or end at unknown coordinates. `--strict` makes that
+    /// exit code 1.
     Diff(DiffOptions),
     /// Draw the toolpath of a program: a picture (SVG), or a page with a view in three dimensions (HTML)
     Plot(PlotOptions),
@@ -173,6 +179,10 @@ pub struct CheckOptions {
     /// `-o sarif=gcheck.sarif -o junit=gcheck.xml`
     #[arg(long, short, value_name = "[FORMAT=]FILE", value_parser = output_file)]
     pub output_file: Vec<OutputFile>,
+    /// The folder from which the formats of servers name files; without it `CI_PROJECT_DIR` or `GITHUB_WORKSPACE` says so, or
+    /// it is the root of the repository
+    #[arg(long, value_name = "DIR")]
+    pub path_base: Option<PathBuf>,
     /// Fix what has a fix that changes no move
     #[arg(long, group = "fixing")]
     pub fix: bool,
@@ -386,7 +396,7 @@ pub struct DiffOptions {
     #[arg(long, value_name = "MM", value_parser = tolerance, default_value = "0.001")]
     pub tolerance: f64,
     /// The control that runs B, where it is another one than that of A
-    #[arg(long, value_name = "NAME")]
+    #[arg(long, value_name = "NAME", value_parser = control_name)]
     pub control_b: Option<String>,
     /// How the programs are executed.
     #[command(flatten)]
@@ -397,6 +407,9 @@ pub struct DiffOptions {
     /// Differences that are accepted, each with its reason: a TOML file
     #[arg(long, value_name = "FILE")]
     pub accepted: Option<PathBuf>,
+    /// Exit with 1 too where the programs are the same only as far as known
+    #[arg(long)]
+    pub strict: bool,
     /// Write to this file instead of standard output
     #[arg(long, short, value_name = "FILE")]
     pub output_file: Option<PathBuf>,

@@ -109,6 +109,17 @@ impl Chosen {
         matches!(self.choice.source, ControlSource::Detected | ControlSource::Default)
     }
 
+    /// Refuses a program that no control here reads, where nobody chose one: as a program of another control it would be
+    /// executed, or written, as nobody meant it.
+    pub(crate) fn refuse_unsupported(&self, path: &Path) -> Result<(), Problem> {
+        match self.unsupported {
+            Some(dialect) => Err(Problem::with_file(path, dialect.sentence()).help(
+                "name a control to read it all the same: `--control NAME`, or `control = …` in `gcheck.toml`",
+            )),
+            None => Ok(()),
+        }
+    }
+
     /// Of a program whose control nobody chose, and whose dialect no control here reads, only the rule that says so is run.
     pub(crate) fn narrow(&self, selection: &mut Selection) {
         if self.unsupported.is_some() {

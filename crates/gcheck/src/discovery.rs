@@ -2,7 +2,7 @@
 //!
 //! Knows: file names of programs, ignore files, the `[files]` table. Must not know: what is in a file.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Component, Path, PathBuf};
 
 use ignore::WalkBuilder;
@@ -14,6 +14,13 @@ use crate::{Problem, paths, reading};
 pub(crate) const EXTENSIONS: [&str; 13] =
     ["nc", "ngc", "cnc", "tap", "eia", "ncf", "gcode", "iso", "din", "prg", "mpf", "spf", "min"];
 
+/// Ends of names that some controls give to programs, and everybody to other files.
+const UNCERTAIN: [&str; 2] = ["txt", "h"];
+/// Of so many of these files the first part is looked at.
+const MOST_LOOKED_AT: usize = 200;
+/// Bytes of that part.
+const HEAD: u64 = 4 << 10;
+
 /// What was found.
 #[derive(Debug, Default)]
 pub(crate) struct Found {
@@ -21,7 +28,60 @@ pub(crate) struct Found {
     pub(crate) files: Vec<PathBuf>,
     /// What could not be looked at.
     pub(crate) problems: Vec<Problem>,
+    /// How many files of folders look like programs and have one of the [`UNCERTAIN`] endings, by ending. They are not read.
+    pub(crate) passed_over: BTreeMap<&'static str, usize>,
+    /// Files that were looked at for that.
+    looked_at: usize,
 }
+
+impl Found {
+    /// Counts a file that is not read, if it looks like a program.
+    fn pass_over(&mut self, path: &Path) {
+        let end = path.extension().map(|end| end.to_string_lossy().to_ascii_lowercase());
+        let known = UNCERTAIN.into_iter().find(|known| Some(*known) == end.as_deref());
+        let Some(end) = known.filter(|_| self.looked_at < MOST_LOOKED_AT) else { return };
+        self.looked_at += 1;
+        if reading::head(path, HEAD).is_some_and(|head| looks_like_a_program(&head, end)) {
+            *self.passed_over.entry(end).or_default() += 1;
+        }
+    }
+
+    /// What to say of the files that look like programs and are not read; empty where there are none.
+    pub(crate) fn remark(&self) -> String {
+        let lines = self.passed_over.iter().map(|(end, count)| {
+            let (these, them) = match count {
+                1 => (format!("1 file ending in .{end} looks like a program and is"), "it"),
+                count => (format!("{count} files ending in .{end} look like programs and are"), "them"),
+            };
+            format!("{these} not checked: name {them}, or set `include` under `[files]` in `gcheck.toml`")
+        });
+        lines.collect::<Vec<_>>().join("\n")
+    }
+}
+
+/// Are most lines blocks, or is the text in a dialect that has such names?
+fn looks_like_a_program(text: &str, end: &str) -> bool {
+    if gcheck_controls::unsupported_dialect(text, Some(end)).is_some() {
+        return true;
+    }
+    let lines = || text.lines().map(str::trim).filter(|line| !line.is_empty());
+    // A word, and nothing that no word has: `N10 G0 X1.`, `%`, `O0001`.
+    let is_block = |line: &&str| {
+        let code = line.split(['(', ';']).next().unwrap_or_default().trim();
+        let mut letters = code.trim_start_matches('/').chars();
+        let is_word = |letter: Option<char>, next: Option<char>| {
+            letter.is_some_and(|c| c.is_ascii_alphabetic())
+                && next.is_some_and(|c| c.is_ascii_digit() || matches!(c, '.' | '-' | '+' | '#'))
+        };
+        *line == "%" || is_word(letters.next(), letters.next())
+    };
+    let is_comment = |line: &&str| line.starts_with('(') && line.ends_with(')') || line.starts_with(';');
+    let (blocks, others) = lines().filter(|line| !is_comment(line)).partition::<Vec<_>, _>(is_block);
+    blocks.len() >= ENOUGH_BLOCKS && blocks.len() > others.len() * 4
+}
+
+/// Fewer blocks may be anything: a list of parts, a note.
+const ENOUGH_BLOCKS: usize = 4;
 
 /// Is this the name of a part program: `part.nc`, `O1234`?
 pub(crate) fn is_program_name(path: &Path) -> bool {
@@ -93,6 +153,11 @@ fn fit(pattern: &Path, found: &mut Found, seen: &mut BTreeSet<PathBuf>) {
     let base: PathBuf = pattern.components().take_while(is_plain).collect();
     let rest: PathBuf = pattern.components().skip_while(is_plain).collect();
     let folder = if base.as_os_str().is_empty() { Path::new(".") } else { &base };
+    if !folder.is_dir() {
+        let message = format!("no file fits this pattern: there is no folder {}", paths::shown(folder));
+        found.problems.push(Problem::with_file(pattern, message));
+        return;
+    }
     // From the root of the pattern, so that `*.nc` does not fit in every folder.
     let glob = format!("/{}", paths::shown(&rest));
     let matcher = match PathPattern::new(&paths::absolute(folder), &glob) {
@@ -157,6 +222,8 @@ fn walk(folder: &Path, configs: &mut Configs, found: &mut Found, seen: &mut BTre
                 let path = entry.into_path();
                 match configs.of_file(&path) {
                     Ok(config) if config.wants(&path, is_program_name(&path)) => programs.push(path),
+                    // Not one that the configuration leaves out.
+                    Ok(config) if config.wants(&path, true) => found.pass_over(&path),
                     // A broken configuration is reported once, by the file that needs it.
                     Err(problem) if is_program_name(&path) => found.problems.push(problem),
                     Ok(_) | Err(_) => {}
@@ -182,7 +249,73 @@ fn walk(folder: &Path, configs: &mut Configs, found: &mut Found, seen: &mut BTre
 mod tests {
     use std::path::Path;
 
-    use super::is_program_name;
+    use std::collections::BTreeSet;
+    use std::fs;
+
+    use super::{EXTENSIONS, is_program_name, looks_like_a_program};
+
+    /// Endings in a text that stand between `before` and `after`.
+    fn endings(text: &str, before: &str, after: &str) -> BTreeSet<String> {
+        let found = text.split(before).skip(1).filter_map(|rest| rest.split(after).next());
+        found.map(str::to_ascii_lowercase).collect()
+    }
+
+    #[test]
+    fn editors_and_hooks_know_the_programs_that_folders_are_searched_for() {
+        let read = |file: &str| {
+            let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(file);
+            fs::read_to_string(path).unwrap()
+        };
+        let line_with = |file: &str, word: &str| {
+            let text = read(file);
+            let lines: Vec<&str> = text.lines().filter(|line| line.contains(word)).collect();
+            assert!(!lines.is_empty(), "{file}");
+            lines.join("\n")
+        };
+        let expected: BTreeSet<String> = EXTENSIONS.map(str::to_owned).into_iter().collect();
+        let vim = read("editors/neovim/ftdetect/gcode.vim").replace(' ', ",");
+        let vscode: serde_json::Value = serde_json::from_str(&read("editors/vscode/package.json")).unwrap();
+        let vscode = vscode["contributes"]["languages"][0]["extensions"].as_array().unwrap().clone();
+        let hook = line_with(".pre-commit-hooks.yaml", "ngc");
+        let hook = hook.split("\\.(").nth(1).and_then(|rest| rest.split(')').next()).unwrap().to_owned();
+        let emacs = line_with("editors/emacs/gcheck.el", "ngc");
+        let emacs =
+            emacs.split("\\\\(").nth(1).and_then(|rest| rest.split("\\\\)").next()).unwrap().to_owned();
+        let guide = line_with("docs/guide.md", "Programs are files that end in");
+        let guide = guide.split('`').nth(1).unwrap().to_owned();
+        let helix = line_with("docs/editors.md", "file-types");
+        let of_list = |text: &str, separator: &str| -> BTreeSet<String> {
+            text.split(separator).map(|end| end.trim_matches(['.', ' ']).to_owned()).collect()
+        };
+        for (place, found) in [
+            ("Neovim", endings(&vim, "*.", ",")),
+            ("VS Code", vscode.iter().map(|end| end.as_str().unwrap()[1..].to_owned()).collect()),
+            ("Emacs", of_list(&emacs, "\\\\|")),
+            ("pre-commit", of_list(&hook, "|")),
+            ("the guide", of_list(&guide, " ")),
+            (
+                "Helix",
+                endings(&helix.replace(' ', ""), "\"", "\"")
+                    .into_iter()
+                    .filter(|end| end.starts_with(char::is_alphabetic))
+                    .collect(),
+            ),
+        ] {
+            assert_eq!(found, expected, "{place}");
+        }
+    }
+
+    #[test]
+    fn a_text_is_a_program_where_most_of_its_lines_are_blocks() {
+        assert!(looks_like_a_program("%\nO1 (A)\nG0 X1.\nG1 Y2. F100\nM30\n%\n", "txt"));
+        assert!(looks_like_a_program("0 BEGIN PGM PLATE MM\n1 BLK FORM 0.1 Z X+0 Y+0 Z-20\n", "h"));
+        assert!(!looks_like_a_program("int main(void);\n#define X1 5\n#include <a.h>\n", "h"));
+        assert!(!looks_like_a_program(
+            "T1 drill 8\nT2 mill 12\nSet up the part.\nM6 screws, four of them.\n",
+            "txt"
+        ));
+        assert!(!looks_like_a_program("", "txt"));
+    }
 
     #[test]
     fn programs_are_known_by_extension_or_number() {

@@ -24,6 +24,7 @@ mod nearest;
 mod neighbours;
 pub mod of_bytes;
 mod output;
+mod path_base;
 mod paths;
 mod problem;
 mod programs;

@@ -43,6 +43,13 @@ pub(crate) fn regular(path: &Path, most: u64) -> Result<Vec<u8>, String> {
     if bytes.len() as u64 > most { Err(larger(most)) } else { Ok(bytes) }
 }
 
+/// The first bytes of a file as text; `None` where they cannot be read, or are not text.
+pub(crate) fn head(path: &Path, most: u64) -> Option<String> {
+    let mut bytes = Vec::new();
+    File::open(path).ok()?.take(most).read_to_end(&mut bytes).ok()?;
+    (!is_binary(&bytes)).then(|| String::from_utf8_lossy(&bytes).into_owned())
+}
+
 /// Bytes as text, if they are text.
 pub(crate) fn text(path: &Path, bytes: &[u8]) -> Result<SourceText, Problem> {
     let size = bytes.len();

@@ -21,7 +21,7 @@ fn write_command(file: &File, finding: &Finding, out: &mut dyn Write) -> io::Res
     writeln!(
         out,
         "##vso[task.logissue type={level};sourcepath={};linenumber={};columnnumber={};code={};]{}",
-        property(&one_line(&file.path)),
+        property(&one_line(file.rooted())),
         at.line,
         at.column,
         property(finding.rule.id),

@@ -27,7 +27,7 @@ pub(super) fn write(report: &Report, out: &mut dyn Write) -> io::Result<()> {
 }
 
 fn write_file<W: Write>(file: &File, writer: &mut Writer<W>) -> io::Result<()> {
-    let element = writer.create_element("file").with_attribute(("name", xml::text(&file.path).as_ref()));
+    let element = writer.create_element("file").with_attribute(("name", xml::text(file.rooted()).as_ref()));
     element.write_inner_content(|writer| {
         for finding in &file.findings {
             let at = file.source.position(finding.range.start);

@@ -17,6 +17,7 @@ pub(super) fn write(report: &Report, colour: Colour, out: &mut dyn Write) -> io:
             match told {
                 Told::One(finding) => write_line(file, finding, colour, out)?,
                 Told::Fold(fold) => line(file, fold.first, &fold.words(), colour, out)?,
+                Told::Files(finding, words) => line(file, finding, &words, colour, out)?,
             }
         }
     }

@@ -16,7 +16,7 @@ use gcheck_diagnostics::{Finding, Severity};
 use super::concise;
 use super::remarks::remarks;
 use crate::excerpt::Excerpt;
-use crate::fold::{Fold, Told, told};
+use crate::fold::{Told, told};
 use crate::report::File;
 use crate::shown::{lines, one_line};
 use crate::source::Source;
@@ -31,7 +31,12 @@ pub(super) fn write(report: &Report, colour: Colour, out: &mut dyn Write) -> io:
         let finding = match told {
             Told::One(finding) => finding,
             Told::Fold(fold) => {
-                write_fold(file, &fold, colour, out)?;
+                let words = format!("{} in {}, {}", fold.count, one_line(&file.path), fold.lines);
+                write_fold(fold.first, &words, colour, out)?;
+                continue;
+            }
+            Told::Files(finding, words) => {
+                write_fold(finding, &one_line(&words), colour, out)?;
                 continue;
             }
         };
@@ -49,21 +54,13 @@ pub(super) fn write(report: &Report, colour: Colour, out: &mut dyn Write) -> io:
 }
 
 /// The line that stands for repeats, in the form of a finding's first line.
-fn write_fold(file: &File, fold: &Fold<'_>, colour: Colour, out: &mut dyn Write) -> io::Result<()> {
+fn write_fold(first: &Finding, words: &str, colour: Colour, out: &mut dyn Write) -> io::Result<()> {
     let (severity, strong, reset) = (
-        colour.paint(style::severity(fold.first.severity)),
+        colour.paint(style::severity(first.severity)),
         colour.paint(style::STRONG),
         colour.paint(style::RESET),
     );
-    writeln!(
-        out,
-        "{severity}{}[{}]{reset}{strong}: {} in {}, {}{reset}\n",
-        fold.first.severity.name(),
-        fold.first.rule.id,
-        fold.count,
-        one_line(&file.path),
-        fold.lines
-    )
+    writeln!(out, "{severity}{}[{}]{reset}{strong}: {words}{reset}\n", first.severity.name(), first.rule.id)
 }
 
 /// Codespan pads lines with blanks, which show up in logs that are compared.

@@ -24,7 +24,7 @@ fn write_command(file: &File, finding: &Finding, out: &mut dyn Write) -> io::Res
         Severity::Warning => "warning",
         Severity::Info | Severity::Hint => "notice",
     };
-    let path = one_line(&file.path);
+    let path = one_line(file.rooted());
     let (start, id) = (span.start, finding.rule.id);
     write!(out, "::{level} title=gcheck ({}),file={},line={}", property(id), property(&path), start.line)?;
     if span.end.line == start.line {

@@ -53,7 +53,7 @@ pub(super) fn write(report: &Report, out: &mut dyn Write) -> io::Result<()> {
                     fingerprint: fingerprint.to_string(),
                     severity: severity(finding.severity),
                     location: Location {
-                        path: file.path.strip_prefix("./").unwrap_or(&file.path),
+                        path: file.rooted(),
                         positions: Positions { begin: place(span.start), end: place(span.end) },
                     },
                 },

@@ -14,12 +14,16 @@ use crate::{Colour, Report, style};
 
 pub(super) fn write(report: &Report, colour: Colour, out: &mut dyn Write) -> io::Result<()> {
     let mut begun = false;
-    for file in report.files().iter().filter(|file| !file.findings.is_empty()) {
+    for file in report.files() {
+        let told = told(report, file);
+        if told.is_empty() {
+            continue;
+        }
         if begun {
             writeln!(out)?;
         }
         begun = true;
-        write_file(file, &told(report, file), colour, out)?;
+        write_file(file, &told, colour, out)?;
     }
     Ok(())
 }
@@ -32,6 +36,7 @@ fn write_file(file: &File, told: &[Told<'_>], colour: Colour, out: &mut dyn Writ
         .map(|told| match told {
             Told::One(finding) => (*finding, Cow::from(&finding.message)),
             Told::Fold(fold) => (fold.first, Cow::from(fold.words())),
+            Told::Files(finding, words) => (*finding, Cow::from(words)),
         })
         .collect();
     let places: Vec<String> = rows

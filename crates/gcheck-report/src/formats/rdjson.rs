@@ -80,10 +80,7 @@ fn diagnostic<'r>(file: &'r File, finding: &'r Finding) -> Diagnostic<'r> {
     });
     Diagnostic {
         message,
-        location: Location {
-            path: file.path.strip_prefix("./").unwrap_or(&file.path),
-            range: span(&file.source, &finding.range),
-        },
+        location: Location { path: file.rooted(), range: span(&file.source, &finding.range) },
         severity: match finding.severity {
             Severity::Error => "ERROR",
             Severity::Warning => "WARNING",

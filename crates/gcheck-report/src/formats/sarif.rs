@@ -269,9 +269,9 @@ fn log(report: &Report, most: usize) -> Log<'_> {
     let mut results = Vec::new();
     let mut kept = kept.into_iter();
     for (file_index, file) in report.files().iter().enumerate() {
-        let place = || ArtifactLocation { index: Some(file_index), ..artifact_location(&file.path) };
+        let place = || ArtifactLocation { index: Some(file_index), ..artifact_location(file.rooted()) };
         artifacts.push(Artifact {
-            location: artifact_location(&file.path),
+            location: artifact_location(file.rooted()),
             roles: ["analysisTarget"],
             source_language: "gcode",
             properties: ArtifactProperties { control: &file.control },
@@ -296,6 +296,17 @@ fn log(report: &Report, most: usize) -> Log<'_> {
             }
         }
     }
+    for skipped in report.skipped() {
+        let locations = if skipped.file.is_empty() {
+            Vec::new()
+        } else {
+            let artifact_location = artifact_location(&report.rooted(&skipped.file));
+            let physical_location = PhysicalLocation { artifact_location, region: None };
+            vec![Location { id: None, physical_location, message: None }]
+        };
+        let text = format!("The file could not be checked: {}.", skipped.reason);
+        notifications.push(Notification { level: "error", message: Message { text }, locations });
+    }
     let base = UriBase { description: Message { text: "The folder that paths are relative to.".to_owned() } };
     let version = env!("CARGO_PKG_VERSION");
     let driver = Driver {
@@ -307,7 +318,10 @@ fn log(report: &Report, most: usize) -> Log<'_> {
     };
     let run = Run {
         tool: Tool { driver },
-        invocations: [Invocation { execution_successful: true, tool_execution_notifications: notifications }],
+        invocations: [Invocation {
+            execution_successful: report.skipped().is_empty(),
+            tool_execution_notifications: notifications,
+        }],
         original_uri_base_ids: BTreeMap::from([(SOURCE_ROOT, base)]),
         artifacts,
         results,
@@ -407,7 +421,7 @@ fn related_location<'r>(
     let other = label.file.as_deref().filter(|path| *path != file.path);
     let (artifact_location, source) = match other {
         None => (place(), Some(&file.source)),
-        Some(path) => (artifact_location(path), report.source(path)),
+        Some(path) => (artifact_location(&report.rooted(path)), report.source(path)),
     };
     let region = source.map(|source| region(source, &label.range));
     Location {

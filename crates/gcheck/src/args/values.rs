@@ -40,6 +40,13 @@ pub enum VariableName {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct BlockSkip(pub u16);
 
+/// The name of a control, whatever its case; a name that no control has is refused where it is used.
+#[expect(clippy::unnecessary_wraps, reason = "the form of a parser")]
+pub(super) fn control_name(text: &str) -> Result<String, String> {
+    let known = gcheck_controls::names().iter().find(|name| name.eq_ignore_ascii_case(text));
+    Ok(known.map_or_else(|| text.to_owned(), |name| (*name).to_owned()))
+}
+
 pub(super) fn tolerance(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(value) if value.is_finite() && value >= 0.0 => Ok(value),

@@ -7,7 +7,7 @@ use std::env;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use gcheck_diagnostics::RuleMeta;
+use gcheck_diagnostics::{RuleMeta, Severity};
 use gcheck_lint::Selection;
 use gcheck_report::{FileReport, Format, Report, StaleEntry, Summary};
 use gcheck_rules::RULES;
@@ -19,7 +19,7 @@ use crate::config::{Config, Configs, RuleWishes, unknown_rule, validate_control}
 use crate::console::{finish, say};
 use crate::discovery::{self, Found};
 use crate::progress::Progress;
-use crate::{Problem, output, paths, threads};
+use crate::{Problem, output, path_base, paths, threads};
 
 use super::cache::Cache;
 use super::fixed;
@@ -88,7 +88,7 @@ impl<'o> Check<'o> {
             None => None,
         };
         let mut configs = Configs::new(&global.config, global.isolated)?;
-        let (targets, mut problems) = targets(options, &mut configs);
+        let (targets, mut problems, passed_over) = targets(options, &mut configs);
         looked.programs = targets.iter().map(|target| paths::absolute(&target.path)).collect();
         looked.configs = configs.read();
         if options.show_files {
@@ -123,8 +123,15 @@ impl<'o> Check<'o> {
         let report = Report::new(reports)
             .with_skipped(problems.iter().map(Problem::as_skipped).collect())
             .with_rules(RULES.iter().map(|rule| rule.meta));
+        let fails_from = fails_from(&report.summary(), options);
+        let report = report
+            .with_path_base(path_base::of(options.path_base.as_deref()))
+            .failing(fails_from, options.fail_on_incomplete);
         let report = if options.show_all { report } else { report.folded() };
         write(global, options, &self.outputs, &report, &problems)?;
+        if !global.quiet {
+            say(&passed_over);
+        }
         let is_incomplete = options.fail_on_incomplete && report.is_incomplete();
         Ok(finish(&problems, u8::from(is_incomplete || fails(&report.summary(), options))))
     }
@@ -148,11 +155,13 @@ struct Harvest {
     differences: Differences,
 }
 
-/// What is to be checked, each file with its configuration.
-fn targets(options: &CheckOptions, configs: &mut Configs) -> (Vec<Target>, Vec<Problem>) {
+/// What is to be checked, each file with its configuration; and what to say of files that are not.
+fn targets(options: &CheckOptions, configs: &mut Configs) -> (Vec<Target>, Vec<Problem>, String) {
     let (standard_input, given): (Vec<PathBuf>, Vec<PathBuf>) =
         options.paths.iter().cloned().partition(|path| paths::is_standard_input(path));
-    let Found { files, mut problems } = discovery::find(&given, configs);
+    let found = discovery::find(&given, configs);
+    let passed_over = found.remark();
+    let Found { files, mut problems, .. } = found;
     let mut targets = Vec::with_capacity(files.len() + 1);
     let mut add = |path: PathBuf, is_standard_input| match configs.of_file(&path) {
         Ok(config) => targets.push(Target { shown: paths::shown(&path), path, is_standard_input, config }),
@@ -164,7 +173,7 @@ fn targets(options: &CheckOptions, configs: &mut Configs) -> (Vec<Target>, Vec<P
     for file in files {
         add(file, false);
     }
-    (targets, problems)
+    (targets, problems, passed_over)
 }
 
 /// Checks the files, several at a time; what comes out is in the order of the files.
@@ -286,13 +295,25 @@ impl Differences {
 }
 
 fn fails(summary: &Summary, options: &CheckOptions) -> bool {
-    let at_or_above = match options.fail_on {
-        FailOn::Error => summary.errors,
-        FailOn::Warning => summary.errors + summary.warnings,
-        FailOn::Info => summary.errors + summary.warnings + summary.infos,
-        FailOn::Never => 0,
+    let at_or_above = match fails_from(summary, options) {
+        None => 0,
+        Some(Severity::Error) => summary.errors,
+        Some(Severity::Warning) => summary.errors + summary.warnings,
+        Some(Severity::Info | Severity::Hint) => summary.errors + summary.warnings + summary.infos,
     };
-    at_or_above > 0 || options.max_warnings.is_some_and(|most| summary.warnings > most)
+    at_or_above > 0
+}
+
+/// The severity from which on findings make the run fail; more warnings than allowed make every warning one that does.
+fn fails_from(summary: &Summary, options: &CheckOptions) -> Option<Severity> {
+    let from = match options.fail_on {
+        FailOn::Error => Some(Severity::Error),
+        FailOn::Warning => Some(Severity::Warning),
+        FailOn::Info => Some(Severity::Info),
+        FailOn::Never => None,
+    };
+    let is_over = options.max_warnings.is_some_and(|most| summary.warnings > most);
+    if is_over { Some(from.map_or(Severity::Warning, |from| from.at_most(Severity::Warning))) } else { from }
 }
 
 /// Where findings go.

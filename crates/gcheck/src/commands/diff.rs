@@ -6,12 +6,14 @@
 mod accepted;
 mod findings;
 mod folders;
+pub(super) mod left_out;
 mod outcome;
 mod page;
 mod pairs;
 mod runs;
 pub(super) mod words;
 
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use gcheck_toolpath::Rest;
@@ -26,6 +28,10 @@ use outcome::DIFFERENT;
 pub(crate) fn run(global: &Global, options: &DiffOptions) -> Result<u8, Problem> {
     if paths::is_standard_input(&options.a) && paths::is_standard_input(&options.b) {
         return Err(Problem::new("both programs cannot come from standard input"));
+    }
+    let is_gone = |path: &&&PathBuf| !paths::is_standard_input(path) && !path.exists();
+    if let Some(path) = [&options.a, &options.b].iter().find(is_gone) {
+        return Err(Problem::with_file(path, "no such file or folder"));
     }
     match [options.a.is_dir(), options.b.is_dir()] {
         [true, true] => folders::run(global, options),
@@ -65,7 +71,8 @@ fn one(global: &Global, options: &DiffOptions) -> Result<u8, Problem> {
     for fault in compared.faults.iter().flatten() {
         report(&fault.problem);
     }
-    Ok(match (compared.has_fault(), compared.is_same()) {
+    let is_enough = compared.is_same() && (!options.strict || compared.is_all_known());
+    Ok(match (compared.has_fault(), is_enough) {
         (true, _) => FAILED,
         (false, true) => 0,
         (false, false) => DIFFERENT,

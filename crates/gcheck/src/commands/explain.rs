@@ -5,7 +5,7 @@
 use std::fmt::Write as _;
 use std::sync::Arc;
 
-use gcheck_controls::{Code, CodeNumber, Confidence, Control, WordEntry};
+use gcheck_controls::{Code, CodeNumber, Confidence, Control, Letter, WordEntry};
 use gcheck_diagnostics::RuleMeta;
 
 use super::{chosen_control, columns};
@@ -24,31 +24,86 @@ pub(crate) fn run(global: &Global, options: &ExplainOptions) -> Result<u8, Probl
     if let Some(number) = CodeNumber::parse(code) {
         return explain_code(global, number);
     }
+    if let Some(letter) = Letter::parse(&subject.to_ascii_uppercase()) {
+        return explain_address(global, letter);
+    }
+    if subject.starts_with(|c: char| c.is_ascii_digit()) {
+        return Err(without_letter(subject));
+    }
     let rules = gcheck_rules::RULES.iter().map(|rule| rule.meta.id);
     let near = nearest(subject, rules).map(|near| format!("; did you mean `{near}`?")).unwrap_or_default();
     let problem = Problem::new(format!("`{subject}` is neither a rule nor a code{near}"));
     Err(problem.help("`gcheck rules` and `gcheck codes` list them"))
 }
 
+/// All controls, by name.
+fn all_controls() -> impl Iterator<Item = Arc<Control>> {
+    gcheck_controls::names().iter().filter_map(|name| gcheck_controls::load(name).ok())
+}
+
+/// A number without its letter: which codes there are of it.
+fn without_letter(subject: &str) -> Problem {
+    let is_known = |name: &String| {
+        CodeNumber::parse(name).is_some_and(|number| all_controls().any(|c| c.code(number).is_some()))
+    };
+    let codes: Vec<String> = ["G", "M"].map(|letter| format!("{letter}{subject}")).into_iter().collect();
+    let codes: Vec<String> = codes.into_iter().filter(is_known).map(|name| format!("`{name}`")).collect();
+    let near =
+        if codes.is_empty() { String::new() } else { format!("; did you mean {}?", codes.join(" or ")) };
+    Problem::new(format!("`{subject}` is neither a rule nor a code{near}"))
+        .help("`gcheck rules` and `gcheck codes` list them")
+}
+
+/// What an address means on the controls.
+fn explain_address(global: &Global, letter: Letter) -> Result<u8, Problem> {
+    let chosen = chosen_control(global)?;
+    let controls: Vec<Arc<Control>> = chosen.map_or_else(|| all_controls().collect(), |one| vec![one]);
+    let named =
+        controls.iter().filter_map(|control| Some((control.letter(letter)?.is.as_str(), control.name())));
+    let meanings = by_meaning(named);
+    if meanings.is_empty() {
+        return Err(Problem::new(format!("no control that gcheck knows has the address `{letter}`")));
+    }
+    output::print(&format!("{letter}: an address\n\n{meanings}"))
+}
+
+/// A line for each meaning, with the controls that read it so.
+fn by_meaning<'c>(named: impl Iterator<Item = (&'c str, &'c str)>) -> String {
+    let mut meanings: Vec<(&str, Vec<&str>)> = Vec::new();
+    for (meaning, control) in named {
+        match meanings.iter_mut().find(|(known, _)| *known == meaning) {
+            Some((_, controls)) => controls.push(control),
+            None => meanings.push((meaning, vec![control])),
+        }
+    }
+    // What most controls read comes first.
+    meanings.sort_by_key(|(_, controls)| std::cmp::Reverse(controls.len()));
+    let row = |(meaning, controls): (&str, Vec<&str>)| vec![format!("  {meaning}"), controls.join(", ")];
+    columns(&meanings.into_iter().map(row).collect::<Vec<_>>())
+}
+
 fn explain_code(global: &Global, number: CodeNumber) -> Result<u8, Problem> {
-    let having: Vec<Arc<Control>> = gcheck_controls::names()
-        .iter()
-        .filter_map(|name| gcheck_controls::load(name).ok())
-        .filter(|control| control.code(number).is_some())
-        .collect();
+    let having: Vec<Arc<Control>> = all_controls().filter(|control| control.code(number).is_some()).collect();
     let others =
         |own: &str| -> Vec<&str> { having.iter().map(|c| c.name()).filter(|name| *name != own).collect() };
     let chosen = chosen_control(global)?;
-    let control = match &chosen {
-        Some(control) => control,
-        // Nobody named a control: the best founded entry explains most.
-        None => having
-            .iter()
-            .max_by_key(|control| {
-                let entry = control.code(number).map(Code::entry);
-                (entry.map(|e| e.confidence), entry.is_some_and(|e| e.hover.is_some()))
-            })
-            .ok_or_else(|| Problem::new(format!("no control that gcheck knows has `{number}`")))?,
+    let control = match (&chosen, having.as_slice()) {
+        (Some(control), _) | (None, [control]) => control,
+        (None, []) => return Err(Problem::new(format!("no control that gcheck knows has `{number}`"))),
+        // Nobody named a control, and a code is not the same on all of them.
+        (None, [first, ..]) => {
+            let title =
+                |control: &'_ Arc<Control>| control.code(number).map(|code| code.entry().title.clone());
+            let named: Vec<(String, &str)> =
+                having.iter().filter_map(|control| Some((title(control)?, control.name()))).collect();
+            let meanings = by_meaning(named.iter().map(|(title, name)| (title.as_str(), *name)));
+            return output::print(&format!(
+                "{number} on {} controls\n\n{meanings}\n`gcheck explain {number} --control {}` prints its words, \
+                 alarms and source there.\n",
+                having.len(),
+                first.name()
+            ));
+        }
     };
     let Some(code) = control.code(number) else {
         let problem = Problem::new(format!("{} has no `{number}`", control.title()));
@@ -62,8 +117,8 @@ fn explain_code(global: &Global, number: CodeNumber) -> Result<u8, Problem> {
     let mut page = of_code(control, code);
     let others = others(control.name());
     if !others.is_empty() {
-        let how = if chosen.is_some() { "" } else { "; choose with --control" };
-        let _ = writeln!(page, "Also a code of {}{how}.", others.join(", "));
+        // Writing to a string cannot fail.
+        let _ = writeln!(page, "Also a code of {}.", others.join(", "));
     }
     output::print(&page)
 }
@@ -85,8 +140,30 @@ fn of_rule(meta: &RuleMeta) -> String {
         meta.severity,
         meta.group,
         meta.since,
-        meta.docs()
+        without_fences(&meta.docs())
     )
+}
+
+/// Markdown for a terminal: programs are indented, and the fences around them are left out.
+fn without_fences(docs: &str) -> String {
+    let mut text = String::with_capacity(docs.len());
+    let mut is_program = false;
+    for line in docs.lines() {
+        if line.starts_with("```") {
+            is_program = !is_program;
+            // A blank line before a program and after it.
+            if !text.is_empty() && !text.ends_with("\n\n") {
+                text.push('\n');
+            }
+            continue;
+        }
+        if is_program && !line.is_empty() {
+            text.push_str("    ");
+        }
+        text.push_str(line);
+        text.push('\n');
+    }
+    text
 }
 
 fn of_code(control: &Control, code: Code<'_>) -> String {

@@ -34,7 +34,7 @@ pub(crate) fn run(global: &Global, options: &FmtOptions) -> Result<u8, Problem> 
         }
         return standard_input(global, options, &mut configs);
     }
-    let Found { files, mut problems } = discovery::find(&options.paths, &mut configs);
+    let Found { files, mut problems, .. } = discovery::find(&options.paths, &mut configs);
     let mut targets = Vec::with_capacity(files.len());
     let mut seen = BTreeSet::new();
     for path in files {
@@ -185,6 +185,7 @@ fn reform(
     let settings = target.config.settings(&target.path);
     let from = settings.control.as_deref().map(|name| (name, settings.control_from.as_deref()));
     let chosen = choose(&target.path, &source, global.control.as_deref(), from, &Neighbours::default())?;
+    chosen.refuse_unsupported(&target.path)?;
     let choice = chosen.choice;
     let plain = gcheck_controls::load(&choice.name).map_err(|error| Problem::new(error.to_string()))?;
     let control =

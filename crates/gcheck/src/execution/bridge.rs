@@ -61,6 +61,7 @@ impl<S: Steps> Observer<Concrete> for Bridge<'_, S> {
     fn before(&mut self, origin: Origin, _: &State<Concrete>) {
         self.executing = origin.n;
         self.executing_at = origin.at;
+        self.steps.block(origin);
     }
 
     fn event(&mut self, origin: Origin, state: &State<Concrete>, event: &Event) {

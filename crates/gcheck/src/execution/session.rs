@@ -58,6 +58,7 @@ pub(crate) fn prepare(
     let settings = config.settings(&path);
     let from = settings.control.as_deref().map(|name| (name, settings.control_from.as_deref()));
     let chosen = choose(&path, &source, global.control.as_deref(), from, &Neighbours::default())?;
+    chosen.refuse_unsupported(&path)?;
     let plain = gcheck_controls::load(&chosen.choice.name);
     let plain = plain.map_err(|error| Problem::new(error.to_string()))?;
     let control =

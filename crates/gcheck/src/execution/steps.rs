@@ -4,7 +4,7 @@
 
 use std::io;
 
-use gcheck_engine::Fault;
+use gcheck_engine::{Fault, Origin};
 use gcheck_toolpath::Step;
 
 /// Takes the steps of a run.
@@ -12,6 +12,11 @@ pub(crate) trait Steps {
     /// As the reference interpreter has it: sequence numbers are those of the block being executed, which under cutter
     /// compensation may be later than the block that a move belongs to, and an optional stop is one whatever the switch says.
     const AS_INTERPRETED: bool = false;
+
+    /// A block is about to be executed.
+    fn block(&mut self, origin: Origin) {
+        let _ = origin;
+    }
 
     /// One event.
     fn step(&mut self, step: &Step<'_>) -> io::Result<()>;

@@ -178,6 +178,24 @@ fn a_baseline_that_is_missing_or_damaged_is_left_alone() {
 }
 
 #[test]
+fn nobody_is_told_to_delete_a_program() {
+    let shop = shop();
+    shop.file("O2000", "%\nO2000 (PART)\nM30\n%\n");
+    let check = |also: &str| shop.gcheck(&format!("check --control haas-mill --baseline O2000{also}"));
+    expect![[r#"
+        ! error: O2000:1:1: this is not a baseline that gcheck wrote
+        !   |
+        ! 1 | %
+        !   | ^
+        !   help: name another file; `--update-baseline` writes a new one
+        exit 2
+    "#]]
+    .assert_eq(&check("").to_string());
+    assert_eq!(check(" --update-baseline").code, 2);
+    assert_eq!(shop.read("O2000"), "%\nO2000 (PART)\nM30\n%\n");
+}
+
+#[test]
 fn a_baseline_of_a_later_version_is_refused() {
     let shop = shop();
     shop.file("gcheck-baseline.json", "{\n\"version\": 2,\n\"findings\": []\n}\n");

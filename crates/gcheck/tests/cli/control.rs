@@ -21,7 +21,7 @@ fn check_control(program: &str, configuration: &str, arguments: &str, name: &str
     for format in ["full", "concise", "github"] {
         let run = shop.gcheck(&format!("check {arguments} --output-format {format}"));
         assert_eq!(run.stderr.lines().next(), Some(format!("part.nc: control {name}, {said}").as_str()));
-        assert!(!run.stdout.contains("control "), "{run}");
+        assert!(!run.stdout.contains(": control "), "{run}");
     }
     assert_eq!(shop.gcheck(&format!("check {arguments} --quiet")).stderr, "");
     let sarif = shop.gcheck(&format!("check {arguments} --output-format sarif"));
@@ -78,4 +78,47 @@ fn by_detection() {
 #[test]
 fn by_default() {
     check_control(NEUTRAL, "", "", "generic-mill", "default", "by default");
+}
+
+/// A program for a control of Fagor, which gcheck does not read.
+const FAGOR: &str = "%00214\nN0 T1.1\nN10   M6\nN20 G0 X10 Y10\nN30 M30\n";
+
+#[test]
+fn a_program_of_another_dialect_is_not_executed_drawn_compared_or_rewritten() {
+    let shop = Shop::with(&[("a.pim", FAGOR), ("b.pim", FAGOR)]);
+    for command in [
+        "run a.pim",
+        "stats a.pim",
+        "plot a.pim -o a.svg",
+        "fmt a.pim",
+        "diff a.pim b.pim",
+        "edit translate --x 10 a.pim",
+    ] {
+        let run = shop.gcheck(command);
+        assert!(
+            run.code == 2
+                && run.stderr.contains("a.pim: the file is for a Fagor control, which gcheck does not read")
+                && run.stderr.contains("name a control to read it all the same"),
+            "{command}: {run}"
+        );
+        assert_eq!(shop.read("a.pim"), FAGOR, "{command}");
+    }
+    // A control that somebody names is taken at its word.
+    for command in ["run a.pim --control haas-mill", "fmt a.pim --isolated --config control=haas-mill"] {
+        assert!(!shop.gcheck(command).stderr.contains("does not read"), "{command}");
+    }
+}
+
+#[test]
+fn advice_about_the_control_does_not_contradict_the_finding() {
+    let shop = Shop::with(&[
+        ("printed.gcode", "G92 E0\nG1 X1 E1.1\nG1 X2 E1.2\nG1 Y2 E1.3\n"),
+        ("open.nc", "%\nO1 (A)\nG21 G90 G17 G40 G80\nG0 X1. Y2.\nM30\n%\n"),
+    ]);
+    let run = shop.gcheck("check printed.gcode");
+    assert!(run.stdout.contains("the file is for a 3-D printer"), "{run}");
+    assert!(!run.stdout.contains("nothing shows which control"), "{run}");
+    // Without findings, too, nobody should take the default for the machine.
+    let run = shop.gcheck("check .");
+    assert!(run.stdout.contains("nothing shows which control runs a program: name it"), "{run}");
 }

@@ -248,6 +248,52 @@ fn a_run_that_does_not_come_to_its_end_is_no_verdict() {
 }
 
 #[test]
+fn commands_that_are_not_compared_are_named_where_the_programs_differ_in_them() {
+    let cut = "G1 X10. F100.\nY5.\nX0.";
+    let (a, b) = (program(cut), program(&format!("M51\nM131\nM10\nG10 L12 P1 R4.\n{cut}\n/M51\nM51")));
+    let run = diff(&a, &b, "");
+    expect![[r#"
+        a.nc and b.nc make the machine do the same as far as known, within 0.001 mm
+        not compared: G10 L12 (b.nc:11), M10 (b.nc:10), M51 (3 times from b.nc:8 on), M131 (b.nc:9)
+    "#]]
+    .assert_eq(&run.stdout);
+    assert_eq!(run.code, 0);
+    let json: Value = serde_json::from_str(&diff(&a, &b, "--output-format json").stdout).unwrap();
+    assert_eq!(json["not_compared"].as_array().unwrap().len(), 4, "{json:#}");
+    assert_eq!(
+        json["not_compared"][2],
+        serde_json::json!({
+            "code": "M51", "a": null,
+            "b": { "count": 3, "first": { "file": "b.nc", "line": 8, "text": "M51" } },
+        }),
+        "{json:#}"
+    );
+    // Both have them: then there is nothing to say.
+    same(&format!("M51\n{cut}\nG10 L12 P1 R4."), &format!("G10 L12 P1 R4.0\nM51\n{cut}"));
+    let run =
+        diff(&program(&format!("G10 L12 P1 R4.\n{cut}")), &program(&format!("G10 L12 P1 R5.\n{cut}")), "");
+    assert!(run.stdout.ends_with("not compared: G10 L12 (a.nc:8, b.nc:8)\n"), "{}", run.stdout);
+}
+
+#[test]
+fn what_a_loop_or_a_subprogram_executes_counts_as_often_as_it_does() {
+    let looped = "#1=0\nWHILE [#1 LT 2] DO1\nM51\nG1 X[10.+#1] F100.\n#1=#1+1\nEND1";
+    same(looped, "M51\nG1 X10. F100.\nM51\nX11.");
+    let run = diff(&program(looped), &program("M51\nG1 X10. F100.\nX11."), "");
+    assert!(run.stdout.ends_with("not compared: M51 (a.nc:10)\n"), "{}", run.stdout);
+}
+
+#[test]
+fn the_help_of_diff_says_what_the_verdict_is_about() {
+    let run = Shop::new().gcheck("diff --help");
+    assert!(
+        run.stdout.contains("the same as far as known") && run.stdout.contains("G10 L12"),
+        "{}",
+        run.stdout
+    );
+}
+
+#[test]
 fn json_holds_places_lines_and_values() {
     let (a, b) = (program("G1 X10. F100.\nX20."), program("G1 X10. F120.\nX21."));
     let run = diff(&a, &b, "--output-format json");

@@ -129,6 +129,71 @@ fn what_is_accepted_passes_until_its_date() {
 }
 
 #[test]
+fn an_accepted_difference_says_what_was_not_compared_after_it() {
+    let shop = shop(&[("new/plate.nc", &program(1, "X50.\nY20.5", HOLE))]);
+    shop.file("ok.toml", "[[accepted]]\nfile = \"plate.nc\"\nreason = \"seen\"\n");
+    let run = diff(&shop, "--accepted ok.toml");
+    expect![[r#"
+        plate.nc  accepted: path (seen); from there to the next tool change they are not compared  [digest 84f76859]
+        1 pair of programs compared, within 0.001 mm: 0 the same, 1 accepted and not compared as a whole
+    "#]].assert_eq(&run.stdout);
+    assert_eq!(run.code, 0);
+    let changed = program(1, "X50.\nY20.5", HOLE).replace("T2 M6", "T3 M6");
+    shop.file("new/plate.nc", changed);
+    let run = diff(&shop, "--accepted ok.toml");
+    assert!(run.stdout.contains("accepted: path (seen); what follows is not compared"), "{}", run.stdout);
+}
+
+/// Cuts from a place that nobody knows.
+const UNKNOWN: &str = "G21 G90\nG1 X500. F100.\nG1 Y5.\nM30\n";
+
+#[test]
+fn what_could_not_be_compared_is_part_of_the_verdict_in_every_format() {
+    let shop = shop(&[("old/a.nc", UNKNOWN), ("new/a.nc", &UNKNOWN.replace("Y5.", "Y5.0"))]);
+    let run = diff(&shop, "");
+    expect![[r#"
+        a.nc  the same as far as known: some cutting moves start or end at unknown coordinates, which were not compared
+        2 pairs of programs compared, within 0.001 mm: 1 the same, 1 the same as far as known
+    "#]].assert_eq(&run.stdout);
+    assert_eq!(run.code, 0);
+    let json: Value = serde_json::from_str(&diff(&shop, "--output-format json").stdout).unwrap();
+    assert_eq!((&json["same"], &json["same_as_far_as_known"]), (&1.into(), &1.into()));
+    assert_eq!(json["pairs"][0]["verdict"], "same-as-far-as-known");
+    let run = diff(&shop, "--output-format junit");
+    expect![[r#""#]].assert_eq(&run.stdout);
+    let run = diff(&shop, "--output-format github");
+    expect![[r#""#]].assert_eq(&run.stdout);
+    let run = diff(&shop, "--output-format html");
+    assert!(run.stdout.contains("the same as far as known: some cutting moves"), "{}", run.stdout);
+}
+
+#[test]
+fn a_strict_gate_passes_only_what_was_compared_as_a_whole() {
+    let shop = shop(&[("old/a.nc", UNKNOWN), ("new/a.nc", &UNKNOWN.replace("Y5.", "Y5.0"))]);
+    for what in ["old new", "old/a.nc new/a.nc", "old/a.nc new/a.nc --output-format junit"] {
+        let run = |strict| shop.gcheck(&format!("diff {what} --control fanuc-mill -q {strict}")).code;
+        assert_eq!((run(""), run("--strict")), (0, 1), "{what}");
+    }
+    let run = diff(&shop, "--strict --output-format junit");
+    assert!(run.stdout.contains("failures=\"1\""), "{}", run.stdout);
+    assert_eq!(shop.gcheck("diff old/plate.nc new/plate.nc --control fanuc-mill -q --strict").code, 0);
+}
+
+#[test]
+fn the_controls_of_folders_are_named_in_groups() {
+    let shop = shop(&[
+        ("old/gcheck.toml", "control = \"fanuc-mill\"\n"),
+        ("new/gcheck.toml", "control = \"haas-mill\"\n"),
+    ]);
+    let run = shop.gcheck("diff old new");
+    expect![[r#"
+        new/plate.nc: control haas-mill, set in new/gcheck.toml
+        old/plate.nc: control fanuc-mill, set in old/gcheck.toml
+    "#]]
+    .assert_eq(&run.stderr);
+}
+
+#[test]
 fn a_digest_names_these_very_differences() {
     let shop = shop(&[("new/plate.nc", &program(1, SIDE, &HOLE.replace("F100.", "F150.")))]);
     let run = diff(&shop, "");
@@ -209,7 +274,7 @@ fn ci_servers_get_their_formats() {
             </testcase>
           </testsuite>
           <testsuite name="new/same.nc" tests="1" failures="0" errors="0" file="new/same.nc">
-            <testcase name="no findings" classname="new/same.nc"/>
+            <testcase name="makes the machine do the same" classname="new/same.nc"/>
           </testsuite>
         </testsuites>
     "#]].assert_eq(&run.stdout);
@@ -259,4 +324,10 @@ fn no_output_replaces_what_is_read() {
         assert!(run.code == 2 && run.stderr.contains("is read in this run"), "{command}: {}", run.stderr);
         assert_eq!(shop.read("old/plate.nc"), program(1, SIDE, HOLE));
     }
+}
+
+#[test]
+fn what_is_not_there_is_not_called_a_file_of_another_kind() {
+    let run = shop(&[]).gcheck("diff old nosuch");
+    assert_eq!((run.code, run.stderr.as_str()), (2, "error: nosuch: no such file or folder\n"));
 }

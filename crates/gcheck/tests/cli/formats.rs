@@ -198,3 +198,93 @@ fn sarif_is_valid() {
     assert!(!said.contains(": error "), "{said}");
     assert!(said.contains("Analysis completed successfully") || said.contains("Done"), "{said}");
 }
+
+/// The files that the formats of servers name, when gcheck runs in a folder of a repository.
+fn named(shop: &Shop, folder: &str, variables: &[(&str, &str)], arguments: &str) -> Vec<String> {
+    let of = |format: &str| {
+        let mut command = shop.command();
+        let all =
+            format!("check {arguments} --control haas-mill --no-cache --quiet --output-format {format}");
+        command.current_dir(shop.path(folder)).envs(variables.iter().copied()).args(all.split_whitespace());
+        shop.finish(&mut command, b"").stdout
+    };
+    let between = |text: &str, start: &str, end: char| {
+        let rest = text.split(start).nth(1).unwrap_or_else(|| panic!("{start} in {text}"));
+        rest.split(end).next().unwrap().to_owned()
+    };
+    vec![
+        between(&of("gitlab"), "\"path\":\"", '"'),
+        between(&of("rdjson"), "\"path\":\"", '"'),
+        between(&of("junit"), "classname=\"", '"'),
+        between(&of("checkstyle"), "<file name=\"", '"'),
+        between(&of("sarif"), "\"uri\": \"", '"'),
+        between(&of("github"), "file=", ','),
+        between(&of("azure"), "sourcepath=", ';'),
+    ]
+}
+
+#[test]
+fn servers_get_paths_from_the_root_of_the_repository() {
+    let shop = Shop::with(&[("repo/.git/HEAD", ""), ("repo/sub/w.nc", WARNED)]);
+    let root = shop.path("repo");
+    let absolute = root.join("sub/w.nc");
+    for arguments in ["w.nc", ".", "../sub/w.nc", absolute.to_str().unwrap()] {
+        assert_eq!(named(&shop, "repo/sub", &[], arguments), ["sub/w.nc"; 7], "{arguments}");
+    }
+    // The server's own word counts more than where a repository begins, unless it is about another folder.
+    let (outer, elsewhere) = (shop.path("."), shop.path("elsewhere"));
+    let [outer, elsewhere] = [outer.to_str().unwrap(), elsewhere.to_str().unwrap()];
+    for variable in ["CI_PROJECT_DIR", "GITHUB_WORKSPACE"] {
+        assert_eq!(named(&shop, "repo/sub", &[(variable, outer)], "w.nc"), ["repo/sub/w.nc"; 7]);
+        assert_eq!(named(&shop, "repo/sub", &[(variable, elsewhere)], "w.nc"), ["sub/w.nc"; 7]);
+    }
+    assert_eq!(named(&shop, "repo/sub", &[], "w.nc --path-base ."), ["w.nc"; 7]);
+    assert_eq!(named(&shop, "repo/sub", &[], "w.nc --path-base ../.."), ["repo/sub/w.nc"; 7]);
+}
+
+#[test]
+fn people_and_programs_get_paths_from_where_gcheck_runs() {
+    let shop = Shop::with(&[("repo/.git/HEAD", ""), ("repo/sub/w.nc", WARNED)]);
+    for (format, name) in [("concise", "w.nc:3:4"), ("full", "┌─ w.nc:3:4"), ("json", "\"file\":\"w.nc\"")]
+    {
+        let mut command = shop.command();
+        command.current_dir(shop.path("repo/sub"));
+        command.args(["check", "w.nc", "--control", "haas-mill", "--output-format", format]);
+        let run = shop.finish(&mut command, b"");
+        assert!(run.stdout.replace(": ", ":").contains(name) || run.stdout.contains(name), "{run}");
+    }
+}
+
+#[test]
+fn junit_fails_where_the_exit_code_does() {
+    let shop = Shop::with(&[("w.nc", WARNED)]);
+    for (options, code, failures) in [
+        ("", 0, 0),
+        ("--fail-on warning", 1, 1),
+        ("--max-warnings 0", 1, 1),
+        ("--max-warnings 1", 0, 0),
+        ("--fail-on never", 0, 0),
+    ] {
+        let run = shop.gcheck(&format!("check --control haas-mill --output-format junit {options}"));
+        assert_eq!((run.code, run.stdout.matches("<failure").count()), (code, failures), "{options}: {run}");
+        assert_eq!(run.stdout.matches("<system-out>").count(), 1 - failures, "{options}: {run}");
+    }
+}
+
+#[test]
+fn a_file_that_cannot_be_read_is_told_to_servers_and_counted() {
+    let shop = Shop::with(&[("w.nc", WARNED)]);
+    let check = |format: &str| {
+        shop.gcheck(&format!("check w.nc gone.nc lost.nc --control haas-mill --output-format {format}"))
+    };
+    let run = check("full");
+    assert!(run.stdout.contains("1 warning in 1 file (5 lines); 2 more files could not be checked"), "{run}");
+    let run = check("junit");
+    assert!(run.stdout.contains("tests=\"3\" failures=\"0\" errors=\"2\""), "{run}");
+    assert!(run.stdout.contains("<error type=\"not-checked\""), "{run}");
+    let run = check("sarif");
+    let invocation = &run.json()["runs"][0]["invocations"][0];
+    assert_eq!(invocation["executionSuccessful"], false);
+    assert_eq!(invocation["toolExecutionNotifications"].as_array().unwrap().len(), 2, "{run}");
+    assert_eq!(run.code, 2);
+}

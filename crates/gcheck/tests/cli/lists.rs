@@ -50,7 +50,87 @@ fn a_code_is_explained_for_a_control() {
         G71: roughing cycle along Z
         on Haas lathe (ST, DS, SL, TL; NGC and classic)"#]],
     );
-    check_head("explain m3", 1, &expect!["M3: spindle clockwise"]);
+}
+
+#[test]
+fn a_code_without_a_control_has_a_line_for_each_meaning() {
+    let shop = Shop::new();
+    expect![[r#"
+        M98 on 9 controls
+
+          subprogram call             fanuc-lathe, fanuc-lathe-b, fanuc-lathe-c, fanuc-mill, generic-mill, haas-lathe, haas-mill, tsnc-yh-a1m
+          call a numbered subprogram  linuxcnc
+
+        `gcheck explain M98 --control fanuc-lathe` prints its words, alarms and source there.
+    "#]].assert_eq(&shop.gcheck("explain M98").stdout);
+    expect![[r#"
+        G43 on 6 controls
+
+          tool length compensation, positive  fanuc-mill, generic-mill, haas-mill, tsnc-yh-a1m
+          tool length compensation plus       haas-lathe
+          tool length offset on               linuxcnc
+
+        `gcheck explain G43 --control fanuc-mill` prints its words, alarms and source there.
+    "#]]
+    .assert_eq(&shop.gcheck("explain g43").stdout);
+}
+
+#[test]
+fn an_address_is_explained_and_a_bare_number_is_taken_for_a_code() {
+    let shop = Shop::new();
+    expect![[r#"
+        T: an address
+
+          tool and offset: T0203 is tool 2 with offset 3       fanuc-lathe, fanuc-lathe-b, fanuc-lathe-c
+          tool to make ready                                   fanuc-mill
+          tool                                                 generic-mill
+          tool number; only reported, nothing is changed       grbl
+          turret station and offset, T0101; offset 00 cancels  haas-lathe
+          tool, or tool group from 1000 on                     haas-mill
+          tool to prepare; M6 loads it                         linuxcnc
+          tool and offset digits                               tsnc-yh-a1m
+    "#]]
+    .assert_eq(&shop.gcheck("explain t").stdout);
+    check_refusal(
+        "explain 43",
+        &expect![[r#"
+        ! error: `43` is neither a rule nor a code; did you mean `G43` or `M43`?
+        !   help: `gcheck rules` and `gcheck codes` list them
+        exit 2
+    "#]],
+    );
+    check_refusal(
+        "explain 9999",
+        &expect![[r#"
+        ! error: `9999` is neither a rule nor a code
+        !   help: `gcheck rules` and `gcheck codes` list them
+        exit 2
+    "#]],
+    );
+}
+
+#[test]
+fn a_control_is_named_in_any_case_and_a_builder_is_not_enough() {
+    check_head(
+        "explain G43 --control Haas-Mill",
+        2,
+        &expect![[r#"
+        G43: tool length compensation, positive
+        on Haas mill (classic control and NGC)"#]],
+    );
+    check_refusal(
+        "explain G43 --control haas",
+        &expect![[r#"
+        ! error: no control is called `haas`; did you mean `haas-lathe` or `haas-mill`?
+        exit 2
+    "#]],
+    );
+}
+
+#[test]
+fn programs_in_the_page_of_a_rule_are_indented() {
+    let run = Shop::new().gcheck("explain missing-decimal-point");
+    assert!(!run.stdout.contains("```") && run.stdout.contains("\n\n    G"), "{run}");
 }
 
 #[test]

@@ -178,3 +178,40 @@ fn patterns_that_the_shell_left_are_expanded() {
     let shop = Shop::with(&[("part[1].nc", GOOD), ("part1.nc", GOOD)]);
     check_files(&shop, "part[1].nc", &["part[1].nc"]);
 }
+
+#[test]
+fn programs_with_the_names_of_other_files_are_told_and_not_read() {
+    let program = "%\nO0001 (A)\nG21 G90\nG0 X1.\nG1 Y2. F100.\nM30\n%\n";
+    let shop = Shop::with(&[
+        ("part.nc", program),
+        ("a.txt", program),
+        ("B.TXT", program),
+        ("notes.txt", "Tighten the vise.\nThen start.\n"),
+        ("plate.h", "0 BEGIN PGM PLATE MM\n1 BLK FORM 0.1 Z X+0 Y+0 Z-20\n2 TOOL CALL 5 Z S2000\n"),
+        ("main.h", "int main(void);\n"),
+    ]);
+    let run = shop.gcheck("check --control haas-mill");
+    assert!(
+        run.stderr.contains(
+            "1 file ending in .h looks like a program and is not checked: name it, or set `include` under `[files]` in \
+             `gcheck.toml`"
+        ) && run.stderr.contains("2 files ending in .txt look like programs and are not checked: name them"),
+        "{run}"
+    );
+    assert!(run.stdout.contains("in 1 file"), "{run}");
+    assert!(!shop.gcheck("check --control haas-mill -q").stderr.contains("look like"));
+    // What the configuration leaves out is left out.
+    shop.file("gcheck.toml", "[files]\nexclude = [\"*.txt\", \"*.TXT\", \"*.h\"]\n");
+    assert!(!shop.gcheck("check --control haas-mill").stderr.contains("look"));
+    shop.file("gcheck.toml", "[files]\ninclude = [\"*.nc\"]\n");
+    assert!(!shop.gcheck("check --control haas-mill").stderr.contains("look"));
+}
+
+#[test]
+fn a_pattern_below_a_folder_that_is_not_there_is_one_mistake() {
+    let run = Shop::new().command().args(["check", "sub/**/*.nc"]).output().unwrap();
+    assert_eq!(
+        String::from_utf8(run.stderr).unwrap(),
+        "error: sub/**/*.nc: no file fits this pattern: there is no folder sub\n"
+    );
+}

@@ -42,7 +42,7 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
     let Some(dialect) = cx.environment.unsupported.or(cx.text.evidence().unsupported) else { return };
     let first = cx.file_index.first_block.clone().unwrap_or_default();
     report.add(
-        Finding::new(&META, first, format!("the file is for {}, which gcheck does not read", dialect.name))
+        Finding::new(&META, first, dialect.sentence())
             .note(format!("it looks like {}  [{}]", dialect.reads, dialect.source))
             .note("no other rule is run on it")
             .help("leave such files out (`exclude` under `[files]` in `gcheck.toml`), or name a control (`control = …`) to check it all the same"),

@@ -13,10 +13,10 @@ declare_rule! {
     /// `X10` is then a hundredth of a millimetre, or a thousandth of an inch, and not ten. The tool moves to the wrong
     /// place at rapid, or feeds a thousand times too slow. A control can be set to read `X10` as ten; the finding names
     /// the setting that it assumes. One finding names all such words of a block. If much of a program is written like
-    /// this, the shop's controls are probably set that way, and there is one finding for the file. Values that only
-    /// make sense in least increments, `Z0040000` or `U250` in a roughing cycle, are not reported. In a program in which no
-    /// number has a point and some only make sense in least increments, all count least increments; only values below 100
-    /// are reported there.
+    /// this, or very many of its blocks, the shop's controls are probably set that way, and there is one finding for the file.
+    /// Values that only make sense in least increments, `Z0040000` or `U250` in a roughing cycle, are not reported. In a
+    /// program in which no number has a point and some only make sense in least increments, all count least increments; only
+    /// values below 100 are reported there.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -50,6 +50,8 @@ declare_rule! {
 /// fewer have points.
 const HABIT: usize = 10;
 const HABIT_OF_SHORT: usize = 4;
+/// Nobody slips so often in one file, however long it is.
+const HABIT_OF_LONG: usize = 50;
 
 fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
     if cx.control().numbers().unpointed == Unpointed::AsWritten {
@@ -57,12 +59,20 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
     }
     let in_steps = counts_steps(cx);
     let mut count = 0_usize;
-    for block in &cx.file_index.unpointed {
-        cx.reread(block.clone(), |block| count += usize::from(!scaled(block, in_steps).is_empty()));
+    let mut last = 0;
+    for place in &cx.file_index.unpointed {
+        cx.reread(place.clone(), |block| {
+            if !scaled(block, in_steps).is_empty() {
+                count += 1;
+                last = place.start;
+            }
+        });
     }
     // Single blocks may be slips; a quarter of all blocks is not a slip.
     let pointed = cx.file_index.pointed;
-    let is_habit = count >= HABIT && count * 4 > pointed || count >= HABIT_OF_SHORT && count > pointed;
+    let is_habit = count >= HABIT_OF_LONG
+        || count >= HABIT && count * 4 > pointed
+        || count >= HABIT_OF_SHORT && count > pointed;
     let mut is_told = false;
     for block in &cx.file_index.unpointed {
         cx.reread(block.clone(), |block| {
@@ -70,8 +80,13 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
             if words.is_empty() {
                 return;
             }
-            let finding = finding(block, &words);
-            report.add(if is_habit { of_file(finding, count) } else { finding });
+            let found = finding(block, &words);
+            if is_habit {
+                let lines = cx.line_numbers([found.range.start, last]);
+                report.add(of_file(found, count, lines));
+            } else {
+                report.add(found);
+            }
             is_told = true;
         });
         if is_habit && is_told {
@@ -242,8 +257,9 @@ fn finding(cx: &BlockCx<'_>, words: &[&Word]) -> Finding {
 }
 
 /// The finding of a block, reworded for the whole file.
-fn of_file(mut finding: Finding, count: usize) -> Finding {
+fn of_file(mut finding: Finding, count: usize, [first, last]: [u32; 2]) -> Finding {
     finding.message = format!("decimal points missing in {count} blocks of the program");
+    finding.notes.insert(0, format!("the blocks are in lines {first} to {last}"));
     finding.label = format!("the first of them; here a number {}", finding.label);
     finding.labels.clear();
     finding.fixes.clear();
@@ -389,11 +405,23 @@ mod tests {
         expect![[r#"
             decimal points missing in 12 blocks of the program
               here: the first of them; here a number counts 0.0001 inch or 0.001 mm
+              note: the blocks are in lines 1 to 12
               note: a number without a decimal point counts least increments on this control  [general knowledge; increment system IS-B with parameter 3401#0 = 0]
               assuming: setting 3401#0 (numbers without decimal point) is least increment
               help: configure that the control reads such numbers as whole units, or write the points
         "#]]
         .assert_eq(&words(&found[0]));
+    }
+
+    #[test]
+    fn a_long_program_with_many_such_blocks_gets_one_finding() {
+        let program = format!("{}{}", "G1 X1.\n".repeat(1_000), "X2\nX3.\n".repeat(60));
+        let found = findings(&only(&RULE), "haas-mill", &program, &World::default());
+        assert_eq!(found.len(), 1);
+        assert_eq!(found[0].message, "decimal points missing in 60 blocks of the program");
+        assert_eq!(found[0].notes[0], "the blocks are in lines 1001 to 1119");
+        let few = format!("{}{}", "G1 X1.\n".repeat(1_000), "X2\nX3.\n".repeat(40));
+        assert_eq!(findings(&only(&RULE), "haas-mill", &few, &World::default()).len(), 40);
     }
 
     #[test]

@@ -10,7 +10,7 @@ use gcheck_syntax::SourceText;
 
 use super::outcome::{Outcome, Outcomes, Spot, Verdict};
 use super::runs::Compared;
-use crate::{Problem, output, paths, reading};
+use crate::{Problem, output, path_base, paths, reading};
 
 /// The first difference of a comparison; with the text, if findings will point into it.
 pub(super) fn first(compared: &Compared, with_text: bool) -> Spot {
@@ -43,6 +43,10 @@ const fn rule(id: &'static str, summary: &'static str) -> RuleMeta {
 }
 
 static DIFFERS: RuleMeta = rule("program-differs", "two programs make the machine do different things");
+static AS_FAR_AS_KNOWN: RuleMeta = rule(
+    "program-partly-compared",
+    "two programs are the same as far as known, and something was not compared",
+);
 static NO_VERDICT: RuleMeta = rule("program-not-compared", "a program cannot be compared");
 static REMOVED: RuleMeta = rule("program-removed", "a program of the first folder is not in the second");
 static ADDED: RuleMeta = rule("program-added", "a program of the second folder is not in the first");
@@ -68,7 +72,7 @@ fn written(all: &Outcomes, format: Format) -> Result<String, Problem> {
             }
             None => (paths::shown_from_here(file), text_of(file), None),
         };
-        let findings = finding(outcome, &text).into_iter().collect();
+        let findings = finding(outcome, &text, all.is_strict).into_iter().collect();
         report_of(path, text, control, findings)
     });
     let alone = all.alone.iter().filter(|alone| alone.is_open()).map(|alone| {
@@ -79,7 +83,9 @@ fn written(all: &Outcomes, format: Format) -> Result<String, Problem> {
         let text = text_of(&alone.file);
         report_of(paths::shown_from_here(&alone.file), text, None, vec![Finding::new(rule, 0..0, message)])
     });
-    let report = Report::new(pairs.chain(alone).collect());
+    let report = Report::new(pairs.chain(alone).collect())
+        .with_path_base(path_base::of(None))
+        .with_passed("makes the machine do the same");
     let mut out = Vec::new();
     gcheck_report::write(&report, format, output::colour(crate::args::When::Never), &mut out)
         .map_err(|error| Problem::new(format!("cannot write the report: {error}")))?;
@@ -101,11 +107,13 @@ fn text_of(file: &Path) -> SourceText {
     reading::file(file).unwrap_or_else(|_| SourceText::from(""))
 }
 
-fn finding(outcome: &Outcome, text: &SourceText) -> Option<Finding> {
+fn finding(outcome: &Outcome, text: &SourceText, is_strict: bool) -> Option<Finding> {
     let line = outcome.first.as_ref().map_or(1, |spot| spot.line);
     let range = LineIndex::new(text.text()).line_range(text.text(), line);
     let finding = match &outcome.verdict {
         Verdict::Same => return None,
+        Verdict::AsFarAsKnown => Finding::new(&AS_FAR_AS_KNOWN, range, outcome.words())
+            .at_most(if is_strict { Severity::Error } else { Severity::Info }),
         Verdict::Different => Finding::new(&DIFFERS, range, outcome.words()),
         Verdict::Accepted => Finding::new(&DIFFERS, range, outcome.words()).at_most(Severity::Info),
         Verdict::None(_) => Finding::new(&NO_VERDICT, range, outcome.words()),

@@ -7,7 +7,8 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::thread;
 
-use gcheck_report::one_line;
+use gcheck_report::{FileReport, Report, one_line};
+use gcheck_syntax::SourceText;
 use gcheck_toolpath::{Aspect, Rest};
 use rayon::prelude::*;
 use serde_json::{Value as Json, json};
@@ -16,12 +17,13 @@ use super::accepted::{self, Accepted, Answer};
 use super::outcome::{Alone, DIFFERENT, Outcome, Outcomes, Verdict};
 use super::pairs::{self, By, Pair, Pairs};
 use super::runs::{self, Compared};
-use super::{findings, page};
+use super::{findings, page, words};
 use crate::args::{DiffFormat, DiffOptions, Global};
 use crate::commands::plot;
 use crate::config::Configs;
 use crate::console::{FAILED, finish, say};
 use crate::containment::guarded;
+use crate::execution::Prepared;
 use crate::programs::ProgramFolders;
 use crate::progress::Progress;
 use crate::{Problem, output, paths, threads};
@@ -86,6 +88,7 @@ pub(super) fn run(global: &Global, options: &DiffOptions) -> Result<u8, Problem>
     let all = Outcomes {
         titles: [&options.a, &options.b].map(|path| paths::shown(path)),
         tolerance: options.tolerance,
+        is_strict: options.strict,
         pairs: outcomes,
         alone,
     };
@@ -96,6 +99,9 @@ pub(super) fn run(global: &Global, options: &DiffOptions) -> Result<u8, Problem>
         DiffFormat::Github => findings::github(&all)?,
         DiffFormat::Html => page::html(&all),
     };
+    if !global.quiet && options.output_format == DiffFormat::Text {
+        say(&all.control_lines().join("\n"));
+    }
     output::to(options.output_file.as_deref(), &text)?;
     if !global.quiet {
         let answers = all.pairs.iter().map(|outcome| &outcome.answer);
@@ -179,12 +185,18 @@ impl Outcome {
         let fault = compared.faults.iter().flatten().next();
         let verdict = match fault {
             Some(fault) => Verdict::None(fault.problem.clone()),
-            None if names.is_empty() => Verdict::Same,
+            None if names.is_empty() && compared.is_all_known() => Verdict::Same,
+            None if names.is_empty() => Verdict::AsFarAsKnown,
             None if answer.open.is_empty() => Verdict::Accepted,
             None => Verdict::Different,
         };
-        let text = if verdict == Verdict::Same { String::new() } else { sides.text(differences) };
+        let is_told = !matches!(verdict, Verdict::Same | Verdict::AsFarAsKnown);
+        let text = if is_told { sides.text(differences) } else { String::new() };
+        let rest = differences.parting.as_ref().map(|_| words::rest(differences).to_owned());
+        let of = |prepared: &Prepared| (prepared.shown.clone(), prepared.chosen.choice.clone());
         Self {
+            limits: rest.into_iter().chain(sides.limits(differences)).collect(),
+            controls: compared.prepared.each_ref().map(of).to_vec(),
             first: (verdict != Verdict::Same).then(|| findings::first(compared, with_text)),
             differences: names.into_iter().map(str::to_owned).collect(),
             pair,
@@ -204,6 +216,8 @@ impl Outcome {
             differences: Vec::new(),
             answer: Answer::default(),
             digest: String::new(),
+            limits: Vec::new(),
+            controls: Vec::new(),
             text: String::new(),
             detail: Json::Null,
             first: None,
@@ -214,7 +228,9 @@ impl Outcome {
 
 impl Outcomes {
     fn code(&self) -> u8 {
-        let differs = |verdict: &Verdict| *verdict == Verdict::Different;
+        let differs = |verdict: &Verdict| {
+            *verdict == Verdict::Different || self.is_strict && *verdict == Verdict::AsFarAsKnown
+        };
         if self.count(|verdict| matches!(verdict, Verdict::None(_))) > 0 {
             FAILED
         } else if self.count(differs) > 0 || self.alone.iter().any(Alone::is_open) {
@@ -224,11 +240,20 @@ impl Outcomes {
         }
     }
 
+    /// Which control reads each program, a line for all that share one.
+    fn control_lines(&self) -> Vec<String> {
+        let controls = self.pairs.iter().flat_map(|outcome| &outcome.controls);
+        let files = controls.map(|(path, control)| {
+            FileReport::new(path.clone(), SourceText::from(""), control.clone(), Vec::new())
+        });
+        gcheck_report::control_lines(&Report::new(files.collect()))
+    }
+
     fn text(&self) -> String {
         let mut out = String::new();
         for outcome in self.pairs.iter().filter(|outcome| outcome.verdict != Verdict::Same) {
-            let digest =
-                if outcome.digest.is_empty() { "" } else { &format!("  [digest {}]", outcome.digest) };
+            let digest = outcome.name_of_differences().map(|digest| format!("  [digest {digest}]"));
+            let digest = digest.unwrap_or_default();
             let told = format!("{}  {}", outcome.pair.name, outcome.words());
             // Writing to a string cannot fail.
             let _ = writeln!(out, "{}{digest}", one_line(&told));
@@ -270,6 +295,7 @@ impl Outcomes {
                     "differences": outcome.differences,
                     "open": outcome.answer.open,
                     "reasons": outcome.answer.reasons,
+                    "limits": outcome.limits,
                     "digest": Some(&outcome.digest).filter(|digest| !digest.is_empty()),
                     "problem": problem,
                     "detail": outcome.detail,
@@ -286,6 +312,7 @@ impl Outcomes {
             "tolerance": self.tolerance,
             "unit": "mm",
             "same": self.count(|verdict| *verdict == Verdict::Same),
+            "same_as_far_as_known": self.count(|verdict| *verdict == Verdict::AsFarAsKnown),
             "different": self.count(|verdict| *verdict == Verdict::Different),
             "accepted": self.count(|verdict| *verdict == Verdict::Accepted),
             "without_verdict": self.count(|verdict| matches!(verdict, Verdict::None(_))),

@@ -25,6 +25,10 @@ pub(super) struct Outcome {
     pub(super) answer: Answer,
     /// Of these very differences.
     pub(super) digest: String,
+    /// What was not compared although it may differ, in words.
+    pub(super) limits: Vec<String>,
+    /// The control of each program, as messages call it.
+    pub(super) controls: Vec<(String, ControlChoice)>,
     /// The differences in words.
     pub(super) text: String,
     pub(super) detail: Json,
@@ -34,10 +38,15 @@ pub(super) struct Outcome {
     pub(super) picture: Option<String>,
 }
 
+/// The verdict on a pair of which something was not compared.
+const AS_FAR_AS_KNOWN: &str = "the same as far as known";
+
 /// What is to be said of a pair.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) enum Verdict {
     Same,
+    /// Nothing of what was compared differs, and something was not compared.
+    AsFarAsKnown,
     Different,
     /// All differences are accepted.
     Accepted,
@@ -49,6 +58,7 @@ impl Verdict {
     pub(super) const fn name(&self) -> &'static str {
         match self {
             Self::Same => "same",
+            Self::AsFarAsKnown => "same-as-far-as-known",
             Self::Different => "different",
             Self::Accepted => "accepted",
             Self::None(_) => "no-verdict",
@@ -75,6 +85,8 @@ impl Alone {
 pub(super) struct Outcomes {
     pub(super) titles: [String; 2],
     pub(super) tolerance: f64,
+    /// A pair that is the same as far as known counts as one that differs.
+    pub(super) is_strict: bool,
     pub(super) pairs: Vec<Outcome>,
     pub(super) alone: Vec<Alone>,
 }
@@ -89,10 +101,16 @@ pub(super) struct Spot {
 }
 
 impl Outcome {
+    /// The digest, where there are differences for it to name.
+    pub(super) fn name_of_differences(&self) -> Option<&str> {
+        (!self.digest.is_empty() && !self.differences.is_empty()).then_some(&self.digest)
+    }
+
     /// What the pair comes to, in a line.
     pub(super) fn words(&self) -> String {
         let mut words = match &self.verdict {
             Verdict::Same => "the same".to_owned(),
+            Verdict::AsFarAsKnown => format!("{}: {}", AS_FAR_AS_KNOWN, self.limits.join("; ")),
             Verdict::Different => format!("differs: {}", self.answer.open.join(", ")),
             Verdict::Accepted => format!("accepted: {}", self.differences.join(", ")),
             Verdict::None(problem) => format!("no verdict: {}", problem.message()),
@@ -104,6 +122,12 @@ impl Outcome {
         }
         if let Some(date) = self.answer.expired.first() {
             let _ = write!(words, " (was accepted until {date})");
+        }
+        // Of other pairs the text below the line says it.
+        if self.verdict == Verdict::Accepted {
+            for limit in &self.limits {
+                let _ = write!(words, "; {limit}");
+            }
         }
         words
     }
@@ -124,8 +148,12 @@ impl Outcomes {
                 parts.push(format!("{count} {words}"));
             }
         };
+        part(self.count(|verdict| *verdict == Verdict::AsFarAsKnown), AS_FAR_AS_KNOWN);
         part(self.count(|verdict| *verdict == Verdict::Different), "different");
-        part(self.count(|verdict| *verdict == Verdict::Accepted), "accepted");
+        let accepted = self.pairs.iter().filter(|outcome| outcome.verdict == Verdict::Accepted);
+        let (whole, partly): (Vec<_>, Vec<_>) = accepted.partition(|outcome| outcome.limits.is_empty());
+        part(whole.len(), "accepted");
+        part(partly.len(), "accepted and not compared as a whole");
         part(self.count(|verdict| matches!(verdict, Verdict::None(_))), "without a verdict");
         for (side, title) in self.titles.iter().enumerate() {
             for (is_open, accepted) in [(true, ""), (false, ", accepted")] {

@@ -57,8 +57,8 @@ pub(super) fn html(all: &Outcomes) -> String {
     }
     for (index, outcome) in told {
         let _ = writeln!(out, "<h2 id=\"p{index}\">{}</h2>", escaped(&outcome.pair.name));
-        let digest =
-            if outcome.digest.is_empty() { String::new() } else { format!(" Digest {}.", outcome.digest) };
+        let digest = outcome.name_of_differences().map(|digest| format!(" Digest {digest}."));
+        let digest = digest.unwrap_or_default();
         let _ = writeln!(out, "<p>{}{digest}</p>", escaped(&outcome.words()));
         if !outcome.text.is_empty() {
             let _ = writeln!(out, "<pre>{}</pre>", escaped_lines(&outcome.text));

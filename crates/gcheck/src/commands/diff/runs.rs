@@ -8,9 +8,10 @@ use std::sync::Arc;
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::{mem, thread};
 
-use gcheck_engine::Units;
+use gcheck_engine::{Origin, Units};
 use gcheck_toolpath::{Act, Differences, Rest, Step, Trail, WorkCoordinates, compare};
 
+use super::left_out::{self, Executions, LeftOut, NotCompared};
 use super::words::{Sides, Stopped};
 use crate::Problem;
 use crate::args::{DiffOptions, Global};
@@ -27,6 +28,8 @@ const STACK: usize = 8 << 20;
 pub(super) struct Compared {
     pub(super) prepared: [Prepared; 2],
     pub(super) differences: Differences,
+    /// Commands that are not compared and that the programs do not have alike; nothing where a run was cut off.
+    pub(super) not_compared: Vec<NotCompared>,
     /// Why a run did not come to its end, as far as that counts.
     pub(super) faults: [Option<Stopped>; 2],
     /// Which control reads each, in words.
@@ -40,7 +43,18 @@ impl Compared {
     /// For words about the differences.
     pub(super) fn sides(&self) -> Sides<'_> {
         let [a, b] = &self.prepared;
-        Sides { prepared: [a, b], units: self.units, tolerance: self.tolerance, faults: &self.faults }
+        Sides {
+            prepared: [a, b],
+            units: self.units,
+            tolerance: self.tolerance,
+            faults: &self.faults,
+            not_compared: &self.not_compared,
+        }
+    }
+
+    /// Was everything compared that the programs do not have alike?
+    pub(super) fn is_all_known(&self) -> bool {
+        !self.differences.unknown && self.not_compared.is_empty()
     }
 
     /// Do both come to their end, and make the machine do the same?
@@ -69,8 +83,12 @@ pub(super) fn both(
     let (differences, ran_a, ran_b) = run_both(&a, &b, options.tolerance, rest)?;
     // A run that was cut off because the paths had parted before ended nowhere of its own.
     let [a_is_left, b_is_left] = differences.left_alone();
+    let faults = [ran_a.fault.filter(|_| !a_is_left), ran_b.fault.filter(|_| !b_is_left)];
+    let is_whole = !differences.is_cut_short() && faults.iter().all(Option::is_none);
+    let left_out = [ran_a.left_out, ran_b.left_out];
     Ok(Compared {
-        faults: [ran_a.fault.filter(|_| !a_is_left), ran_b.fault.filter(|_| !b_is_left)],
+        not_compared: if is_whole { left_out::not_compared(&left_out) } else { Vec::new() },
+        faults,
         controls: [ran_a.control, ran_b.control],
         units: ran_a.units,
         tolerance: options.tolerance,
@@ -109,6 +127,7 @@ struct Ran {
     fault: Option<Stopped>,
     /// Units of most moves.
     units: Units,
+    left_out: LeftOut,
 }
 
 fn run_both(
@@ -144,7 +163,14 @@ fn acts(batches: Receiver<Vec<Act>>) -> impl Iterator<Item = Act> {
 fn run_one(prepared: &Prepared, to: SyncSender<Vec<Act>>) -> Ran {
     prepared.session(|session| {
         let trail = Trail::new(WorkCoordinates::at_power_on(session.model, &prepared.equipment.machine));
-        let sender = Sender { trail, batch: Vec::with_capacity(BATCH), to, inch: 0, mm: 0 };
+        let sender = Sender {
+            trail,
+            batch: Vec::with_capacity(BATCH),
+            to,
+            inch: 0,
+            mm: 0,
+            executions: Executions::default(),
+        };
         let control = execution::control_line(session);
         let units = prepared.equipment.units;
         match session.run(sender) {
@@ -160,9 +186,9 @@ fn run_one(prepared: &Prepared, to: SyncSender<Vec<Act>>) -> Ran {
                     let problem = execution::problem_of(&fault);
                     Stopped { message: fault.words.message, problem }
                 });
-                Ran { control, fault, units }
+                Ran { control, fault, units, left_out: sender.executions.left_out(session) }
             }
-            Err(_) => Ran { control, fault: None, units },
+            Err(_) => Ran { control, fault: None, units, left_out: LeftOut::default() },
         }
     })
 }
@@ -174,6 +200,7 @@ struct Sender {
     to: SyncSender<Vec<Act>>,
     inch: u64,
     mm: u64,
+    executions: Executions,
 }
 
 impl Sender {
@@ -184,6 +211,10 @@ impl Sender {
 }
 
 impl Steps for Sender {
+    fn block(&mut self, origin: Origin) {
+        self.executions.count(origin);
+    }
+
     fn step(&mut self, step: &Step<'_>) -> io::Result<()> {
         match step.units {
             Units::Inch => self.inch += 1,

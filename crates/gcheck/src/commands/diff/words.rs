@@ -12,6 +12,7 @@ use gcheck_toolpath::{
 };
 use serde_json::{Value as Json, json};
 
+use super::left_out::NotCompared;
 use crate::Problem;
 use crate::execution::Prepared;
 use crate::reading;
@@ -36,6 +37,8 @@ pub(in crate::commands) struct Sides<'s> {
     /// Millimetres.
     pub(in crate::commands) tolerance: f64,
     pub(in crate::commands) faults: &'s [Option<Stopped>; 2],
+    /// Commands that are not compared and that the programs do not have alike.
+    pub(in crate::commands) not_compared: &'s [NotCompared],
 }
 
 impl Sides<'_> {
@@ -81,21 +84,48 @@ impl Sides<'_> {
         let within = format!("within {} mm", self.tolerance);
         let mut out = match (self.faults.iter().any(Option::is_some), &differences.parting) {
             (true, _) => format!("{a} and {b} are compared up to where a run ends before its program\n"),
-            (false, Some(_)) if differences.is_cut_short() => {
-                format!("{a} and {b} move differently; what follows is not compared\n")
-            }
-            (false, Some(_)) => format!(
-                "{a} and {b} move differently; from there to the next tool change they are not compared\n"
-            ),
+            (false, Some(_)) => format!("{a} and {b} move differently; {}\n", rest(differences)),
             (false, None) if differences.is_same() => {
-                format!("{a} and {b} make the machine do the same, {within}\n")
+                let is_known = !differences.unknown && self.not_compared.is_empty();
+                let known = if is_known { "" } else { " as far as known" };
+                format!("{a} and {b} make the machine do the same{known}, {within}\n")
             }
             (false, None) => format!("{a} and {b} move along the same path, {within}, with differences\n"),
         };
-        if differences.unknown {
-            out.push_str("some cutting moves start or end at unknown coordinates, which were not compared\n");
+        for line in self.limits(differences) {
+            // Writing to a string cannot fail.
+            let _ = writeln!(out, "{line}");
         }
         out
+    }
+
+    /// What was not compared although it may differ, a line each.
+    pub(in crate::commands) fn limits(&self, differences: &Differences) -> Vec<String> {
+        let unknown = differences.unknown.then(|| {
+            "some cutting moves start or end at unknown coordinates, which were not compared".to_owned()
+        });
+        let names = || {
+            let each = self.not_compared.iter().map(|of| {
+                let sides = of.sides.iter().zip(&self.prepared).filter_map(|(side, prepared)| {
+                    let (count, place) = side.as_ref()?;
+                    let at = format!("{}:{}", place.file, place.line);
+                    // The file of the place says which program it is, unless it is one that both call.
+                    let of = if *place.file == *prepared.shown {
+                        String::new()
+                    } else {
+                        format!(" of {}", prepared.shown)
+                    };
+                    Some(if *count == 1 {
+                        format!("{at}{of}")
+                    } else {
+                        format!("{count} times from {at}{of} on")
+                    })
+                });
+                format!("{} ({})", of.name, sides.collect::<Vec<_>>().join(", "))
+            });
+            format!("not compared: {}", each.collect::<Vec<_>>().join(", "))
+        };
+        unknown.into_iter().chain((!self.not_compared.is_empty()).then(names)).collect()
     }
 
     fn parting(&self, out: &mut String, parting: &Parting) {
@@ -359,6 +389,18 @@ impl Sides<'_> {
                 json!({ "file": prepared.shown, "control": prepared.chosen.choice, "fault": fault })
             })
         };
+        let not_compared: Vec<Json> = self
+            .not_compared
+            .iter()
+            .map(|of| {
+                let [of_a, of_b] = &of.sides;
+                let side = |index: usize, side: &Option<(u64, Place)>| {
+                    side.as_ref()
+                        .map(|(count, first)| json!({ "count": count, "first": place(index, Some(first)) }))
+                };
+                json!({ "code": of.name, "a": side(0, of_a), "b": side(1, of_b) })
+            })
+            .collect();
         json!({
             "version": VERSION,
             "same": differences.is_same() && self.faults.iter().all(Option::is_none),
@@ -367,12 +409,22 @@ impl Sides<'_> {
             "a": side(0), "b": side(1),
             "moves": differences.moves,
             "unknown": differences.unknown,
+            "not_compared": not_compared,
             "parting": partings.first(),
             "partings": partings,
             "partings_count": differences.partings_count(),
             "corner": corner,
             "differences": by_aspect,
         })
+    }
+}
+
+/// What of two programs is not compared that move differently.
+pub(super) const fn rest(differences: &Differences) -> &'static str {
+    if differences.is_cut_short() {
+        "what follows is not compared"
+    } else {
+        "from there to the next tool change they are not compared"
     }
 }
 
