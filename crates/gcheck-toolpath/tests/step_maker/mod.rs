@@ -161,6 +161,7 @@ impl Run {
                 d: None,
                 beside: step.beside,
                 file: "part.nc",
+                calls: &[],
             });
         }
     }
