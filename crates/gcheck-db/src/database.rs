@@ -6,7 +6,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use gcheck_diagnostics::{Finding, RuleMeta, Severity};
-use gcheck_engine::{Look, Task, flow};
+use gcheck_engine::{Assumption, Look, Options, Task, flow};
 use gcheck_lint::{Assumptions, EditedFile, FileFacts, Incremental, Outcome, Work};
 use gcheck_program::Dialect;
 use gcheck_syntax::{Document, OutOfRange};
@@ -66,6 +66,10 @@ struct Open {
     analysis: Option<Arc<Analysis>>,
     chunks: Chunks,
     incremental: Incremental,
+    /// The same paths for people who look at a state, where the program calls others that are not here, or probes.
+    looked_at: Incremental,
+    /// The last analysis, of the whole or of its first part, came by such a call or a probe.
+    has_unknowns: bool,
 }
 
 impl Open {
@@ -78,6 +82,8 @@ impl Open {
     fn forget(&mut self) {
         self.changed();
         self.incremental = Incremental::new();
+        self.looked_at = Incremental::assuming();
+        self.has_unknowns = false;
     }
 
     fn snapshot(&mut self) -> Snapshot {
@@ -111,8 +117,17 @@ impl Open {
         let dialect = Dialect::new(&self.settings.control);
         let source = Asking { storage, chunks: &self.chunks };
         let edited = edited(&self.document, &self.settings, &dialect, &source, stop);
-        let mut keeper = Keeper::new(blocks.clone());
-        self.incremental.show_again(&edited, &keeper.executed(), &mut keeper, |keeper, look| {
+        let mut keeper = Keeper::new(blocks.clone(), self.has_unknowns);
+        let known = if self.has_unknowns {
+            // What is kept of an earlier text is taken up, as in any check.
+            if self.looked_at.check(&edited).is_err() {
+                return true;
+            }
+            &mut self.looked_at
+        } else {
+            &mut self.incremental
+        };
+        known.show_again(&edited, &keeper.executed(), &mut keeper, |keeper, look| {
             keeper.hand_on(look, stop, with);
         })
     }
@@ -127,10 +142,14 @@ impl Open {
     ) {
         let snapshot = self.snapshot();
         let (machine, fuel) = (&self.settings.machine.engine, self.settings.execution.fuel);
-        let mut keeper = Keeper::new(blocks);
+        let options = Options { assumes: true, ..Options::NONE };
         snapshot.with_program(|program, model| {
-            flow(program, model, machine, Task::all_paths(fuel), &mut keeper);
-            keeper.hand_on(&mut Look::new(program, model, machine), stop, with);
+            let mut keeper = Keeper::new(blocks, false);
+            let task = Task { options, ..Task::all_paths(fuel) };
+            let result = flow(program, model, machine, task, &mut keeper);
+            let is_assumed = result.assumptions.iter().any(is_unknown);
+            keeper.seen.values_mut().for_each(|state| state.is_assumed = is_assumed);
+            keeper.hand_on(&mut Look::with(program, model, machine, options), stop, with);
         });
     }
 
@@ -150,12 +169,21 @@ impl Open {
         let source = Asking { storage, chunks: &self.chunks };
         let edited = edited(&self.document, &self.settings, &dialect, &source, stop);
         let outcome = self.incremental.check(&edited).map_err(|_| Cancelled)?;
+        self.has_unknowns = outcome.assumptions.iter().any(is_unknown);
         let analysis = Arc::new(Analysis::of(outcome));
         self.analysis = Some(Arc::clone(&analysis));
         // One that was taken before would have to find out for itself what is known now.
         self.snapshot = None;
         Ok(analysis)
     }
+}
+
+/// Does a state stay known after this only where it is assumed to?
+fn is_unknown(assumption: &Assumption) -> bool {
+    matches!(
+        assumption,
+        Assumption::MissingProgram(_) | Assumption::MissingSubroutine(_) | Assumption::ProbeTouch
+    )
 }
 
 fn edited<'a>(
@@ -208,6 +236,8 @@ impl Database {
             analysis: None,
             chunks,
             incremental,
+            looked_at: Incremental::assuming(),
+            has_unknowns: false,
         };
         self.documents.insert(id, open);
         id
@@ -302,6 +332,7 @@ impl Database {
         let source = Asking { storage: &self.storage, chunks: &open.chunks };
         let edited = edited(&open.document, &open.settings, &dialect, &source, stop);
         let outcome = open.incremental.check_first(&edited, chunks).map_err(|_| Cancelled)?;
+        open.has_unknowns |= outcome.assumptions.iter().any(is_unknown);
         Ok(Some(Analysis::of(outcome)))
     }
 

@@ -27,6 +27,8 @@ pub struct StateAt {
     pub on_every_path: bool,
     /// How often it was executed: turns of loops and calls of its program.
     pub visits: u32,
+    /// The program calls others that are not here, or probes: these are assumed to change nothing, and to touch at their targets.
+    pub is_assumed: bool,
 }
 
 impl StateAt {
@@ -48,11 +50,13 @@ impl StateAt {
 pub(crate) struct Keeper {
     pub(crate) blocks: Range<u32>,
     pub(crate) seen: BTreeMap<u32, StateAt>,
+    /// What [`StateAt::is_assumed`] says of them.
+    assumed: bool,
 }
 
 impl Keeper {
-    pub(crate) fn new(blocks: Range<u32>) -> Self {
-        Self { blocks, seen: BTreeMap::new() }
+    pub(crate) fn new(blocks: Range<u32>, assumed: bool) -> Self {
+        Self { blocks, seen: BTreeMap::new(), assumed }
     }
 
     /// Hands on what was seen, unless it was cut short: then it is not all that comes by.
@@ -115,6 +119,7 @@ impl FlowObserver for Keeper {
                     returned: None,
                     on_every_path: cx.solo,
                     visits: 1,
+                    is_assumed: self.assumed,
                 };
                 self.seen.insert(block, seen);
             }

@@ -4,10 +4,14 @@
 
 use std::rc::Rc;
 
-use gcheck_program::line_starts;
+use gcheck_controls::{Effect, Letter};
+use gcheck_program::{Word, line_starts};
 
-use crate::origin::Origin;
+use crate::model::Model;
+use crate::origin::{At, Origin};
 use crate::program::Program;
+use crate::state::State;
+use crate::value::Domain;
 
 /// Finds names of files and lines of blocks; a file is read for lines when the first of its blocks is asked for.
 #[derive(Debug)]
@@ -50,6 +54,62 @@ impl BlockLines {
         slot.as_mut()
             .map_or_else(|| (Rc::from(""), 0), |file| (Rc::clone(&file.name), file.line(origin.start)))
     }
+
+    /// The same of a block by its number; line 0 where there is no such block.
+    fn of_block(&mut self, program: &Program<'_>, at: At) -> CallLine {
+        let file = program.file(at.file);
+        let place = file.and_then(|file| file.loaded.place(at.block, program.dialect()));
+        match place {
+            Some(place) => self.of(program, Origin { at, start: place.range().start, ..Origin::NONE }),
+            None => (Rc::from(""), 0),
+        }
+    }
+}
+
+/// A block that calls: the name of its file, and its line from 1.
+pub type CallLine = (Rc<str>, u32);
+
+/// The blocks that called the program under way, for what is made of each of its events.
+#[derive(Debug, Default)]
+pub struct CallLines {
+    at: Vec<At>,
+    lines: Vec<CallLine>,
+}
+
+impl CallLines {
+    /// The blocks that lead to an event: those that called, the outermost first, and the cycle whose outline its own block is of.
+    pub fn of<D: Domain>(
+        &mut self,
+        program: &Program<'_>,
+        lines: &mut BlockLines,
+        state: &State<D>,
+        cycle: Option<At>,
+    ) -> &[CallLine] {
+        let callers = || state.frames().iter().skip(1).map(|frame| frame.caller).chain(cycle);
+        if !callers().eq(self.at.iter().copied()) {
+            self.at = callers().collect();
+            self.lines = self.at.iter().map(|at| lines.of_block(program, *at)).collect();
+        }
+        &self.lines
+    }
+}
+
+/// The block, where it is a cycle that moves along the outline that other blocks of the program give.
+pub fn outline_cycle(program: &Program<'_>, model: &Model<'_>, origin: Origin) -> Option<At> {
+    // Such a block names the first and the last block of the outline.
+    let names = |letter| origin.letters.contains(Letter::of(letter));
+    if !(names('G') && names('P') && names('Q')) {
+        return None;
+    }
+    let file = program.file(origin.at.file)?;
+    let place = file.loaded.place(origin.at.block, program.dialect())?;
+    let is_cycle = |word: &Word| {
+        matches!(
+            model.effect(word.code),
+            Effect::FinishProfile | Effect::RoughAlongZ | Effect::RoughAlongX | Effect::RepeatPattern
+        )
+    };
+    place.table.words(place.block()).iter().any(is_cycle).then_some(origin.at)
 }
 
 impl FileLines {

@@ -28,7 +28,7 @@ mod value;
 mod words;
 
 pub use assumption::{Assumption, Unsettled};
-pub use block_lines::BlockLines;
+pub use block_lines::{BlockLines, CallLine, CallLines, outline_cycle};
 pub use cylinder::Cylinder;
 pub use event::*;
 pub use fault::{ArcFault, CompensationFault, CornerFault, CycleFault, Fault, ValueFault};

@@ -5,7 +5,7 @@
 
 use std::collections::BTreeMap;
 
-use gcheck_controls::CylinderRules;
+use gcheck_controls::{Control, CylinderRules, Unset};
 use gcheck_geometry::{Kinematics, Mm, MmPerMin, Rpm, Seconds};
 
 use crate::event::Units;
@@ -64,6 +64,8 @@ pub struct Machine {
     pub dynamics: Dynamics,
     /// What a run takes for what nobody told.
     pub guesses: Guesses,
+    /// The program is one that others call: feed, speed and tool are what they give, whatever that is.
+    pub is_called: bool,
 }
 
 /// What nobody told of a machine and its work, as one run may find it. An analysis of all paths takes none of it: there
@@ -201,6 +203,22 @@ impl Machine {
         Some(centre)
     }
 
+    /// The machine at the one run of a program that somebody looks at: a new bar is in the chuck, and where variables that
+    /// nobody set are zero, so is everything else after the control was switched on.
+    #[must_use]
+    pub fn just_switched_on(&self, control: &Control) -> Self {
+        let mut machine = self.clone();
+        machine.bar.starts_new = true;
+        if control.semantics().unset == Unset::Zero {
+            machine.fresh = true;
+            machine.start = machine.start.or(Some(Position::ZERO));
+            for tool in machine.tools.values_mut().filter(|tool| tool.offset.get(Axis::Z).is_none()) {
+                tool.offset.set(Axis::Z, 0.0);
+            }
+        }
+        machine
+    }
+
     /// The setting that gives cylinders on a rotary axis their diameter: the first is that of the machine's first rotary axis.
     pub fn cylinder_setting<'r>(&self, rotary: Axis, rules: &'r CylinderRules) -> Option<&'r str> {
         let rotary_axes: Vec<Axis> = match &self.axes {
@@ -215,7 +233,7 @@ impl Machine {
     }
 
     /// A setting's value: configured, or the default that the knowledge base assumes.
-    pub fn setting<'a>(&'a self, control: &'a gcheck_controls::Control, number: &str) -> Option<&'a str> {
+    pub fn setting<'a>(&'a self, control: &'a Control, number: &str) -> Option<&'a str> {
         match self.settings.get(number) {
             Some(value) => Some(value),
             None => control.setting(number)?.default.as_deref(),

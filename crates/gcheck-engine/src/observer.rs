@@ -2,6 +2,7 @@
 //!
 //! Knows: what is shown, and when. Must not know: what observers do with it.
 
+use crate::assumption::Assumption;
 use crate::event::Event;
 use crate::fault::Fault;
 use crate::origin::Origin;
@@ -36,6 +37,11 @@ pub trait Observer<D: Domain> {
         let _ = (origin, state, fault);
     }
 
+    /// A run takes something for granted, or leaves it unknown, in a block that is the first to need it.
+    fn assumed(&mut self, origin: Origin, assumption: &Assumption) {
+        let _ = (origin, assumption);
+    }
+
     /// Has it seen enough? A run asks now and then, and ends when it has.
     fn stops(&mut self) -> bool {
         false
@@ -67,6 +73,10 @@ impl<D: Domain, O: Observer<D>> Observer<D> for &mut O {
 
     fn fault(&mut self, origin: Origin, state: &State<D>, fault: &Fault) {
         (**self).fault(origin, state, fault);
+    }
+
+    fn assumed(&mut self, origin: Origin, assumption: &Assumption) {
+        (**self).assumed(origin, assumption);
     }
 
     fn stops(&mut self) -> bool {

@@ -96,7 +96,15 @@ pub fn run<O: Observer<Concrete>>(
     let mut blocks = 0;
     let mut feeds = 0;
     let mut ask_at = ASKED_EVERY;
+    let mut told = executor.assumptions.clone();
     let stopped = loop {
+        if executor.assumptions.len() > told.len() {
+            let origin = executor.origin();
+            for assumption in executor.assumptions.difference(&told) {
+                executor.observer.assumed(origin, assumption);
+            }
+            told.clone_from(&executor.assumptions);
+        }
         if blocks >= ask_at {
             if executor.observer.stops() {
                 break Stopped::OutOfFuel;
@@ -128,6 +136,11 @@ pub fn run<O: Observer<Concrete>>(
             Outcome::End(Ending::Restart) if executor.starts_again(&state) && executor.bar_feeds > feeds => {
                 feeds = executor.bar_feeds;
                 at = At { file: 0, block: 0 };
+            }
+            Outcome::End(Ending::Alarm(number)) if options.past_alarms => {
+                let origin = executor.origin();
+                alarms.add(&mut executor.observer, origin, &state, Fault::Alarm(number));
+                at = at.next();
             }
             Outcome::End(ending) => break Stopped::Ended(ending),
             Outcome::Fork(ways) => {

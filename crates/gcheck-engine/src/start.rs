@@ -52,6 +52,11 @@ pub(crate) fn start_state<D: Domain>(
         bar: Bar::at_start(machine),
     };
     start_bar_counters(model, machine, &mut state);
+    if machine.is_called {
+        state.feed.forget();
+        state.spindle.forget();
+        state.tool.number = D::unknown();
+    }
     state
 }
 

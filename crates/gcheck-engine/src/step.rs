@@ -63,11 +63,16 @@ pub struct Options {
     pub optional_stop: bool,
     /// A run goes on after a fault as the programmer would after correcting it, and where it cannot decide a condition.
     pub past_alarms: bool,
+    /// What nobody can know is taken as it most likely is, for people who look at a path: a program that is not here leaves
+    /// everything as it was, and a probe touches at its target.
+    pub assumes: bool,
 }
 
 impl Options {
     /// Nothing is skipped.
-    pub const NONE: Self = Self { skip: 0, optional_stop: false, past_alarms: false };
+    pub const NONE: Self = Self { skip: 0, optional_stop: false, past_alarms: false, assumes: false };
+    /// A path to be looked at: past alarms, with assumptions for what nobody can know.
+    pub const PICTURE: Self = Self { past_alarms: true, assumes: true, ..Self::NONE };
     /// Every `/` block is skipped.
     pub const SKIP_ALL: Self = Self { skip: u16::MAX, ..Self::NONE };
 

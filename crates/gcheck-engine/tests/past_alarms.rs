@@ -6,8 +6,8 @@ use std::fmt::Write as _;
 
 use expect_test::{Expect, expect};
 use gcheck_engine::{
-    Axis, Concrete, Event, Fault, Machine, Model, NoLibrary, Observer, Options, Origin, Position, Program,
-    State, run,
+    Assumption, Axis, Concrete, Event, Fault, Machine, Model, NoLibrary, Observer, Options, Origin, Position,
+    Program, State, run,
 };
 use gcheck_program::{Dialect, Loaded};
 
@@ -28,6 +28,12 @@ impl Observer<Concrete> for Moves {
     fn fault(&mut self, origin: Origin, _: &State<Concrete>, fault: &Fault) {
         writeln!(self.0, "block {}: {fault:?}", origin.at.block).unwrap();
     }
+
+    fn assumed(&mut self, origin: Origin, assumption: &Assumption) {
+        if matches!(assumption, Assumption::MissingProgram(_) | Assumption::ProbeTouch) {
+            writeln!(self.0, "block {}: assumed {assumption:?}", origin.at.block).unwrap();
+        }
+    }
 }
 
 fn shown(at: &Position) -> String {
@@ -36,13 +42,16 @@ fn shown(at: &Position) -> String {
 }
 
 fn check_on(control: &str, program: &str, expected: &Expect) {
+    check_with(Options { past_alarms: true, ..Options::NONE }, control, program, expected);
+}
+
+fn check_with(options: Options, control: &str, program: &str, expected: &Expect) {
     let control = gcheck_controls::load(control).unwrap();
     let dialect = Dialect::new(&control);
     let model = Model::new(&control);
     let loaded = Loaded::new(program, &dialect, |_, _, _| {});
     let program = Program::new(loaded, &dialect, &NoLibrary);
     let mut moves = Moves::default();
-    let options = Options { past_alarms: true, ..Options::NONE };
     let result = run(&program, &model, &Machine::default(), options, 1_000, &mut moves);
     writeln!(moves.0, "{:?}, {} alarms", result.stopped, result.alarms.len()).unwrap();
     expected.assert_eq(&moves.0);
@@ -158,12 +167,61 @@ fn what_a_strict_control_refuses_is_marked_and_done() {
 }
 
 #[test]
-fn an_alarm_of_the_program_itself_ends_it() {
+fn the_alarm_of_the_program_itself_is_marked_and_the_rest_is_run() {
     check(
-        "O1\nG21 G90 G0 X1.\n#3000=7 (NO PART)\nG0 X2.\nM30\n",
+        "O1\nG21 G90 G0 X1. Y0. Z50.\n#3000=7 (NO TOOL)\nG0 X2.\nM30\n",
         &expect![[r#"
-        rapid X1
-        Ended(Alarm(7)), 0 alarms
+        rapid X1 Y0 Z50
+        block 2: Alarm(7)
+        rapid X2 Y0 Z50
+        Ended(Program), 1 alarms
+    "#]],
+    );
+}
+
+#[test]
+fn for_a_picture_a_program_that_is_not_here_changes_nothing() {
+    let text = "O1\nG21 G90 G0 G54 X1. Y0.\nG43 H1 Z50.\nG65 P9832\nM98 P4711\nG1 Z-5. F200.\nM30\n";
+    check_with(
+        Options::PICTURE,
+        "fanuc-mill",
+        text,
+        &expect![[r#"
+        rapid X1 Y0
+        rapid X1 Y0 Z50
+        block 3: assumed MissingProgram(9832)
+        block 4: assumed MissingProgram(4711)
+        feed X1 Y0 Z-5
+        Ended(Program), 0 alarms
+    "#]],
+    );
+    check_on(
+        "fanuc-mill",
+        text,
+        &expect![[r#"
+        rapid X1 Y0
+        rapid X1 Y0 Z50
+        block 3: assumed MissingProgram(9832)
+        block 4: assumed MissingProgram(4711)
+        feed 
+        Ended(Program), 0 alarms
+    "#]],
+    );
+}
+
+#[test]
+fn for_a_picture_a_probe_touches_at_its_target() {
+    let text = "O1\nG21 G90 G0 G54 X1. Y0. Z2.\nG31 Z-1. F5.\n#500=#5063\nG1 Z[#500-.1] F50.\nM30\n";
+    check_with(
+        Options::PICTURE,
+        "haas-mill",
+        text,
+        &expect![[r#"
+        rapid X1 Y0 Z2
+        probe { toward: true, required: false, skip: true } X1 Y0 Z-1
+        block 2: assumed ProbeTouch
+        feed X1 Y0 Z-1.1
+        Ended(Program), 0 alarms
     "#]],
     );
 }

@@ -4,12 +4,14 @@
 
 use std::ops::Range;
 
-use gcheck_controls::Control;
+use gcheck_controls::{Code, Control, Effect, Letter};
 use gcheck_db::Snapshot;
 use gcheck_program::{OLabel, remark};
+use gcheck_syntax::SyntaxKind;
 
 use crate::remarks::is_directive;
 use crate::symbols::{Occurrence, Symbol, all_variables, program_around, subs};
+use crate::typing::Typing;
 use crate::{ReferenceKind, Workspace};
 
 /// Bytes of a file that is read for its arguments while somebody types.
@@ -65,6 +67,21 @@ pub(crate) fn arguments_of_sub(workspace: &Workspace, label: &OLabel) -> Option<
         known.unwrap_or(Argument { letter: String::new(), variable, is_needed: false, says: None })
     });
     Some(all.collect())
+}
+
+/// Does a code call a macro?
+pub(crate) fn is_call(code: Code<'_>) -> bool {
+    matches!(code.effect(), Effect::MacroCall | Effect::MacroModal)
+}
+
+/// The program that a macro call of the block names.
+pub(crate) fn called(typing: &Typing<'_>, code: Code<'_>) -> Option<u32> {
+    if !is_call(code) {
+        return None;
+    }
+    let names_program = |lexeme: &&crate::lexemes::Lexeme| typing.letter(lexeme) == Some(Letter::of('P'));
+    let word = typing.line.iter().filter(|lexeme| lexeme.kind == SyntaxKind::WORD).find(names_program)?;
+    typing.snapshot.slice(word.range.clone()).get(1..)?.trim().trim_end_matches('.').parse().ok()
 }
 
 /// The arguments that a part of a file reads, of those that it may be given, in the order of their variables.

@@ -5,12 +5,13 @@
 use std::ops::Range;
 
 use gcheck_db::{Cancelled, Snapshot};
-use gcheck_engine::{Axis, Model, Options, Units};
+use gcheck_engine::{Axis, Event, Fault, Machine, Model, TravelKind, Units};
 use gcheck_geometry::Bounds;
-use gcheck_toolpath::{Section, Statistics, Timing, Values, View};
+use gcheck_toolpath::{Beside, Section, Statistics, Step, Timing, Values, View};
 
+use crate::caller::Caller;
 use crate::number_text::{clock, coordinate, plain, unit};
-use crate::running::{LINEAR, Ran, Shown, run_through, view};
+use crate::running::{LINEAR, Pictured, Ran, Shown, picture, view};
 use crate::sections::{ToolSection, sections};
 
 /// What one run of a document amounts to. It takes a while: whoever shows it keeps it, and shows it until the next is there.
@@ -22,8 +23,10 @@ pub struct RunStatistics {
     pub seconds: f64,
     /// Where cutting moves of the whole run went, as text; empty when nothing was cut.
     pub extents: String,
-    /// How the run ended, in a few words, where it did not reach the program's end.
-    pub stopped: Option<String>,
+    /// The machine does more, in more time: something of the program is not in the figures.
+    pub is_less: bool,
+    /// Where the control would stop first, which way is not known, or how the run ended, in a few words.
+    pub remark: Option<String>,
 }
 
 /// What one tool section amounts to.
@@ -52,43 +55,114 @@ pub struct CodeLens {
     pub tooltip: String,
 }
 
-/// Runs the document for its figures, at most so many blocks.
+/// Runs the document for its figures, at most so many blocks; a macro with the arguments of a caller.
 ///
 /// # Errors
 /// [`Cancelled`] when `stop` said yes.
 pub fn run_statistics(
     snapshot: &Snapshot,
+    caller: Option<&Caller>,
     fuel: u64,
     stop: &dyn Fn() -> bool,
 ) -> Result<RunStatistics, Cancelled> {
     let model = Model::new(snapshot.control());
     let view = view(snapshot, &model);
-    let machine = &snapshot.settings().machine.engine;
-    let timing = Timing::of_machine(&model, machine);
-    let mut statistics = Statistics::new(view, timing, model.work_at_power_on());
-    let Ran { stopped, .. } = run_through(snapshot, machine, Options::NONE, fuel, stop, &mut |shown| {
-        if let Shown::Event(step) = shown {
-            statistics.add(step);
-        }
-    })?;
+    let begin = |machine: &Machine| {
+        let timing = Timing::of_machine(&model, machine);
+        (Statistics::new(view, timing, model.work_at_power_on()), Passed::default(), Tips::default())
+    };
+    let Pictured { shown: (statistics, passed, tips), ran: Ran { stopped, .. }, .. } =
+        picture(snapshot, caller, fuel, stop, begin, |(statistics, passed, tips), shown| match shown {
+            Shown::Event(step) => {
+                statistics.add(step);
+                tips.look(step, statistics.sections().len());
+            }
+            Shown::Alarm { file, line, fault, .. } => passed.alarm(file, *line, fault),
+            Shown::Assumed { assumption, .. } => passed.is_less |= assumption.leaves_moves_out(),
+        })?;
     let units = statistics.units();
     let total = statistics.total();
+    let unaccounted = total.unaccounted;
     // Sections that began in a called program belong to lines of other files.
-    let own = statistics.sections().iter().filter(|section| section.file.is_empty() && section.line > 0);
+    let all = statistics.sections().iter().enumerate();
+    let own = all.filter(|(_, section)| section.file.is_empty() && section.line > 0);
     Ok(RunStatistics {
         sections: own
-            .map(|section| SectionStatistics {
+            .map(|(ix, section)| SectionStatistics {
                 line: section.line - 1,
                 tool: section.tool,
                 seconds: section.times.total().0,
-                extents: extents(&section.cut, view, units),
+                extents: extents(
+                    tips.of.get(ix).filter(|of| !of.is_empty()).unwrap_or(&section.cut),
+                    view,
+                    units,
+                ),
                 details: details(section, units),
             })
             .collect(),
         seconds: total.times.total().0,
-        extents: extents(&total.cut, view, units),
-        stopped,
+        extents: extents(tips.all().as_ref().unwrap_or(&total.cut), view, units),
+        is_less: passed.is_less || stopped.is_some() || unaccounted.feeds + unaccounted.speeds > 0,
+        remark: passed.first.or(stopped),
     })
+}
+
+/// Where the tip of a tool that tilts went while it cut, by tool section: as far as it is known, else where the program was
+/// posted, as pictures show it.
+#[derive(Debug, Default)]
+struct Tips {
+    of: Vec<Bounds>,
+}
+
+impl Tips {
+    fn look(&mut self, step: &Step<'_>, sections: usize) {
+        let (Some(Beside::AlongTool { tip }), Event::Travel(travel)) = (step.beside, step.event) else {
+            return;
+        };
+        if travel.kind != TravelKind::Feed {
+            return;
+        }
+        self.of.resize(sections.max(self.of.len()), Bounds::EMPTY);
+        if let Some(of) = self.of.last_mut() {
+            for (axis, value) in tip.unwrap_or_else(|| step.aim.xyz()).into_iter().enumerate() {
+                if value.is_known() {
+                    of.include_on(axis, value.0);
+                }
+            }
+        }
+    }
+
+    /// Of all sections; `None` where no tool tilted.
+    fn all(&self) -> Option<Bounds> {
+        let mut all = Bounds::EMPTY;
+        for (of, axis) in self.of.iter().flat_map(|of| (0..3).map(move |axis| (of, axis))) {
+            if let Some((low, high)) = of.range(axis) {
+                all.include_on(axis, low);
+                all.include_on(axis, high);
+            }
+        }
+        (!all.is_empty()).then_some(all)
+    }
+}
+
+/// What a run went past.
+#[derive(Debug, Default)]
+struct Passed {
+    /// The first alarm or decision, in a few words.
+    first: Option<String>,
+    /// Not all that the machine does is in the figures.
+    is_less: bool,
+}
+
+impl Passed {
+    fn alarm(&mut self, file: &str, line: u32, fault: &Fault) {
+        self.is_less = true;
+        let place = if file.is_empty() { format!("line {line}") } else { format!("{file}, line {line}") };
+        self.first.get_or_insert_with(|| match fault {
+            Fault::Undecidable => format!("which way {place} goes is not known"),
+            _ => format!("the control would stop in {place}"),
+        });
+    }
 }
 
 /// `X 0 to 50, Z -5 to 2 mm`.
@@ -150,12 +224,13 @@ pub fn code_lenses(snapshot: &Snapshot, statistics: &RunStatistics) -> Vec<CodeL
     let Some(first) = snapshot.file_index().first_block.clone() else { return lenses };
     let line = |offset: u32| snapshot.line_range(snapshot.line_at(offset));
     let tools = statistics.sections.iter().filter(|section| section.tool.is_some()).count();
-    let mut title = format!("{} in all", clock(statistics.seconds));
+    let least = if statistics.is_less { "at least " } else { "" };
+    let mut title = format!("{least}{} in all", clock(statistics.seconds));
     if tools > 1 {
         title = format!("{title}, {tools} tool sections");
     }
-    if let Some(stopped) = &statistics.stopped {
-        title = format!("{title} ({stopped})");
+    if let Some(remark) = &statistics.remark {
+        title = format!("{title} ({remark})");
     }
     lenses.push(CodeLens { range: line(first.start), title, tooltip: statistics.extents.clone() });
     // A section is run again in a loop or by a call: its turns count together.
@@ -204,7 +279,7 @@ mod tests {
     fn check(control: &str, text: &str, expected: &Expect) {
         let snapshot = Fixture::new(control, text).snapshot();
         let lenses =
-            code_lenses(&snapshot, &run_statistics(&snapshot, 100_000, &|| false).unwrap()).into_iter();
+            code_lenses(&snapshot, &run_statistics(&snapshot, None, 100_000, &|| false).unwrap()).into_iter();
         let lines = lenses.map(|lens| {
             format!(
                 "{}\n  {}\n  {}\n",
@@ -242,14 +317,41 @@ mod tests {
             "haas-lathe",
             "O1\nG20 G54 T0101 (ROUGH)\nG97 S500 M3\nG0 X2. Z.1\nG1 Z-1. F.01\nG1 X1. Q\n",
             &expect![[r#"
-            1: O1
-              0:18 in all (the control would stop in line 6)
-              X 2, Z -1 to 0.1 inch
-            2: G20 G54 T0101 (ROUGH)
-              T1 · ROUGH · 0:18 · X 2, Z -1 to 0.1 inch
-              cutting 1.1 inch in 0:13 | rapid 0 inch in 0:00 | 0.01 inch/rev | 500 rpm | some moves are not in the time: their ends, feed or speed are not known
-        "#]],
+                1: O1
+                  at least 0:24 in all (the control would stop in line 6)
+                  X 1 to 2, Z -1 to 0.1 inch
+                2: G20 G54 T0101 (ROUGH)
+                  T1 · ROUGH · 0:24 · X 1 to 2, Z -1 to 0.1 inch
+                  cutting 1.6 inch in 0:19 | rapid 0 inch in 0:00 | 0.01 inch/rev | 500 rpm | some moves are not in the time: their ends, feed or speed are not known
+            "#]],
         );
+    }
+
+    #[test]
+    fn what_is_not_in_the_figures_makes_them_the_least() {
+        let text = "O1\nG21 G90 G54 G0 X0. Y0. Z2.\nG1 Z-1. F100.\nIF [#101 GT 1] GOTO 9\nX50.\nN9 G65 P4711\nX90.\nM30\n";
+        let snapshot = Fixture::new("fanuc-mill", text).snapshot();
+        let figures = run_statistics(&snapshot, None, 100_000, &|| false).unwrap();
+        let lenses = code_lenses(&snapshot, &figures);
+        assert_eq!(lenses[0].title, "at least 0:56 in all (which way line 4 goes is not known)");
+        let path = crate::toolpath(&snapshot, None, 100_000, crate::MAX_SEGMENTS, &|| false).unwrap();
+        assert!((path.seconds - figures.seconds).abs() < 1e-9, "the panel says {}", path.seconds);
+    }
+
+    #[test]
+    fn a_tool_that_tilts_cuts_where_the_picture_shows_its_tip() {
+        let text = "O1\nG20 G90 G54 T1 M6\nG0 X1. Y0. Z3. A0. B0.\nG143 H1 X1. Y0. Z3. A-15. B8.\nG1 X1.25 Z2. F20.\nX1.5\nM30\n";
+        let snapshot = Fixture::new("haas-mill", text).snapshot();
+        let figures = run_statistics(&snapshot, None, 100_000, &|| false).unwrap();
+        assert_eq!(figures.sections[0].extents, "X 1.25 to 1.5, Y 0, Z 2 inch");
+    }
+
+    #[test]
+    fn a_loop_without_an_end_is_run_for_a_moment() {
+        let text = "O1\nG21 G90 G54 G0 X0. Y0. Z2.\nWHILE [1 EQ 1] DO1\nG91 G1 X1. F100.\nEND1\nM30\n";
+        let snapshot = Fixture::new("haas-mill", text).snapshot();
+        let figures = run_statistics(&snapshot, None, u64::MAX, &|| false).unwrap();
+        assert_eq!(figures.remark.as_deref(), Some("ended after 3000000 blocks"));
     }
 
     #[test]

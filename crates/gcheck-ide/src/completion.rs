@@ -16,12 +16,14 @@ use gcheck_engine::{Abstract, Look, Role, State};
 use gcheck_program::{OKeyword, OLabel};
 use gcheck_syntax::SyntaxKind;
 
+use crate::arguments::{arguments, called};
 use crate::document_symbols::o_name;
 use crate::number_text::value;
 use crate::remarks::title;
-use crate::sections::sections;
+use crate::sections::{sections, tool_names};
 use crate::state_at::look_at;
 use crate::symbols::{parameter_key, parameter_names, program_around};
+use crate::tool_words::told_of_tool;
 use crate::typing::{Expected, Typing};
 use crate::{Workspace, describe, keywords};
 
@@ -147,11 +149,13 @@ pub fn completion(
         }
         Some('O') => items.o_words(workspace),
         Some('T') if is_number(prefix.get(1..)) => items.tools(),
+        Some(letter @ ('H' | 'D')) if is_number(prefix.get(1..)) && items.offsets(letter) => {}
         Some(letter) if items.named(workspace, prefix, letter) => {}
         // A number is being typed, or is complete: nobody knows which.
         Some(_) if prefix.bytes().any(|byte| byte.is_ascii_digit()) => {}
         Some(_) => {
             items.words(&Active::default());
+            items.arguments(workspace);
             items.keywords();
         }
         None => {
@@ -160,6 +164,7 @@ pub fn completion(
                 active = Active::of(state, look);
             });
             items.words(&active);
+            items.arguments(workspace);
             items.codes(&active, None);
             items.keywords();
         }
@@ -570,16 +575,40 @@ impl Items<'_, '_> {
                 }
                 offered.push(letter);
                 rank += 1;
+                // How deep a cycle goes comes first, though a control that has other planes lets it be left out.
+                let is_depth = letter == Letter::of('Z') && matches!(code.motion(), Motion::Cycle);
                 let needed = match word.need {
                     Need::Required => 0,
+                    Need::Modal | Need::Optional | Need::Conditional if is_depth => 0,
                     Need::Modal => 1_000,
                     Need::Optional | Need::Conditional => 2_000,
                 };
                 let text = if style.lower { word.letter.to_ascii_lowercase() } else { word.letter.clone() };
-                let need = if needed == 0 { String::new() } else { format!("{}, ", word.need_in_words()) };
+                let need = if word.need == Need::Required {
+                    String::new()
+                } else {
+                    format!("{}, ", word.need_in_words())
+                };
                 let description = format!("{} ({need}{})", word.is, word.values_in_words());
                 self.add(CompletionKind::Word, &text, &description, needed + rank);
             }
+        }
+    }
+
+    /// The letters that the macro of a call reads, with what its comments call them.
+    fn arguments(&mut self, workspace: &Workspace) {
+        let typing = self.typing;
+        let number = typing.codes().into_iter().find_map(|(_, code)| called(typing, code));
+        let taken = number.and_then(|number| arguments(workspace, typing.control(), number));
+        let present = typing.letters();
+        for (index, argument) in taken.unwrap_or_default().into_iter().enumerate() {
+            if Letter::parse(&argument.letter).is_some_and(|letter| present.contains(&letter)) {
+                continue;
+            }
+            let says = argument.says.as_ref().map(|says| format!("{says}, ")).unwrap_or_default();
+            let description = format!("{says}#{} of the macro", argument.variable);
+            let rank = if argument.is_needed { 0 } else { 1_000 } + index as u32;
+            self.add(CompletionKind::Word, &argument.letter, &description, rank);
         }
     }
 
@@ -672,6 +701,7 @@ impl Items<'_, '_> {
         if snapshot.len() > LARGE {
             return;
         }
+        let names = tool_names(snapshot);
         let mut known = Vec::new();
         for tool in sections(snapshot).tools {
             let is_typed = tool.word.end == self.typing.offset;
@@ -684,11 +714,62 @@ impl Items<'_, '_> {
             } else {
                 format!("T{number}")
             };
-            self.add(CompletionKind::Word, &text, &tool.name, number.min(9_999_999));
+            let told = told_of_tool(snapshot, &names, number).join(", ");
+            self.add(CompletionKind::Word, &text, &told, number.min(9_999_999));
+        }
+        // Then those of the machine. Where the offset is a part of the word, it is not known which one is meant.
+        let machine = &snapshot.settings().machine.engine;
+        let by_t = snapshot.control().semantics().tools.offset_in_t;
+        for number in
+            machine.tools.keys().copied().filter(|number| !by_t && !known.contains(number)).take(MOST)
+        {
+            let told = told_of_tool(snapshot, &names, number).join(", ");
+            self.add(CompletionKind::Word, &format!("T{number}"), &told, OWN + number.min(999_999));
         }
         if self.typed().len() > 1 {
             self.add_typed(CompletionKind::Word, "");
         }
+    }
+
+    /// Numbers of offsets: those of the tools, that of the tool in hand first. `false` where the address is no offset's.
+    fn offsets(&mut self, letter: char) -> bool {
+        let snapshot = self.typing.snapshot;
+        let is_offset = Letter::new(letter as u8).and_then(|letter| self.typing.entry(letter)).is_some_and(
+            |(code, _)| {
+                matches!(
+                    code.effect(),
+                    Effect::LengthPlus
+                        | Effect::LengthMinus
+                        | Effect::ToolCentrePoint
+                        | Effect::CompensationLeft
+                        | Effect::CompensationRight
+                )
+            },
+        );
+        if !is_offset || snapshot.len() > LARGE {
+            return false;
+        }
+        let sections = sections(snapshot).tools;
+        let here = sections.iter().rev().find(|tool| tool.change.start <= self.typing.offset);
+        let here = here.and_then(|tool| tool.tool);
+        let machine = &snapshot.settings().machine.engine;
+        let mut numbers: Vec<u32> = here
+            .into_iter()
+            .chain(sections.iter().filter_map(|tool| tool.tool))
+            .chain(machine.tools.keys().copied())
+            .collect();
+        let mut seen = std::collections::BTreeSet::new();
+        numbers.retain(|number| *number > 0 && seen.insert(*number));
+        let names = tool_names(snapshot);
+        for number in numbers.into_iter().take(MOST) {
+            let told = told_of_tool(snapshot, &names, number).join(", ");
+            let rank = if Some(number) == here { 0 } else { number.min(9_999_999) };
+            self.add(CompletionKind::Word, &format!("{letter}{number}"), &told, rank);
+        }
+        if self.typed().len() > 1 {
+            self.add_typed(CompletionKind::Word, "");
+        }
+        true
     }
 
     /// Numbered variables that the program sets, then the control's own.
@@ -1177,6 +1258,40 @@ mod tests {
                 Function ACOS | arc cosine, in degrees | #101=ACOS[$0]
                 Function ASIN | arc sine, in degrees | #101=ASIN[$0]
             "#]],
+        );
+    }
+
+    #[test]
+    fn a_call_offers_the_letters_that_the_macro_reads() {
+        check(
+            "fanuc-mill",
+            "O1\nG65 P9010 X1. $0\nM30\nO9010 (BORE)\n(A=START ANGLE)\nIF [#24 EQ #0] GOTO 9\nG1 X#24 A#1\nG1 Z#26\nN9 M99\n",
+            2,
+            &expect![[r#"
+                Word A | START ANGLE, #1 of the macro | G65 P9010 X1. A
+                Word Z | #26 of the macro | G65 P9010 X1. Z
+            "#]],
+        );
+    }
+
+    #[test]
+    fn offsets_are_those_of_the_tools_and_the_one_in_hand_comes_first() {
+        check(
+            "haas-mill",
+            "O1\nT1 M6 (DRILL)\nG43 H1 Z1.\nT2 M6 (END MILL)\nG43 H$0\n",
+            3,
+            &expect![[r#"
+                Word H2 | END MILL | G43 H2
+                Word H1 | DRILL | G43 H1
+            "#]],
+        );
+        check(
+            "haas-mill",
+            "O1\nT1 M6 (DRILL)\nG41 D$0\n",
+            3,
+            &expect![[r#"
+            Word D1 | DRILL | G41 D1
+        "#]],
         );
     }
 

@@ -15,15 +15,18 @@ use gcheck_program::{ExprIx, StatementKind, Value, Word};
 use gcheck_syntax::SyntaxKind;
 
 use crate::ReferenceKind;
+use crate::assumed::assumed;
 use crate::describe;
 use crate::foreign::Foreign;
 use crate::keywords;
 use crate::lexemes::{lexemes_of_line, touches};
 use crate::number_text::{coordinate, decimals, plain, unit, value};
 use crate::remarks::title;
+use crate::sections::tool_names;
 use crate::state_at::look_at;
 use crate::state_reader::{Item, StateReader};
 use crate::symbols::{Symbol, occurrences_in, program_around, symbol_at};
+use crate::tool_words::{told_of_tool, tool_of, tool_word_at};
 
 /// Places that set a variable which are shown.
 const MOST_ASSIGNMENTS: usize = 5;
@@ -299,6 +302,12 @@ impl Cx<'_> {
         })
     }
 
+    /// What the state rests on that nobody can know.
+    fn assumed(&self) -> Option<String> {
+        self.state.filter(|state| state.is_assumed)?;
+        assumed(self.snapshot, self.place.range().end).map(|words| format!("*{words}*"))
+    }
+
     /// Where the machine is before and after the block, what the block changes, and what else is in effect.
     fn around(&self, look: &Look<'_, '_>) -> String {
         let Some(state) = self.state else { return String::new() };
@@ -364,6 +373,7 @@ impl Cx<'_> {
             lines.push(format!("in effect: {}", list(&in_effect)));
         }
         lines.extend(self.way());
+        lines.extend(self.assumed());
         lines.join("\n\n")
     }
 
@@ -495,6 +505,16 @@ impl Cx<'_> {
         if let Some(occurrence) = target {
             let symbol = self.label_of(&occurrence.symbol).filter(|_| or_label).unwrap_or(occurrence.symbol);
             let _ = write!(text, "\n\n{}", self.symbol(&symbol, None));
+        }
+        let here = self.place.in_file(word.range());
+        let tool = tool_word_at(self.snapshot, here.end).filter(|word| word.range == here);
+        if let Some(tool) = tool {
+            let number = tool_of(self.snapshot, &tool);
+            let told = told_of_tool(self.snapshot, &tool_names(self.snapshot), number);
+            if !told.is_empty() {
+                let told: Vec<String> = told.iter().map(|told| Foreign::Prose(told).to_string()).collect();
+                let _ = write!(text, "\n\ntool {number}: {}", told.join(", "));
+            }
         }
         if let (Some(look), Some(axis), None) = (look, moved.axis.filter(|_| moved.is_target), calls) {
             text.push_str(&self.coordinate(axis, look));
@@ -740,6 +760,24 @@ impl Cx<'_> {
         text
     }
 
+    /// The file that holds a program, and what its head calls it.
+    fn elsewhere(&self, symbol: &Symbol) -> Option<String> {
+        let Symbol::Program(number) = symbol else { return None };
+        let source = self.snapshot.settings().programs.source_of_number(*number)?;
+        let is_head = |line: &&str| {
+            let line = line.trim_start();
+            line.strip_prefix(['O', 'o', ':']).is_some_and(|rest| {
+                let digits = rest.trim_start_matches('0');
+                digits
+                    .strip_prefix(&number.to_string())
+                    .is_some_and(|rest| !rest.starts_with(|c: char| c.is_ascii_digit()))
+            })
+        };
+        let title = source.text.lines().find(is_head).and_then(title);
+        let title = title.map(|title| format!(" ({})", Foreign::Prose(title))).unwrap_or_default();
+        Some(format!(", in {}{title}", Foreign::Code(&source.name)))
+    }
+
     /// Where a label, program or subroutine is, and how many places of the file name it.
     fn named_places(&self, symbol: &Symbol) -> String {
         let occurrences = occurrences_in(self.snapshot, symbol);
@@ -764,7 +802,7 @@ impl Cx<'_> {
                     title(&text).map(|title| format!(" ({})", Foreign::Prose(title))).unwrap_or_default();
                 format!(", line {}{comment}: {}", line + 1, Foreign::Code(text.trim()))
             }
-            None => ", not in this file".to_owned(),
+            None => self.elsewhere(symbol).unwrap_or_else(|| ", not in this file".to_owned()),
         };
         let named = match uses {
             0 => "nothing in this file names it".to_owned(),
@@ -924,6 +962,72 @@ mod tests {
     }
 
     #[test]
+    fn a_tool_shows_its_name_and_what_the_configuration_tells_of_it() {
+        check(
+            "haas-mill",
+            "%\nO1\nG21\nT3 M6 (10 MM END MILL)\nG43 $0H3 Z1.\nM30\n%\n",
+            &expect![[r#"
+            [H3]
+            **H** length offset, normally that of the tool in the spindle; H0 cancels (`G43`), here or earlier, whole number, 0 to 2999, but not 201 to 999
+
+            tool 3: 10 MM END MILL
+        "#]],
+        );
+    }
+
+    #[test]
+    fn after_a_program_that_is_not_here_the_state_goes_on_as_assumed() {
+        check(
+            "fanuc-mill",
+            "O1\nG21 G90 G0 G54 X0. Y0.\nG43 H1 Z50.\nG65 P9832\nG65 P9810 Z10. F1000.\nG0 X5.\n$0G1 Z-5. F200.\nM30\n",
+            &expect![[r#"
+                [G1]
+                **G1** linear interpolation
+
+                `X5 Y0 Z50` → `X5 Y0 Z-5`
+
+                `G0` → `G1`, `F200 mm/min`
+
+                in effect: `G17` `G90` `G94` `G21` `G43` `G98` `G54` `G64` `G97` `spindle stopped` `H1`
+
+                *assumed: O9832 and O9810, which were not found, change nothing*
+
+                ---
+
+                Moves in a straight line at the feed rate. *(motion, stays in effect)*
+
+                needs `F`, may have `X` `Y` `Z` `A` `B` `C` `U` `V` `W` `,R` `,C` `,A`
+            "#]],
+        );
+    }
+
+    #[test]
+    fn after_a_probing_move_the_state_goes_on_at_its_target() {
+        check(
+            "haas-mill",
+            "O1\nG21 G90 G0 G54 X0. Y0. Z2.\nG31 Z-1. F5.\n$0G1 X5. F200.\nM30\n",
+            &expect![[r#"
+                [G1]
+                **G1** straight cut at feed
+
+                `X0 Y0 Z-1` → `X5 Y0 Z-1`
+
+                `G0` → `G1`, `F5 mm/min` → `F200 mm/min`
+
+                in effect: `G17` `G90` `G94` `G21` `G98` `G54` `G64` `spindle stopped`
+
+                *assumed: the probe touches at its target*
+
+                ---
+
+                Moves the named axes on a straight line at the programmed feed. *(motion, stays in effect)*
+
+                needs `F`, may have `X` `Y` `Z` `A` `B` `C` `U` `V` `W` `L` `,C` `,R`
+            "#]],
+        );
+    }
+
+    #[test]
     fn a_tool_with_teeth_shows_chip_load_and_surface_speed_and_blending_its_tolerance() {
         let mut settings = Settings::new(gcheck_controls::load("linuxcnc").unwrap(), gcheck_rules::RULES);
         let mut machine = (*settings.machine).clone();
@@ -973,7 +1077,11 @@ mod tests {
                 [M98]
                 **M98** subprogram call
 
-                `G18` → not known, `G390` → not known, `G99` → not known, `G21` → not known, `G54` → not known, `G64` → not known, `G97` → not known, `G170` → not known, `S500 rpm` → not known, `spindle clockwise` → `spindle turning or not`
+                changes no mode
+
+                in effect: `G18` `G390` `G99` `G21` `G54` `G64` `G97` `G170` `S500 rpm` `spindle clockwise`
+
+                *assumed: O77, which was not found, changes nothing*
 
                 ---
 

@@ -12,7 +12,9 @@
 //! No feature fails: an offset beyond the text, inside a character or in a broken program has no answer, or a poorer one.
 
 mod arguments;
+mod assumed;
 mod call_hierarchy;
+mod caller;
 mod code_actions;
 mod code_lens;
 mod completion;
@@ -45,12 +47,14 @@ mod state_at;
 mod state_reader;
 mod symbols;
 mod syntax_tree;
+mod tool_words;
 mod toolpath;
 mod typing;
 mod workspace;
 mod workspace_symbols;
 
 pub use call_hierarchy::{CallItem, Incoming, Outgoing, call_items, incoming_calls, outgoing_calls};
+pub use caller::{Caller, caller};
 pub use code_actions::{
     ActionKind, CodeAction, Proved, ProvedChange, code_actions, proved, proved_change_at, proved_changes,
 };
@@ -77,7 +81,7 @@ pub use rename::{RenameRefused, RenameTarget, prepare_rename, rename};
 pub use selection::selection_ranges;
 pub use semantic_tokens::{SemanticToken, TOKEN_MODIFIERS, TOKEN_TYPES, semantic_tokens};
 pub use signature_help::{Parameter, Signature, TRIGGERS as SIGNATURE_TRIGGERS, signature_help};
-pub use state_at::{AxisPlaces, ModeView, StateSide, StateView, VariableView, state_at};
+pub use state_at::{AxisPlaces, CallView, ModeView, StateSide, StateView, ToolView, VariableView, state_at};
 pub use symbols::ReferenceKind;
 pub use syntax_tree::syntax_tree;
 pub use toolpath::{MAX_SEGMENTS, PassedAlarm, Toolpath, toolpath};

@@ -7,6 +7,7 @@ use std::ops::Range;
 use gcheck_db::DocumentId;
 
 use crate::symbols::{Occurrence, ReferenceKind, occurrences, returned_to, symbol_at};
+use crate::tool_words::{tool_word_at, tool_words};
 use crate::{Place, Workspace};
 
 /// A place that names a symbol.
@@ -33,6 +34,13 @@ pub fn references(
         Some(occurrence) => vec![(document, occurrence)],
         None => returned_to(workspace, file, offset),
     };
+    if named.is_empty()
+        && let Some(word) = tool_word_at(&file.snapshot, offset)
+    {
+        let words = tool_words(&file.snapshot, word.letter, word.number).into_iter();
+        let place = |range| Place { file: document, range };
+        return words.map(|word| Reference { place: place(word.range), kind: ReferenceKind::Read }).collect();
+    }
     let all = named.iter().flat_map(|(owner, named)| occurrences(workspace, *owner, &named.symbol));
     let mut seen: Vec<(DocumentId, Range<u32>)> = Vec::new();
     let is_new = |(file, occurrence): &(DocumentId, Occurrence)| {
@@ -67,6 +75,26 @@ mod tests {
             format!("{}{sets}\n", fixture.shown(place.place.file, &place.place.range))
         };
         expected.assert_eq(&all.iter().map(line).collect::<String>());
+    }
+
+    #[test]
+    fn words_of_a_tool_within_the_program() {
+        check(
+            "haas-mill",
+            "O1\nT3 M6\nG43 H3 Z1.\nG41 D3 X1.\nT4 M6\nT$03 M6\nG43 H03 Z1.\nM30\n",
+            &expect![[r#"
+                2: T3
+                6: T3
+            "#]],
+        );
+        check(
+            "haas-mill",
+            "O1\nT3 M6\nG43 H$03 Z1.\nG43 H4\nG49\nG43 H3\nM30\n",
+            &expect![[r#"
+            3: H3
+            6: H3
+        "#]],
+        );
     }
 
     #[test]

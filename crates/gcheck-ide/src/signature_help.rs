@@ -7,12 +7,12 @@
 use std::fmt::Write as _;
 use std::ops::Range;
 
-use gcheck_controls::{Code, Control, Effect, Letter, Need, WordEntry};
+use gcheck_controls::{Code, Control, Letter, Need, WordEntry};
 use gcheck_db::{Database, DocumentId};
 use gcheck_engine::{Abstract, Domain as _, Look, State};
 use gcheck_syntax::SyntaxKind;
 
-use crate::arguments::{Argument, arguments, arguments_of_sub};
+use crate::arguments::{Argument, arguments, arguments_of_sub, called, is_call};
 use crate::completion::{Knowledge, with_state};
 use crate::typing::Typing;
 use crate::{Workspace, describe};
@@ -151,20 +151,6 @@ fn call_of_sub(workspace: &Workspace, typing: &Typing<'_>, is_asked: bool) -> Op
     let documentation = "calls the subroutine; an argument that is left out is 0".to_owned();
     // Editors count in other units than bytes.
     text.is_ascii().then_some(Signature { label: text, documentation, parameters, active })
-}
-
-fn is_call(code: Code<'_>) -> bool {
-    matches!(code.effect(), Effect::MacroCall | Effect::MacroModal)
-}
-
-/// The program that a macro call of the block names.
-fn called(typing: &Typing<'_>, code: Code<'_>) -> Option<u32> {
-    if !is_call(code) {
-        return None;
-    }
-    let names_program = |lexeme: &&crate::lexemes::Lexeme| typing.letter(lexeme) == Some(Letter::of('P'));
-    let word = typing.line.iter().filter(|lexeme| lexeme.kind == SyntaxKind::WORD).find(names_program)?;
-    typing.snapshot.slice(word.range.clone()).get(1..)?.trim().trim_end_matches('.').parse().ok()
 }
 
 /// Was a word that may be given earlier given?

@@ -5,11 +5,16 @@
 use std::collections::BTreeMap;
 
 use gcheck_db::{Cancelled, Database, DocumentId, Snapshot, StateAt};
-use gcheck_engine::{Abstract, AbstractValue, Fact, Look, Position, ReachingDefinitions, Role, State};
+use gcheck_engine::{
+    Abstract, AbstractValue, At, Axis, Fact, Look, Position, ReachingDefinitions, Role, State,
+};
+use gcheck_program::line_starts;
 use serde::Serialize;
 
+use crate::assumed::assumed;
 use crate::number_text::{in_units, unit, value};
-use crate::state_reader::StateReader;
+use crate::sections::tool_names;
+use crate::state_reader::{StateReader, tool_of};
 
 /// Variables that are shown.
 const MOST_VARIABLES: usize = 200;
@@ -28,6 +33,10 @@ pub struct StateView {
     pub on_every_path: bool,
     /// How often it was executed: turns of loops and calls.
     pub visits: u32,
+    /// What it rests on that nobody can know, in a few words: that a program which was not found changes nothing.
+    pub assumed: Option<String>,
+    /// The blocks that call the program of the block, the outermost first; the last alone where nobody knows who called it.
+    pub calls: Vec<CallView>,
     /// Before the block.
     pub before: StateSide,
     /// After it; of a call, when the program is back. `None` when the program does not go on from here.
@@ -52,6 +61,12 @@ pub struct StateSide {
     pub spindle: &'static str,
     /// The tool in the spindle; `None` not known.
     pub tool: Option<String>,
+    /// What program and configuration tell of that tool.
+    pub tool_is: Option<ToolView>,
+    /// The speed of its edge with the unit, where its diameter and the speed are known.
+    pub surface_speed: Option<String>,
+    /// What each of its teeth cuts with the unit, where they are known.
+    pub chip_load: Option<String>,
     /// The tool called for.
     pub selected_tool: Option<String>,
     /// Number of the tool length offset (`H`); 0 for none.
@@ -76,6 +91,30 @@ pub struct StateSide {
     pub shift: AxisPlaces,
     /// Variables that the program uses.
     pub variables: Vec<VariableView>,
+}
+
+/// A tool, as far as somebody told.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(rename_all = "camelCase")]
+pub struct ToolView {
+    /// What the program calls it.
+    pub name: Option<String>,
+    /// Its length, in the units of the program.
+    pub length: Option<f64>,
+    /// Its diameter, in the units of the program.
+    pub diameter: Option<f64>,
+}
+
+/// A block that calls a program.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "camelCase")]
+pub struct CallView {
+    /// The block.
+    pub text: String,
+    /// Its file; empty for the document.
+    pub file: String,
+    /// Its line, from 1.
+    pub line: u32,
 }
 
 /// What a modal group decides and what may be active of it.
@@ -133,6 +172,8 @@ pub fn state_at(
             end: range.end,
             on_every_path: state.on_every_path,
             visits: state.visits,
+            assumed: if state.is_assumed { assumed(&snapshot, range.end) } else { None },
+            calls: calls(look, &state.before),
             before,
             after,
         });
@@ -171,6 +212,9 @@ fn side(
         speed: reader.speed(state),
         spindle: StateReader::spindle(state),
         tool: number(state.tool()),
+        tool_is: tool(reader, state),
+        surface_speed: reader.edge_speed(state),
+        chip_load: reader.chip_load(state),
         selected_tool: number(state.selected()),
         length_offset: number(state.h()),
         cutter_offset: number(state.d()),
@@ -184,6 +228,39 @@ fn side(
         shift: named(&state.shift()),
         variables: variables(reader.snapshot, look, state),
     }
+}
+
+/// What is told of the tool in the spindle.
+fn tool(reader: &StateReader<'_>, state: &State<Abstract>) -> Option<ToolView> {
+    let number = tool_of(state)?;
+    let machine = &reader.snapshot.settings().machine.engine;
+    let entry = machine.tools.get(&number);
+    let units = reader.units(state);
+    let shown = |mm: f64| mm.is_finite().then(|| rounded(mm / units.in_mm()));
+    let view = ToolView {
+        name: tool_names(reader.snapshot).get(number).map(str::to_owned),
+        length: entry.and_then(|entry| shown(entry.offset.raw(Axis::Z))),
+        diameter: entry.and_then(|entry| shown(entry.diameter.0)),
+    };
+    (view.name.is_some() || view.length.is_some() || view.diameter.is_some()).then_some(view)
+}
+
+/// The blocks that led to the program of a state.
+fn calls(look: &Look<'_, '_>, state: &State<Abstract>) -> Vec<CallView> {
+    let program = look.program();
+    let view = |caller: At| {
+        let file = program.file(caller.file)?;
+        let start = file.loaded.place(caller.block, program.dialect())?.range().start;
+        let line = line_starts(&file.loaded.text()).partition_point(|line| *line <= start) as u32;
+        let text = file.loaded.line_from(start).trim().to_owned();
+        Some(CallView { text, file: file.name.to_string(), line })
+    };
+    state.frames().iter().skip(1).filter_map(|frame| view(frame.caller)).collect()
+}
+
+/// Nobody reads more than six decimals, and after them there is only the noise of conversions.
+fn rounded(value: f64) -> f64 {
+    (value * 1e6).round() / 1e6 + 0.0
 }
 
 fn mode(
@@ -206,8 +283,6 @@ fn mode(
 /// A point by axis, in the units of the program.
 fn axes(reader: &StateReader<'_>, state: &State<Abstract>, point: &Position) -> AxisPlaces {
     let (units, diameter) = (reader.units(state), reader.diameter(state));
-    // Nobody reads more than six decimals, and after them there is only the noise of conversions.
-    let rounded = |value: f64| (value * 1e6).round() / 1e6 + 0.0;
     let value = |axis| point.get(axis).map(|value| rounded(in_units(axis, value, units, diameter)));
     reader.axes().into_iter().map(|axis| (axis.name(), value(axis))).collect()
 }
@@ -263,6 +338,26 @@ mod tests {
     }
 
     #[test]
+    fn a_tool_with_its_name_and_the_calls_that_lead_to_the_block() {
+        let text = "O1\nG21 G90 G54\nT3 M6 (END MILL)\nM97 P100 L2\nM30\nN100 G0 X1.\nM97 P200\nM99\nN200 G0 Y$01.\nM99\n";
+        let mut fixture = Fixture::new("haas-mill", text);
+        let view =
+            state_at(&mut fixture.database, fixture.document, fixture.offset, &|| false).unwrap().unwrap();
+        assert_eq!(view.before.tool_is.unwrap().name.as_deref(), Some("END MILL"));
+        let calls: Vec<_> = view.calls.iter().map(|call| (call.text.as_str(), call.line)).collect();
+        assert_eq!(calls, [("M97 P100 L2", 4), ("M97 P200", 7)]);
+    }
+
+    #[test]
+    fn the_tip_goes_where_the_program_says_however_long_the_tool_is() {
+        let text = "O1\nG21 G90 G54 G0 X1. Y2.\nT3 M6\nG43 H3 Z5.\n$0G1 Z-1. F100.\nM30\n";
+        let mut fixture = Fixture::new("haas-mill", text);
+        let view =
+            state_at(&mut fixture.database, fixture.document, fixture.offset, &|| false).unwrap().unwrap();
+        assert_eq!(view.before.tip.get(&'Z'), Some(&Some(5.0)));
+    }
+
+    #[test]
     #[expect(clippy::too_many_lines, reason = "a view has many parts")]
     fn modes_places_and_variables() {
         check(
@@ -276,6 +371,8 @@ mod tests {
                         end: 48,
                         on_every_path: true,
                         visits: 1,
+                        assumed: None,
+                        calls: [],
                         before: StateSide {
                             units: "inch",
                             diameter: false,
@@ -398,6 +495,9 @@ mod tests {
                             speed: None,
                             spindle: "spindle stopped",
                             tool: None,
+                            tool_is: None,
+                            surface_speed: None,
+                            chip_load: None,
                             selected_tool: None,
                             length_offset: Some(
                                 "0",
@@ -595,6 +695,9 @@ mod tests {
                                 speed: None,
                                 spindle: "spindle stopped",
                                 tool: None,
+                                tool_is: None,
+                                surface_speed: None,
+                                chip_load: None,
                                 selected_tool: None,
                                 length_offset: Some(
                                     "0",
@@ -688,6 +791,8 @@ mod tests {
                         end: 39,
                         on_every_path: true,
                         visits: 1,
+                        assumed: None,
+                        calls: [],
                         before: StateSide {
                             units: "inch",
                             diameter: true,
@@ -831,6 +936,9 @@ mod tests {
                             tool: Some(
                                 "1",
                             ),
+                            tool_is: None,
+                            surface_speed: None,
+                            chip_load: None,
                             selected_tool: Some(
                                 "1",
                             ),
@@ -1031,6 +1139,9 @@ mod tests {
                                 tool: Some(
                                     "1",
                                 ),
+                                tool_is: None,
+                                surface_speed: None,
+                                chip_load: None,
                                 selected_tool: Some(
                                     "1",
                                 ),

@@ -157,8 +157,8 @@ impl<'a> StateReader<'a> {
         Some(format!("F{}{unit}", number(word)?))
     }
 
-    /// `, 0.025 mm a tooth`: what each tooth of a tool with known teeth cuts.
-    fn chip_load(&self, state: &State<Abstract>) -> Option<String> {
+    /// `0.025 mm a tooth`: what each tooth of a tool with known teeth cuts.
+    pub(crate) fn chip_load(&self, state: &State<Abstract>) -> Option<String> {
         let feed = Abstract::known(state.feed())?;
         let per_turn = match state.feed_mode(self.model)? {
             FeedMode::PerMinute => feed / self.turns(state)?,
@@ -168,7 +168,7 @@ impl<'a> StateReader<'a> {
         let machine = &self.snapshot.settings().machine.engine;
         let load = machine.cutting.get(&tool_of(state)?)?.load(per_turn)?;
         let units = self.units(state);
-        Some(format!(", {} {} a tooth", plain(load.0 / units.in_mm(), decimals(units) + 1), unit(units)))
+        Some(format!("{} {} a tooth", plain(load.0 / units.in_mm(), decimals(units) + 1), unit(units)))
     }
 
     /// The speed of the spindle, where it is one number and greater than zero.
@@ -177,8 +177,8 @@ impl<'a> StateReader<'a> {
         Abstract::known(state.speed()).filter(|turns| *turns > 0.0 && !is_surface)
     }
 
-    /// `, 94 m/min`: how fast the edge of a milling tool with a known diameter runs.
-    fn edge_speed(&self, state: &State<Abstract>) -> Option<String> {
+    /// `94 m/min`: how fast the edge of a milling tool with a known diameter runs.
+    pub(crate) fn edge_speed(&self, state: &State<Abstract>) -> Option<String> {
         if self.model.control().machine() != gcheck_controls::Machine::Mill {
             return None;
         }
@@ -189,7 +189,7 @@ impl<'a> StateReader<'a> {
             Units::Inch => (speed / 0.3048, "ft/min"),
             Units::Mm => (speed, "m/min"),
         };
-        (speed.is_finite() && speed > 0.0).then(|| format!(", {} {unit}", plain(speed, 0)))
+        (speed.is_finite() && speed > 0.0).then(|| format!("{} {unit}", plain(speed, 0)))
     }
 
     /// `S1200 rpm`; `None` when none was given.
@@ -269,7 +269,8 @@ impl<'a> StateReader<'a> {
             let machine = &self.snapshot.settings().machine.engine;
             #[expect(clippy::cast_sign_loss, reason = "not negative")]
             let tip = h.and_then(|h| gcheck_toolpath::tip_of_posted(machine, h as u32, state.position()));
-            return tip.map_or(Position::UNKNOWN, |tip| state.position().with_xyz(tip));
+            // Where the program was posted is all that is known of the tip then, and what pictures show.
+            return tip.map_or(*state.position(), |tip| state.position().with_xyz(tip));
         }
         // A tool that tilts, or is shifted along itself, has its tip elsewhere.
         let tilts = state.tool_shift().along_tool().is_some() || state.tool_shift().along_vectors().is_some();
@@ -277,11 +278,18 @@ impl<'a> StateReader<'a> {
             && self.axes().iter().any(|axis| axis.is_rotary() && state.actual().raw(*axis) != 0.0);
         #[expect(clippy::cast_sign_loss, reason = "tool numbers are not negative")]
         let tool = Abstract::known(state.tool()).filter(|tool| *tool > 0.0).map(|tool| tool as u32);
-        let Some(entry) = tool.and_then(|tool| state.tables().tool(tool)).filter(|_| !tilts && !turned)
-        else {
+        if tilts || turned {
             return Position::UNKNOWN;
-        };
-        work + *state.length() - entry.offset
+        }
+        let entry = tool.and_then(|tool| state.tables().tool(tool));
+        let tip = entry.map_or(Position::UNKNOWN, |entry| work + *state.length() - entry.offset);
+        if tip.xyz().iter().all(|value| value.is_known()) {
+            return tip;
+        }
+        // However long the tool is: with its own length in effect the program says where the tip goes.
+        let is_own = Abstract::known(state.h()).is_some_and(|h| h > 0.0);
+        let is_on = state.effect(Role::Length, self.model).is_some_and(|effect| effect == Effect::LengthPlus);
+        if is_on && is_own { work } else { tip }
     }
 
     /// `X1.5 Y2 Z-3`, unknown coordinates left out.
@@ -316,9 +324,12 @@ impl<'a> StateReader<'a> {
     pub(crate) fn items(&self, state: &State<Abstract>) -> Vec<(Item, String)> {
         let mut items: Vec<(Item, String)> =
             self.codes(state).into_iter().map(|(role, code)| (Item::Mode(role), code)).collect();
-        let (load, edge) = (self.chip_load(state), self.edge_speed(state));
-        items.extend(self.feed(state).map(|feed| (Item::Feed, feed + &load.unwrap_or_default())));
-        items.extend(self.speed(state).map(|speed| (Item::Speed, speed + &edge.unwrap_or_default())));
+        let with = |text: String, more: Option<String>| match more {
+            Some(more) => format!("{text}, {more}"),
+            None => text,
+        };
+        items.extend(self.feed(state).map(|feed| (Item::Feed, with(feed, self.chip_load(state)))));
+        items.extend(self.speed(state).map(|speed| (Item::Speed, with(speed, self.edge_speed(state)))));
         items.push((Item::Spindle, Self::spindle(state).to_owned()));
         items.extend(Self::numbers(state));
         match state.coolant() {
@@ -343,7 +354,7 @@ pub(crate) enum Item {
 }
 
 /// The number of the tool in the spindle, where it is known.
-fn tool_of(state: &State<Abstract>) -> Option<u32> {
+pub(crate) fn tool_of(state: &State<Abstract>) -> Option<u32> {
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,

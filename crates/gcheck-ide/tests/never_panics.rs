@@ -166,7 +166,7 @@ fn ask_everything(world: &mut World, offset: u32, other: u32, new_name: &str) {
     for hint in gcheck_ide::inlay_hints(&mut world.database, id, range.clone(), options, &go).unwrap() {
         assert!(hint.offset <= end);
     }
-    let statistics = gcheck_ide::run_statistics(&snapshot, 500, &|| false).unwrap();
+    let statistics = gcheck_ide::run_statistics(&snapshot, None, 500, &|| false).unwrap();
     for lens in gcheck_ide::code_lenses(&snapshot, &statistics) {
         world.inside(id, &lens.range);
     }
@@ -182,7 +182,7 @@ fn ask_everything(world: &mut World, offset: u32, other: u32, new_name: &str) {
         world.inside(id, &link.range);
         world.inside(link.target.file, &link.target.range);
     }
-    let _ = gcheck_ide::toolpath(&snapshot, 500, 100, &|| false);
+    let _ = gcheck_ide::toolpath(&snapshot, None, 500, 100, &|| false);
     let _ = gcheck_ide::state_at(&mut world.database, id, offset, &go).unwrap();
     let _ = gcheck_ide::syntax_tree(&snapshot, Some(offset));
     let _ = gcheck_ide::syntax_tree(&snapshot, None);

@@ -129,6 +129,25 @@ pub fn describe(assumption: &Assumption, model: &Model<'_>) -> StatedAssumption 
     }
 }
 
+/// What a picture of a path says of an assumption, at the block that is the first to need it; `None` for what changes no move.
+pub fn in_picture(assumption: &Assumption, model: &Model<'_>) -> Option<String> {
+    match assumption {
+        Assumption::MissingProgram(number) => Some(format!(
+            "program {number} was not found; what it does is not drawn, and modes and position are assumed to stay as they were"
+        )),
+        Assumption::MissingSubroutine(name) => Some(format!(
+            "the subroutine `{name}` was not found; what it does is not drawn, and modes and position are assumed to stay as they were"
+        )),
+        Assumption::ProbeTouch => {
+            Some("probing moves are assumed to touch at the ends of their moves".to_owned())
+        }
+        _ if assumption.leaves_moves_out() => {
+            Some(format!("not drawn: {}", describe(assumption, model).text))
+        }
+        _ => None,
+    }
+}
+
 /// Words for what paths differ in where they become one.
 fn unsettled(what: Unsettled) -> &'static str {
     match what {

@@ -15,7 +15,7 @@ use std::rc::Rc;
 use std::sync::Arc;
 
 use gcheck_controls::{CodeIx, CodeNumber, Evidence, Letter, LetterSet};
-use gcheck_engine::{FlowObserver, Look, LookedUp, Model, Program};
+use gcheck_engine::{FlowObserver, Look, LookedUp, Model, Options, Program};
 use gcheck_program::{
     BlockFlags, ControlFlowGraph, Dialect, EVIDENCE_BYTES, FileIndex, Loaded, Skeleton, TapeMarks, lower,
 };
@@ -76,6 +76,8 @@ pub struct Incremental {
     /// What the head of the file shows of its control, with the chunks that it was read from.
     evidence: Option<(Vec<Arc<str>>, Rc<Evidence>)>,
     work: Work,
+    /// Paths are analysed for people who look at a state: what nobody can know is taken as it most likely is.
+    assumes: bool,
 }
 
 /// What must be the same, for anything of the analysis of paths to be kept.
@@ -286,6 +288,16 @@ impl Incremental {
         Self::default()
     }
 
+    /// Nothing is known yet, and the states of paths are for people to look at: a program that is not here changes nothing, and a
+    /// probe touches at its target. What is found then is of no use.
+    pub fn assuming() -> Self {
+        Self { assumes: true, ..Self::default() }
+    }
+
+    fn options(&self) -> Options {
+        Options { assumes: self.assumes, ..Options::NONE }
+    }
+
     /// How much the last check did.
     pub fn work(&self) -> Work {
         self.work
@@ -321,13 +333,13 @@ impl Incremental {
         let mut times = 0;
         let (outcome, failed) = without_rules_that_panic(selection, |rules| {
             if times > 0 {
-                *self = Self::new();
+                *self = Self { assumes: self.assumes, ..Self::default() };
             }
             times += 1;
             work(self, rules)
         });
         if !failed.is_empty() {
-            *self = Self::new();
+            *self = Self { assumes: self.assumes, ..Self::default() };
         }
         let mut outcome = outcome?;
         outcome.note_failed(failed);
@@ -436,6 +448,7 @@ impl Incremental {
                 rules: Rules { table: plan.table, active: &plan.path },
                 fuel: edited.execution.work(&program),
                 layout: &self.layout,
+                options: self.options(),
                 stop: edited.stop,
                 enough,
             };
@@ -540,13 +553,14 @@ impl Incremental {
             rules: Rules { table: RuleTable::EMPTY, active: &[] },
             fuel: edited.execution.work(&program),
             layout: &self.layout,
+            options: self.options(),
             stop: edited.stop,
             enough: u32::MAX,
         };
         let machine = &edited.environment.machine.engine;
         let shown = self.paths.show_again(&inputs, machine, blocks, observer);
         if shown {
-            then(observer, &mut Look::new(&program, &model, machine));
+            then(observer, &mut Look::with(&program, &model, machine, self.options()));
         }
         self.looked_up = program.into_looked_up();
         shown

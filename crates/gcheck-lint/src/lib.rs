@@ -16,6 +16,7 @@ mod contract;
 mod directives;
 mod environment;
 mod evaluated;
+pub mod fault_words;
 mod file_context;
 mod fix;
 mod incremental;
@@ -36,7 +37,7 @@ mod uses;
 mod values;
 mod watchers;
 
-pub use assumptions::{describe, describe_all, work_offset_name};
+pub use assumptions::{describe, describe_all, in_picture, work_offset_name};
 pub use block_context::{BlockCx, WordFacts};
 pub use check::{Assumptions, Execution, Job, MAX_FINDINGS, Omitted, Outcome, check};
 pub use environment::{Environment, MachineFacts, NoPrograms, Programs};

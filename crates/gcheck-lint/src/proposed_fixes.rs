@@ -7,7 +7,7 @@ use std::ops::Range;
 use gcheck_controls::Letter;
 use gcheck_diagnostics::Fix;
 use gcheck_engine::At;
-use gcheck_program::Word;
+use gcheck_program::{BlockFlags, Word};
 
 use crate::{BlockCx, PathCx};
 
@@ -22,6 +22,16 @@ impl BlockCx<'_> {
         let before = self.slice(0..range.start);
         let blanks = before.len() - before.trim_end_matches([' ', '\t']).len();
         range.start - blanks as u32..range.end
+    }
+
+    /// Begins a block of its own with a word. `None` where the head of the block is for all of it: a statement, a block delete.
+    pub fn block_from(&self, word: &Word) -> Option<Fix> {
+        if self.block().flags.intersects(BlockFlags::STATEMENT | BlockFlags::BLOCK_DELETE) {
+            return None;
+        }
+        let before = self.with_blanks(word).start..self.range(word).start;
+        let end = line_end(self.slice(self.block().range.end..self.text.len() as u32));
+        Some(Fix::risky(format!("put `{}` in a block of its own", self.text(word)), before, end))
     }
 
     /// Removes a word; only the programmer knows whether it was meant.

@@ -61,7 +61,7 @@ export function createPicture({ onPick }) {
   const picture = {
     show(toolpath, { keep }) {
       const { data } = toolpath;
-      const list = [...toolpath.notes, ...toolpath.alarms.map((alarm) => alarm.words)];
+      const list = [...toolpath.notes.map((note) => note.words), ...toolpath.alarms.map((alarm) => alarm.words)];
       notes.hidden = !list.length;
       notes.replaceChildren(...list.map((words) => Object.assign(document.createElement("li"), { textContent: words })));
       ownFile = Math.max(data.files.indexOf(""), 0);

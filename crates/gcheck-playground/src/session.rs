@@ -97,7 +97,7 @@ impl Session {
     pub fn toolpath(&mut self, text: &str, control: &str) -> Result<Toolpath, Refused> {
         let document = self.document(text, control)?;
         let snapshot = self.database.indexed(document).ok_or_else(gone)?;
-        gcheck_ide::toolpath(&snapshot, MAX_BLOCKS, MAX_SEGMENTS, &|| false).map_err(|_| gone())
+        gcheck_ide::toolpath(&snapshot, None, MAX_BLOCKS, MAX_SEGMENTS, &|| false).map_err(|_| gone())
     }
 
     /// The document with this text and control.

@@ -6,6 +6,7 @@
 mod data;
 mod drawing;
 mod drive;
+mod note;
 mod packed;
 mod page;
 mod palette;
@@ -13,11 +14,12 @@ mod surroundings;
 mod svg;
 mod thin;
 
-use gcheck_engine::{Axis, Event, FeedMode, Machine, Position};
+use gcheck_engine::{Axis, CallLine, Event, FeedMode, Machine, Position};
 use gcheck_geometry::{Arc, Bounds, Mm};
 
 pub use data::Heading;
 pub use drawing::{Drawing, Thinned, Tool};
+pub use note::Note;
 pub use page::{Finding, Page, Source};
 pub use svg::escaped;
 
@@ -27,6 +29,7 @@ use crate::step::{Beside, Step, View};
 use crate::time::{Clock, Timing};
 use drawing::{Alarm, Kind, Point};
 use drive::{Drive, Drives, four_digits};
+use note::LeftOut;
 use surroundings::Surroundings;
 
 /// Points kept of a run for the page, when the caller does not say otherwise. More are thinned.
@@ -68,6 +71,10 @@ pub struct Plot {
     drives: Drives,
     /// Index of the one of the move under way.
     drive: u16,
+    /// Lists of blocks that called, and the index of the one of the move under way with what it was made of.
+    calls: Vec<Vec<(u8, u32)>>,
+    call: u16,
+    called: Vec<CallLine>,
     /// Rotary axes that turned: A, B, C.
     rotary: [bool; 3],
     /// File and line of each block that changes the tool, each once.
@@ -77,11 +84,16 @@ pub struct Plot {
     /// Moves that are drawn where the block aims, and not where the axes go: along a tilting tool, and beside a contour.
     posted: u64,
     on_contour: u64,
+    left_out: LeftOut,
+    /// What the run took for granted, and the moves rest on.
+    assumed: Vec<Note>,
     surroundings: Surroundings,
 }
 
 /// Blocks that change the tool; further ones begin no part of the path.
 const MOST_CHANGES: usize = 1_000;
+/// Lists of calls that are told apart; the moves of further ones are of no call.
+const MOST_CALLS: usize = 4_096;
 /// Alarms that are marked.
 const MOST_ALARMS: usize = 1_000;
 /// In the order in which points have them.
@@ -114,11 +126,16 @@ impl Plot {
             alarms: Vec::new(),
             drives: Drives::default(),
             drive: 0,
+            calls: vec![Vec::new()],
+            call: 0,
+            called: Vec::new(),
             rotary: [false; 3],
             changes: Vec::new(),
             last: None,
             posted: 0,
             on_contour: 0,
+            left_out: LeftOut::default(),
+            assumed: Vec::new(),
             surroundings: Surroundings::default(),
         }
     }
@@ -136,6 +153,11 @@ impl Plot {
             let at = self.points.last().map(|point| point.at);
             self.alarms.push(Alarm { file: self.file as u8, line, at });
         }
+    }
+
+    /// From a block on the path rests on something that nobody knows.
+    pub fn assumed(&mut self, file: &str, line: u32, words: &str) {
+        self.assumed.push(Note::of_block(file, line, words));
     }
 
     /// Drawn as the work of a lathe: ZX, with X up.
@@ -163,6 +185,7 @@ impl Plot {
                     self.tool_number = step.tool;
                 }
                 self.moves += 1;
+                self.find_call(step.calls);
                 self.inch_moves += u64::from(step.units == gcheck_engine::Units::Inch);
                 self.placing.begin_move();
                 let tracker = self.clock.tracker;
@@ -253,10 +276,13 @@ impl Plot {
             thinned: self.thinned,
             alarms: self.alarms,
             drives: self.drives.into_all(),
+            calls: self.calls,
             rotary: self.rotary,
             changes: self.changes,
             posted: self.posted,
             on_contour: self.on_contour,
+            left_out: self.left_out.into_missing(&drawn),
+            assumed: self.assumed,
         }
     }
 
@@ -286,6 +312,8 @@ impl Plot {
         };
         let to = self.placing.placed(&seen.to);
         self.last = Some(Seen { to, ..seen });
+        self.find_file(step.file);
+        self.left_out.look([&from, &to], motion.way == Way::Rapid, (self.file, step.line));
         let is_still = |axis: Axis| motion.from.raw(axis).to_bits() == motion.to.raw(axis).to_bits();
         for (turns, axis) in self.rotary.iter_mut().zip(ROTARY) {
             *turns |= !is_still(axis);
@@ -416,6 +444,7 @@ impl Plot {
             tool: tool as u8,
             file: self.file as u8,
             drive: self.drive,
+            call: self.call,
             rotary: ROTARY.map(|axis| at.raw(axis) as f32),
         });
         if self.points.len() >= 4 * self.limit {
@@ -427,6 +456,29 @@ impl Plot {
         if self.files.get(self.file).is_none_or(|known| known != file) {
             self.file = index_of(&mut self.files, file, str::to_owned);
         }
+    }
+
+    /// The blocks that lead to the moves of a step.
+    fn find_call(&mut self, calls: &[CallLine]) {
+        if self.called == calls {
+            return;
+        }
+        self.called = calls.to_vec();
+        let mut blocks = Vec::with_capacity(calls.len());
+        for (file, line) in calls {
+            self.find_file(file);
+            blocks.push((self.file as u8, *line));
+        }
+        let known = self.calls.iter().position(|known| *known == blocks);
+        let index = known.unwrap_or_else(|| {
+            if self.calls.len() < MOST_CALLS {
+                self.calls.push(blocks);
+                self.calls.len() - 1
+            } else {
+                0
+            }
+        });
+        self.call = index as u16;
     }
 
     fn thin(&mut self) {

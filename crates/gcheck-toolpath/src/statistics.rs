@@ -469,6 +469,7 @@ impl Statistics {
                 d: None,
                 beside: None,
                 file: "",
+                calls: &[],
             };
             return Section::new(None, false, &nowhere);
         };

@@ -3,8 +3,8 @@
 //! Knows: the form in which events come here. Must not know: who sends them.
 
 use gcheck_engine::{
-    Axis, Concrete, ConcreteValue, Domain as _, Event, FeedMode, Machine, Model, Position, Spindle, State,
-    Transform, Truth, Units,
+    Axis, CallLine, Concrete, ConcreteValue, Domain as _, Event, FeedMode, Machine, Model, Position, Spindle,
+    State, Transform, Truth, Units,
 };
 use gcheck_geometry::Mm;
 
@@ -42,6 +42,8 @@ pub struct Step<'a> {
     pub beside: Option<Beside>,
     /// Name of the file that holds the block.
     pub file: &'a str,
+    /// The blocks that called the program under way, the outermost first.
+    pub calls: &'a [CallLine],
 }
 
 /// Where an event comes from.
@@ -82,6 +84,7 @@ impl<'a> Step<'a> {
             d: tool(state.d()),
             beside: None,
             file: spot.file,
+            calls: &[],
         }
     }
 }

@@ -36,6 +36,10 @@ fn numbers(text: &str) -> Vec<u64> {
     groups.map(|group| group.iter().rev().fold(0, |sum, byte| sum << 7 | u64::from(byte & 0x7F))).collect()
 }
 
+fn words(drawing: &Drawing) -> String {
+    drawing.notes().into_iter().map(|note| note.words).collect::<Vec<_>>().join("\n")
+}
+
 fn text(drawing: &Drawing, field: &str) -> String {
     let data = drawing.to_json(&Names::NONE, &[]);
     data.get(field).and_then(|value| value.as_str()).unwrap_or_default().to_owned()
@@ -86,7 +90,23 @@ fn moves_from_unknown_places_are_not_drawn() {
     assert_eq!(points(&drawing), [[10.0, 5.0, 2.0], [10.0, 5.0, -1.0]]);
     assert_eq!(runs(&drawing, "kinds"), [0, 2]);
     assert_eq!(differences(&text(&drawing, "lines"), 1), [2, 3]);
-    assert_eq!(drawing.notes(), Vec::<String>::new());
+    assert_eq!(drawing.notes(), []);
+}
+
+#[test]
+fn moves_that_lead_nobody_knows_where_are_counted_and_named() {
+    let mut run = Run::new();
+    run.block().rapid(10.0, 5.0, 2.0);
+    run.block().feed(10.0, f64::NAN, 2.0);
+    run.block().feed(20.0, 5.0, 2.0);
+    run.block().feed(30.0, 5.0, 2.0);
+    let notes = draw(&run, 1_000).notes();
+    let note = notes.iter().find(|note| note.line.is_some()).unwrap();
+    assert!(
+        note.words.starts_with("2 moves are not drawn, since where they lead is not known: Y in "),
+        "{note:?}"
+    );
+    assert_eq!(note.line, Some(2));
 }
 
 #[test]
@@ -111,7 +131,7 @@ fn work_offsets_are_drawn_at_their_distance_where_it_is_known() {
     let offset = |number| Event::WorkOffset { number, offset: Position::UNKNOWN, rotation: 0.0 };
     run.block().event(offset(1)).rapid(1.0, 0.0, 0.0);
     run.block().event(offset(2)).rapid(2.0, 0.0, 0.0);
-    let notes = draw(&run, 1_000).notes().join("\n");
+    let notes = words(&draw(&run, 1_000));
     assert!(notes.contains("work offsets whose values nobody told are drawn as if they were one"), "{notes}");
 }
 
@@ -177,7 +197,7 @@ fn memory_is_bounded_and_the_note_says_how_close_the_path_stays() {
     let drawing = draw(&run, 2_000);
     assert!(drawing.points() <= 2_000, "{}", drawing.points());
     assert!(drawing.thinned().is_some_and(|thinned| thinned.tolerance < 1.0), "{:?}", drawing.thinned());
-    let notes = drawing.notes().join("\n");
+    let notes = words(&drawing);
     assert!(notes.starts_with("the 20000 moves are drawn with"), "{notes}");
 }
 

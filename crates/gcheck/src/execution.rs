@@ -39,6 +39,11 @@ impl Session<'_> {
         self.run_with(Options { past_alarms: true, ..self.prepared.options }, steps)
     }
 
+    /// As [`Self::run_past_alarms`], for a picture: what nobody can know is taken as it most likely is.
+    pub(crate) fn run_for_picture<S: Steps>(&self, steps: S) -> std::io::Result<(RunResult, S)> {
+        self.run_with(Options { past_alarms: true, assumes: true, ..self.prepared.options }, steps)
+    }
+
     fn run_with<S: Steps>(&self, options: Options, steps: S) -> std::io::Result<(RunResult, S)> {
         let Prepared { equipment, fuel, .. } = self.prepared;
         let mut bridge = Bridge::new(self, steps);

@@ -16,7 +16,6 @@ mod control_choice;
 mod detection;
 mod discovery;
 mod execution;
-mod fault_words;
 mod importing;
 mod in_force;
 mod lsp;

@@ -3,6 +3,7 @@
 import * as vscode from "vscode";
 
 import { registerCommands } from "./commands";
+import { MachineState } from "./machine";
 import { Server } from "./server";
 import { ControlStatus } from "./status";
 import { ToolpathPreview } from "./preview/panel";
@@ -12,13 +13,15 @@ export interface Api {
   server: Server;
   status: ControlStatus;
   preview: ToolpathPreview;
+  machine: MachineState;
 }
 
 export async function activate(context: vscode.ExtensionContext): Promise<Api> {
   const server = new Server(context);
   const status = new ControlStatus(server);
   const preview = new ToolpathPreview(context, server);
-  context.subscriptions.push(server, status, preview, ...registerCommands(server, preview));
+  const machine = new MachineState(server);
+  context.subscriptions.push(server, status, preview, machine, ...registerCommands(server, preview));
   await server.start();
-  return { server, status, preview };
+  return { server, status, preview, machine };
 }

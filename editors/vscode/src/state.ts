@@ -7,10 +7,10 @@ interface Place {
 }
 
 /** A point by axis; `null` where it is not known. */
-type Axes = Record<string, number | null>;
+export type Axes = Record<string, number | null>;
 
 /** The state before or after a block; the server's documentation says what each part is. */
-interface Side {
+export interface Side {
   units: string;
   diameter: boolean;
   modes: { group: string; codes: string[]; setAt: Place | null }[];
@@ -18,6 +18,9 @@ interface Side {
   speed: string | null;
   spindle: string;
   tool: string | null;
+  toolIs: { name: string | null; length: number | null; diameter: number | null } | null;
+  surfaceSpeed: string | null;
+  chipLoad: string | null;
   selectedTool: string | null;
   lengthOffset: string | null;
   cutterOffset: string | null;
@@ -37,6 +40,10 @@ export interface State {
   line: number;
   onEveryPath: boolean;
   visits: number;
+  /** What the state rests on that nobody can know. */
+  assumed: string | null;
+  /** The blocks that call the program of the block, lines from 1; an empty file is the program itself. */
+  calls: { text: string; file: string; line: number }[];
   before: Side;
   after: Side | null;
 }
@@ -45,7 +52,7 @@ export interface State {
 export function stateText(state: State, block: string): string {
   const times = state.visits > 1 ? `, ${state.visits} times` : "";
   const way = state.onEveryPath ? `every path comes here${times}` : `some paths come here${times}`;
-  const head = [`line ${state.line + 1}: ${block}`, way];
+  const head = [`line ${state.line + 1}: ${block}`, way, ...(state.assumed === null ? [] : [state.assumed])];
   const after =
     state.after === null ? ["", "AFTER", "the program does not go on from here"] : ["", "AFTER", ...side(state.after)];
   return [...head, "", "BEFORE", ...side(state.before), ...after, ""].join("\n");
@@ -55,19 +62,19 @@ function side(state: Side): string[] {
   const units = state.diameter ? `${state.units}, X as a diameter` : state.units;
   const rows: [string, string | null][] = [
     ["units", units],
-    ["position, work", point(state.work)],
+    ["position, work", pointText(state.work)],
     ["position, programmed", differs(state.programmed, state.work)],
-    ["position, machine", point(state.machine)],
+    ["position, machine", pointText(state.machine)],
     ["position, tool tip", differs(state.tip, state.work)],
-    ["work offset", state.workOffset && [state.workOffset, point(state.origin)].filter(Boolean).join(" at ")],
+    ["work offset", state.workOffset && [state.workOffset, pointText(state.origin)].filter(Boolean).join(" at ")],
     ["shift", nonZero(state.shift)],
-    ["tool", state.tool],
+    ["tool", state.tool && [state.tool, state.toolIs?.name].filter(Boolean).join(" ")],
     ["tool called for", state.selectedTool],
     ["length offset", state.lengthOffset && `H${state.lengthOffset}`],
     ["length in effect", nonZero(state.length)],
     ["cutter offset", state.cutterOffset && `D${state.cutterOffset}`],
-    ["feed", state.feed],
-    ["speed", state.speed],
+    ["feed", state.feed && [state.feed, state.chipLoad].filter(Boolean).join(", ")],
+    ["speed", state.speed && [state.speed, state.surfaceSpeed].filter(Boolean).join(", ")],
     ["spindle", state.spindle],
   ];
   const modes = state.modes.map(({ group, codes, setAt }): [string, string] => [
@@ -85,7 +92,7 @@ function table(rows: [string, string | null][]): string[] {
   return told.map(([name, value]) => `${name.padEnd(width)}  ${value}`);
 }
 
-function point(axes: Axes): string {
+export function pointText(axes: Axes): string {
   return Object.entries(axes)
     .filter(([, value]) => value !== null)
     .map(([axis, value]) => `${axis}${value}`)
@@ -93,10 +100,10 @@ function point(axes: Axes): string {
 }
 
 function differs(axes: Axes, from: Axes): string | null {
-  const text = point(axes);
-  return text === point(from) ? null : text;
+  const text = pointText(axes);
+  return text === pointText(from) ? null : text;
 }
 
 function nonZero(axes: Axes): string | null {
-  return point(Object.fromEntries(Object.entries(axes).filter(([, value]) => value !== 0)));
+  return pointText(Object.fromEntries(Object.entries(axes).filter(([, value]) => value !== 0)));
 }

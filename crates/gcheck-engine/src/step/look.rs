@@ -68,7 +68,17 @@ impl std::fmt::Debug for Look<'_, '_> {
 impl<'a, 'p> Look<'a, 'p> {
     /// Looks at a program on a machine.
     pub fn new(program: &'a Program<'p>, model: &'a Model<'a>, machine: &'a Machine) -> Self {
-        Self { executor: Executor::new(program, model, machine, Options::NONE, Seen::default()) }
+        Self::with(program, model, machine, Options::NONE)
+    }
+
+    /// Looks at a program in states that an analysis with these options gave.
+    pub fn with(
+        program: &'a Program<'p>,
+        model: &'a Model<'a>,
+        machine: &'a Machine,
+        options: Options,
+    ) -> Self {
+        Self { executor: Executor::new(program, model, machine, options, Seen::default()) }
     }
 
     /// The control.

@@ -95,7 +95,7 @@ impl World {
         }
         let range = offset..other;
         let _ = gcheck_ide::inlay_hints(&mut self.database, id, range.clone(), InlayOptions::default(), &go);
-        if let Ok(figures) = gcheck_ide::run_statistics(&snapshot, 500, &go) {
+        if let Ok(figures) = gcheck_ide::run_statistics(&snapshot, None, 500, &go) {
             for lens in gcheck_ide::code_lenses(&snapshot, &figures) {
                 self.inside(id, &lens.range);
             }
@@ -107,7 +107,7 @@ impl World {
         }
         self.fit(id, &gcheck_ide::format(&snapshot, Some(range)));
         self.fit(id, &gcheck_ide::format_on_type(&snapshot, offset));
-        let _ = gcheck_ide::toolpath(&snapshot, 500, 100, &go);
+        let _ = gcheck_ide::toolpath(&snapshot, None, 500, 100, &go);
         let _ = gcheck_ide::state_at(&mut self.database, id, offset, &go);
     }
 }

@@ -126,6 +126,8 @@ pub(crate) struct Inputs<'g> {
     pub(crate) rules: Rules<'g>,
     pub(crate) fuel: u64,
     pub(crate) layout: &'g Layout,
+    /// What nobody can know is assumed, or not; of block delete each chain knows more.
+    pub(crate) options: Options,
     pub(crate) stop: &'g dyn Fn() -> bool,
     /// A checkpoint at this block of the main file, or behind it, is far enough.
     pub(crate) enough: u32,
@@ -371,7 +373,7 @@ impl Paths {
                 }
                 let mut once = Once { observer, stop: inputs.stop };
                 let fuel = inputs.fuel.saturating_sub(spent);
-                let task = Task::all_paths(fuel);
+                let task = Task { options: inputs.options, ..Task::all_paths(fuel) };
                 flow_from(inputs.program, inputs.model, machine, task, checkpoint, &mut once);
             }
             spent += segment.work;
@@ -616,7 +618,7 @@ fn advance(
             went_back: false,
             executed: 0,
         };
-        let options = Options { skip: chain.skip, ..Options::NONE };
+        let options = Options { skip: chain.skip, ..inputs.options };
         let task = Task { options, choices: &choices, work: fuel };
         let machine = &inputs.environment.machine.engine;
         let leg = flow_from(inputs.program, inputs.model, machine, task, checkpoint, &mut recorder);

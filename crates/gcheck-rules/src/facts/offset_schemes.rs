@@ -177,11 +177,15 @@ impl Pairs {
 
     /// The pairs with the number of another station of a turret, which no scheme explains. Second offsets of a tool are
     /// numbered past the stations, or ten or twenty more than the tool.
-    pub(crate) fn take_strangers(&mut self) -> Vec<(Finding, u32)> {
+    pub(crate) fn take_strangers(&mut self, letter: Option<char>) -> Vec<(Finding, u32)> {
         let pairs = std::mem::take(&mut self.pairs);
         let is_odd =
             |pair: &&Pair| is_alone(pair, &pairs) && pair.offset <= MOST_STATIONS && !pair.is_tens_more();
-        pairs.iter().filter(is_odd).map(|pair| (pair.finding.clone(), pair.tool)).collect()
+        let found = |pair: &Pair| match letter {
+            Some(letter) => pair.clone().with_fix(letter, i64::from(pair.tool)),
+            None => pair.finding.clone(),
+        };
+        pairs.iter().filter(is_odd).map(|pair| (found(pair), pair.tool)).collect()
     }
 
     /// The step that most tools follow, with their number: the plain one needs one tool, any other two, and more tools must

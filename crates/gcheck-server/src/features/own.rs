@@ -85,6 +85,13 @@ impl Owner {
         Ok(gcheck_ide::syntax_tree(&snapshot, params.position.map(|position| places.offset(position))))
     }
 
+    /// A call of the program by another one of the workspace.
+    pub(crate) fn caller(&mut self, uri: &Uri) -> Option<gcheck_ide::Caller> {
+        let id = self.document(uri).ok()?.id;
+        let files = self.workspace_of(uri).ok()?;
+        gcheck_ide::caller(&files.workspace, id)
+    }
+
     /// `gcheck/toolpath`: the moves of one run, for a picture.
     pub(crate) fn toolpath(&mut self, params: &OwnParams, reply: Reply<Value>) {
         let uri: &Uri = &params.text_document.uri;
@@ -93,9 +100,10 @@ impl Owner {
             Ok(snapshot) => snapshot,
             Err(error) => return reply.send(Err(error)),
         };
+        let caller = self.caller(uri);
         self.answer_elsewhere(uri, true, reply, move |stop| {
             let fuel = snapshot.settings().execution.fuel;
-            let path = gcheck_ide::toolpath(&snapshot, fuel, gcheck_ide::MAX_SEGMENTS, stop);
+            let path = gcheck_ide::toolpath(&snapshot, caller.as_ref(), fuel, gcheck_ide::MAX_SEGMENTS, stop);
             let path = path.map_err(given_up)?;
             Ok(serde_json::to_value(path).unwrap_or_default())
         });

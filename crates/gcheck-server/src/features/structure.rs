@@ -248,10 +248,11 @@ impl Owner {
         let (uri, now) = (uri.clone(), clock.now());
         let (mailbox, encoding) = (self.mailbox.clone(), self.abilities.encoding);
         let fuel = snapshot.settings().execution.fuel;
+        let caller = self.caller(&uri);
         self.workers.start_work(move || {
             // An edit outdates the run: the program may have been endless, and is no longer.
             let stop = || clock.now() != now || reply.as_ref().is_some_and(Reply::is_cancelled);
-            let Ok(figures) = gcheck_ide::run_statistics(&snapshot, fuel, &stop) else {
+            let Ok(figures) = gcheck_ide::run_statistics(&snapshot, caller.as_ref(), fuel, &stop) else {
                 if let Some(reply) = reply {
                     reply.send(Err(Error::content_modified()));
                 }

@@ -8,6 +8,7 @@ use gcheck_engine::Units;
 use gcheck_geometry::Mm;
 
 use super::drive::Drive;
+use super::note::{Missing, Note};
 use super::palette;
 use crate::step::View;
 
@@ -40,6 +41,8 @@ pub(super) struct Point {
     pub(super) file: u8,
     /// Index of the feed and the spindle's speed on the way to it.
     pub(super) drive: u16,
+    /// Index of the blocks that called its program; 0 for none.
+    pub(super) call: u16,
     /// Where the rotary axes A, B, C are, degrees.
     pub(super) rotary: [f32; 3],
 }
@@ -117,6 +120,8 @@ pub struct Drawing {
     pub(super) alarms: Vec<Alarm>,
     /// Feeds and speeds, by the index that points have.
     pub(super) drives: Vec<Drive>,
+    /// Blocks that call, each list the outermost first, by the index that points have: file and line.
+    pub(super) calls: Vec<Vec<(u8, u32)>>,
     /// Rotary axes that turn: A, B, C.
     pub(super) rotary: [bool; 3],
     /// File and line of each block that changes the tool, in the order of the run, each once.
@@ -124,6 +129,10 @@ pub struct Drawing {
     /// Moves drawn where the program was posted, and on the contour that compensation runs beside.
     pub(super) posted: u64,
     pub(super) on_contour: u64,
+    /// Moves that are not drawn.
+    pub(super) left_out: Missing,
+    /// What the run took for granted, and the moves rest on.
+    pub(super) assumed: Vec<Note>,
     /// The work coordinate systems in which something moved, with the places of their zeros that are known, millimetres.
     pub(super) zeros: Vec<(u16, [f64; 3])>,
     /// How far the machine goes in X and Y, millimetres, where that is known.
@@ -166,16 +175,17 @@ impl Drawing {
         self.thinned
     }
 
-    /// What a reader of the picture has to know, each a sentence without its full stop.
-    pub fn notes(&self) -> Vec<String> {
-        let mut notes = Vec::new();
+    /// What a reader of the picture has to know.
+    pub fn notes(&self) -> Vec<Note> {
+        let mut notes = self.assumed.clone();
         if self.points.is_empty() {
             notes.push(if self.moves == 0 {
-                "the program moves nothing".to_owned()
+                "the program moves nothing".into()
             } else {
-                "nothing can be drawn: no move starts and ends at places that are known".to_owned()
+                "nothing can be drawn: no move starts and ends at places that are known".into()
             });
         }
+        notes.extend(self.left_out.note(&self.files));
         if let Some(Thinned { tolerance }) = self.thinned {
             let close = if tolerance.is_finite() {
                 format!("within {} of the path", self.rounded_up(tolerance))
@@ -183,36 +193,34 @@ impl Drawing {
                 "many moves are left out".to_owned()
             };
             let points = self.points.len();
-            notes.push(format!("the {} moves are drawn with {points} points: {close}", self.moves));
+            notes.push(format!("the {} moves are drawn with {points} points: {close}", self.moves).into());
         }
         if self.overlaid {
             notes.push(
                 "work offsets whose values nobody told are drawn as if they were one; `[offsets]` in gcheck.toml parts them"
-                    .to_owned(),
+                    .into(),
             );
         }
         if self.turned {
-            notes.push("rotary axes are not drawn: the tool moves as if the work did not move".to_owned());
+            notes.push("rotary axes are not drawn: the tool moves as if the work did not move".into());
         }
         if self.posted > 0 {
             notes.push(
                 "moves of a tilting tool are drawn at the posted points: the place of the tip is not known; `posted_length` of the tool and `pivot_length` in gcheck.toml tell it"
-                    .to_owned(),
+                    .into(),
             );
         }
         if self.on_contour > 0 {
             notes.push(
                 "moves under compensation for a tool of unknown size are drawn on the programmed contour, arcs as straight lines; `[tools]` in gcheck.toml can tell its size"
-                    .to_owned(),
+                    .into(),
             );
         }
         if self.pockets > 0 {
-            notes.push(
-                "pockets that the control clears by a path of its own are drawn as rectangles".to_owned(),
-            );
+            notes.push("pockets that the control clears by a path of its own are drawn as rectangles".into());
         }
         if self.untimed {
-            notes.push("moves without a known feed are played at 1000 mm/min".to_owned());
+            notes.push("moves without a known feed are played at 1000 mm/min".into());
         }
         notes
     }

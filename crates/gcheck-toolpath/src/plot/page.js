@@ -39,13 +39,13 @@ const facts = [
   page.control,
   `${page.moves.toLocaleString("en")} moves`,
   timeText(page.seconds),
-  ...(page.toolpath.cut ? axesOf(page.toolpath).map((axis) => `${"XYZ"[axis]} ${coordinate(page.toolpath.cut[0][axis], axis)} to ${coordinate(page.toolpath.cut[1][axis], axis)}`) : []),
+  ...(page.toolpath.cut ? axesOf(page.toolpath).map((axis) => `${axis === 0 && page.toolpath.diameter ? "X Ø" : "XYZ"[axis]} ${coordinate(page.toolpath.cut[0][axis], axis)} to ${coordinate(page.toolpath.cut[1][axis], axis)}`) : []),
   page.toolpath.units,
 ];
 byId("summary").append(...facts.flatMap((words, i) => [i ? " · " : "", make("span", { textContent: words })]));
 if (page.notes.length) {
   byId("notes").hidden = false;
-  byId("notes").append(...page.notes.map((note) => make("li", { textContent: note })));
+  byId("notes").append(...page.notes.map(({ words, file, line }) => make("li", {}, file === null ? words : make("button", { textContent: words, onclick: () => choose(file, line) }))));
 }
 
 // --- The program's text: only the lines that are seen are elements.
@@ -237,7 +237,7 @@ try {
   setTheme();
   viewer.setMarks(page.findings);
   panel = createPanel(byId("choices"), viewer, { save });
-  if (page.toolpath.count === 0) byId("stage").append(make("div", { className: "message", textContent: page.notes[0] ?? "" }));
+  if (page.toolpath.count === 0) byId("stage").append(make("div", { className: "message", textContent: page.notes.map(({ words }) => words).join("\n") }));
 } catch (error) {
   byId("stage").append(make("div", { className: "message", textContent: `The path cannot be drawn: ${error.message}.` }));
 }

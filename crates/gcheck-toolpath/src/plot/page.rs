@@ -10,6 +10,7 @@ use serde_json::ser::{CompactFormatter, Formatter};
 
 use super::data::{Heading, ViewerData};
 use super::drawing::Drawing;
+use super::note::Note;
 use super::svg::escaped;
 use crate::summary::Names;
 
@@ -57,7 +58,7 @@ pub struct Page<'a> {
     /// What comments call the moves after them.
     pub headings: &'a [Heading<'a>],
     /// Further sentences about the drawing, after its own.
-    pub notes: &'a [String],
+    pub notes: &'a [Note],
 }
 
 /// A file of the program.
@@ -90,7 +91,7 @@ struct PageData<'a> {
     control: &'a str,
     moves: u64,
     seconds: f64,
-    notes: Vec<String>,
+    notes: Vec<NoteData>,
     /// Those of the drawing first, in its order.
     sources: Vec<SourceData<'a>>,
     findings: Vec<FindingData<'a>>,
@@ -101,6 +102,14 @@ struct PageData<'a> {
 struct SourceData<'a> {
     name: &'a str,
     text: Option<&'a str>,
+}
+
+#[derive(Debug, Serialize)]
+struct NoteData {
+    words: String,
+    /// Index of the source of the block that it speaks of, and the block's line.
+    file: Option<usize>,
+    line: Option<u32>,
 }
 
 #[derive(Debug, Serialize)]
@@ -161,8 +170,12 @@ impl Drawing {
             let Finding { line, severity, rule, message, .. } = *finding;
             Some(FindingData { file, line, severity, rule, message })
         });
-        let mut notes = self.notes();
-        notes.extend_from_slice(page.notes);
+        let source = |name: &String| sources.iter().position(|source| source.name == name);
+        let notes = self.notes().into_iter().chain(page.notes.iter().cloned()).map(|note| {
+            let Note { words, file, line } = note;
+            NoteData { words, file: file.as_ref().and_then(source), line }
+        });
+        let notes = notes.collect();
         PageData {
             title: page.title,
             control: page.control,

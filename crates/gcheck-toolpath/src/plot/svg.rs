@@ -7,6 +7,7 @@ use std::fmt::Write as _;
 use gcheck_engine::Units;
 
 use super::drawing::{Drawing, Kind, Point};
+use super::note::Note;
 use super::thin;
 use crate::number;
 use crate::summary::Names;
@@ -123,14 +124,14 @@ impl Drawing {
     }
 
     /// The drawing as an SVG file. `title` is above it, `further` notes below those of the drawing.
-    pub fn to_svg(&self, title: &str, further: &[String], names: &Names<'_>) -> String {
+    pub fn to_svg(&self, title: &str, further: &[Note], names: &Names<'_>) -> String {
         let mut notes = self.notes();
         notes.extend_from_slice(further);
         let mut points = std::borrow::Cow::Borrowed(self.points.as_slice());
         if points.len() > MAX_POINTS {
             let before = points.len();
             thin::to(points.to_mut(), MAX_POINTS);
-            notes.push(format!("each view is drawn with {} of {before} points", points.len()));
+            notes.push(format!("each view is drawn with {} of {before} points", points.len()).into());
         }
         let panels = panels(near(self.all, self.cut), self.is_lathe());
         let right = panels.iter().map(|panel| panel.at[0] + panel.size[0]).fold(600.0, f64::max);
@@ -291,7 +292,7 @@ impl Drawing {
         }
     }
 
-    fn legend(&self, svg: &mut String, top: f64, right: f64, notes: &[String], names: &Names<'_>) -> f64 {
+    fn legend(&self, svg: &mut String, top: f64, right: f64, notes: &[Note], names: &Names<'_>) -> f64 {
         let (mut x, mut y) = (MARGIN, top);
         let mut entry = |svg: &mut String, line: &str, words: &str| {
             let width = 48.0 + 7.2 * f64::from(words.chars().count() as u32);
@@ -314,7 +315,7 @@ impl Drawing {
         }
         for note in notes {
             bottom += 22.0;
-            text(svg, [MARGIN, bottom], "m", &escaped(note));
+            text(svg, [MARGIN, bottom], "m", &escaped(&note.words));
         }
         bottom
     }

@@ -86,6 +86,7 @@ fn is_alike(a: &Point, b: &Point) -> bool {
     a.kind == b.kind
         && a.tool == b.tool
         && a.file == b.file
+        && a.call == b.call
         && a.at.iter().zip(b.at).all(|(a, b)| a.is_nan() == b.is_nan())
 }
 
@@ -133,6 +134,7 @@ mod tests {
                 tool: 0,
                 file: 0,
                 drive: 0,
+                call: 0,
                 rotary: [0.0; 3],
             })
             .collect()

@@ -27,6 +27,9 @@
 //   drives     [{ feed, mode, along, rpm }]: feed as the program has it, by `mode` in mm a minute ("minute"), mm a turn
 //              ("turn") or moves a minute ("inverse"); mm a minute along the path; turns of the spindle a minute, 0 when it is
 //              stopped. Each may be null. A rapid move has the feed of the cut before
+//   callOf     index in `calls`; runs; null when no program is called; may be missing
+//   calls      [[[file, line]]]: the blocks that lead to a point of another program or of a cycle's outline, the outermost
+//              first; the first list is empty
 //   rotary     null, or { axes: "AC", values }: degrees of the axes that turn, all of the first axis and then all of the next,
 //              differences in steps of 0.0001; 1e9 is unknown
 //   headings   [{ file, line, name }]: what a comment calls the blocks from a line on, in the order of lines; may be missing
@@ -227,8 +230,11 @@ export function createViewer(canvas, data, callbacks = {}) {
     draw();
   }
 
+  /** Does the piece belong to lines of a file: to its block, or to one that calls the block's program? */
   function covers(i, file, first, end) {
     const line = d.lines[i];
+    const leads = ([of, from]) => of === file && from >= first && from <= end;
+    if (d.callOf?.[i] && d.calls[d.callOf[i]].some(leads)) return true;
     if ((d.fileOf ? d.fileOf[i] : 0) !== file) return false;
     if (line >= first && line <= end) return true;
     const before = d.lines[i - 1];

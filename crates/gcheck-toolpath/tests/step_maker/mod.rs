@@ -162,6 +162,7 @@ impl Run {
                 d: None,
                 beside: step.beside,
                 file: "part.nc",
+                calls: &[],
             });
         }
     }

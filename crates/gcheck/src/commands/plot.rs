@@ -10,7 +10,7 @@ use std::path::Path;
 use gcheck_engine::{Fault, RunResult};
 use gcheck_report::LineIndex;
 use gcheck_syntax::SourceText;
-use gcheck_toolpath::plot::{Drawing, Heading, MAX_POINTS, Page, Plot, Source};
+use gcheck_toolpath::plot::{Drawing, Heading, MAX_POINTS, Note, Page, Plot, Source};
 use gcheck_toolpath::{Names, Step, WorkCoordinates};
 
 use crate::args::{Global, PlotOptions};
@@ -52,14 +52,15 @@ pub(crate) fn run(global: &Global, options: &PlotOptions) -> Result<u8, Problem>
             say(&execution::control_line(session));
         }
         let (ran, drawing) = draw(session, MAX_POINTS)?;
-        let mut notes: Vec<String> = stopped(session, &ran).into_iter().collect();
-        notes.extend(found.note());
+        let mut notes: Vec<Note> = stopped(session, &ran).into_iter().collect();
+        notes.extend(found.note().map(Note::from));
         output::to_file(&options.output_file, |out| match form {
             Form::Svg => svg(session, &drawing, &notes, out),
             Form::Html => page(session, &drawing, &found, &notes, out),
         })?;
         if !global.quiet {
-            say(&drawing.notes().join("\n"));
+            let words: Vec<String> = drawing.notes().into_iter().map(|note| note.words).collect();
+            say(&words.join("\n"));
         }
         execution::end_of_run(session, &ran);
         Ok(execution::exit_code(&ran))
@@ -85,17 +86,21 @@ fn draw(session: &Session<'_>, points: usize) -> Result<(RunResult, Drawing), Pr
         plot = plot.for_lathe();
     }
     let (ran, plot) = session
-        .run_past_alarms(plot)
+        .run_for_picture(plot)
         .map_err(|error| Problem::new(format!("cannot record the path: {error}")))?;
     Ok((ran, plot.finish()))
 }
 
 /// That the control would stop, or that the picture is a part of the program's path, and why.
-fn stopped(session: &Session<'_>, ran: &RunResult) -> Option<String> {
+fn stopped(session: &Session<'_>, ran: &RunResult) -> Option<Note> {
     let fault = execution::fault_of(session, ran)?;
     let place = LineIndex::new(&fault.text).position(&fault.text, fault.range.start as u32);
     let what = if ran.alarms.is_empty() { "the run ended" } else { "the control would stop" };
-    Some(format!("{what} in {}, line {}: {}", fault.name, place.line, fault.words.message))
+    Some(Note {
+        words: format!("{what} in {}, line {}: {}", fault.name, place.line, fault.words.message),
+        file: Some(fault.name),
+        line: Some(place.line),
+    })
 }
 
 fn with_names<R>(session: &Session<'_>, with: impl FnOnce(&Names<'_>) -> R) -> R {
@@ -104,7 +109,7 @@ fn with_names<R>(session: &Session<'_>, with: impl FnOnce(&Names<'_>) -> R) -> R
     with(&Names { tool: &tool, offset: &offset })
 }
 
-fn svg(session: &Session<'_>, drawing: &Drawing, notes: &[String], out: &mut dyn Write) -> io::Result<()> {
+fn svg(session: &Session<'_>, drawing: &Drawing, notes: &[Note], out: &mut dyn Write) -> io::Result<()> {
     let svg = with_names(session, |names| drawing.to_svg(&session.prepared.shown, notes, names));
     out.write_all(svg.as_bytes())
 }
@@ -113,7 +118,7 @@ fn page(
     session: &Session<'_>,
     drawing: &Drawing,
     found: &Found,
-    notes: &[String],
+    notes: &[Note],
     out: &mut dyn Write,
 ) -> io::Result<()> {
     let shown = &session.prepared.shown;
@@ -167,5 +172,9 @@ impl Steps for Plot {
             self.alarm(file, line);
         }
         Ok(())
+    }
+
+    fn assumed(&mut self, file: &str, line: u32, words: &str) {
+        self.assumed(file, line, words);
     }
 }

@@ -5,7 +5,10 @@
 use std::io;
 use std::panic::{self, AssertUnwindSafe};
 
-use gcheck_engine::{At, BlockLines, Concrete, Event, Fault, Observer, Origin, RunResult, State, Stop};
+use gcheck_engine::{
+    Assumption, At, BlockLines, CallLines, Concrete, Event, Fault, Observer, Origin, RunResult, State, Stop,
+    outline_cycle,
+};
 use gcheck_toolpath::{Beside, Spot, Step};
 
 use super::session::Session;
@@ -21,6 +24,9 @@ pub(super) struct Bridge<'s, S> {
     /// The block being executed. An event of it that has no number was written by the control itself.
     executing_at: At,
     lines: BlockLines,
+    calls: CallLines,
+    /// The block being executed, where it is a cycle that moves along the outline in other blocks.
+    cycle: Option<At>,
 }
 
 /// Unwinds through the engine when output has failed: there is nobody to execute for.
@@ -44,6 +50,8 @@ impl<'s, S: Steps> Bridge<'s, S> {
             executing: None,
             executing_at: At { file: 0, block: 0 },
             lines: BlockLines::new(&session.prepared.shown),
+            calls: CallLines::default(),
+            cycle: None,
         }
     }
 
@@ -62,6 +70,7 @@ impl<S: Steps> Observer<Concrete> for Bridge<'_, S> {
         self.executing = origin.n;
         self.executing_at = origin.at;
         self.steps.block(origin);
+        self.cycle = outline_cycle(self.session.program, self.session.model, origin);
     }
 
     fn event(&mut self, origin: Origin, state: &State<Concrete>, event: &Event) {
@@ -82,7 +91,9 @@ impl<S: Steps> Observer<Concrete> for Bridge<'_, S> {
         let units = self.session.prepared.equipment.units;
         let machine = &self.session.prepared.equipment.machine;
         let seen = Step::seen(event, state, model, machine, spot, units);
-        let step = Step { beside: Beside::of(state, machine, event), ..seen };
+        let cycle = self.cycle.filter(|cycle| *cycle != origin.at);
+        let calls = self.calls.of(self.session.program, &mut self.lines, state, cycle);
+        let step = Step { beside: Beside::of(state, machine, event), calls, ..seen };
         if let Err(error) = self.steps.step(&step) {
             self.error = Some(error);
             panic::resume_unwind(Box::new(OutputFailed));
@@ -94,6 +105,13 @@ impl<S: Steps> Observer<Concrete> for Bridge<'_, S> {
         if let Err(error) = self.steps.alarm(&file, line, fault) {
             self.error = Some(error);
             panic::resume_unwind(Box::new(OutputFailed));
+        }
+    }
+
+    fn assumed(&mut self, origin: Origin, assumption: &Assumption) {
+        if let Some(words) = gcheck_lint::in_picture(assumption, self.session.model) {
+            let (file, line) = self.lines.of(self.session.program, origin);
+            self.steps.assumed(&file, line, &words);
         }
     }
 }

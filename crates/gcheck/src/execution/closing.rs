@@ -6,17 +6,16 @@
 use std::fmt::Write as _;
 use std::ops::Range;
 
-use gcheck_controls::Letter;
 use gcheck_diagnostics::StatedAssumption;
-use gcheck_engine::{ConcreteValue, Ending, Origin, RunResult, Stopped, Units};
-use gcheck_program::{Op, Value, Word};
+use gcheck_engine::{Ending, Origin, RunResult, Stopped, Units};
+use gcheck_lint::fault_words::{self, Culprit, Words};
+use gcheck_program::Word;
 use gcheck_report::{FileReport, Report};
 use gcheck_syntax::SourceText;
 
 use super::session::Session;
 use crate::Problem;
 use crate::console::{report, say};
-use crate::fault_words::{self, Culprit, Words};
 
 /// Alarms that a run past alarms reports one by one.
 const MOST_REPORTED: usize = 20;
@@ -84,23 +83,13 @@ fn early_end(session: &Session<'_>, result: &RunResult) -> Option<Fault> {
 
 fn fault_at(session: &Session<'_>, result: &RunResult, stopped: &Stopped, origin: Origin) -> Fault {
     let units = result.state.units(session.model).unwrap_or(session.prepared.equipment.units);
+    let at_block = |fault: &gcheck_engine::Fault| {
+        fault_words::at_block(fault, session.program, session.model, origin, &result.state, units)
+    };
     let (words, culprit) = match stopped {
-        Stopped::Ended(Ending::Alarm(number)) => {
-            let comment = comment_of(session, origin);
-            (fault_words::alarm(*number, comment.as_deref()), None)
-        }
-        Stopped::Ended(_) => {
-            let nothing = fault_words::Written::default();
-            let end = &gcheck_engine::Fault::NoProgramEnd;
-            (fault_words::words(end, session.model, &nothing, units), None)
-        }
-        Stopped::Faulted(gcheck_engine::Fault::Undecidable) => {
-            (fault_words::undecidable(&unknown_variables(session, result, origin)), None)
-        }
-        Stopped::Faulted(fault) => {
-            let block = written(session, origin);
-            (fault_words::words(fault, session.model, &block, units), fault_words::culprit(fault))
-        }
+        Stopped::Ended(Ending::Alarm(number)) => (at_block(&gcheck_engine::Fault::Alarm(*number)), None),
+        Stopped::Ended(_) => (at_block(&gcheck_engine::Fault::NoProgramEnd), None),
+        Stopped::Faulted(fault) => (at_block(fault), fault_words::culprit(fault)),
         Stopped::OutOfFuel => (fault_words::out_of_fuel(result.blocks), None),
     };
     let file = session.program.file(origin.at.file);
@@ -110,19 +99,6 @@ fn fault_at(session: &Session<'_>, result: &RunResult, stopped: &Stopped, origin
     };
     let range = range(session, origin, culprit);
     Fault { words, range, name: name.to_owned(), text }
-}
-
-/// Codes and addresses of the block.
-fn written<'s>(session: &'s Session<'_>, origin: Origin) -> fault_words::Written<'s> {
-    let file = session.program.file(origin.at.file);
-    let place = file.and_then(|file| file.loaded.place(origin.at.block, session.program.dialect()));
-    let Some(place) = place else { return fault_words::Written::default() };
-    let words = place.table.words(place.block());
-    let control = session.model.control();
-    fault_words::Written {
-        codes: words.iter().filter_map(|word| control.code_at(word.code)).collect(),
-        letters: words.iter().map(|word| word.letter).collect(),
-    }
 }
 
 /// The word that a fault is about, else the block.
@@ -137,10 +113,7 @@ fn range(session: &Session<'_>, origin: Origin, culprit: Option<Culprit>) -> Ran
     let is_it = |word: &&Word| match culprit {
         Some(Culprit::Letter(letter)) => word.letter == letter,
         Some(Culprit::Code(code)) => word.code == code,
-        Some(Culprit::UnknownCode) => {
-            let is_code = word.letter == Letter::of('G') || word.letter == Letter::of('M');
-            is_code && !word.code.is_some()
-        }
+        Some(Culprit::UnknownCode) => fault_words::is_unknown_code(word),
         None => false,
     };
     let block = place.range();
@@ -148,46 +121,6 @@ fn range(session: &Session<'_>, origin: Origin, culprit: Option<Culprit>) -> Ran
         Some(word) => (place.base + word.range().start) as usize..(place.base + word.range().end) as usize,
         None => block.start as usize..block.end as usize,
     }
-}
-
-/// Variables of the last block that have no known value; those of the call at hand only where there are no others.
-fn unknown_variables(session: &Session<'_>, result: &RunResult, origin: Origin) -> Vec<u32> {
-    let Some(file) = session.program.file(origin.at.file) else { return Vec::new() };
-    let Some(place) = file.loaded.place(origin.at.block, session.program.dialect()) else {
-        return Vec::new();
-    };
-    let table = &place.table;
-    let of_words = table.words(place.block()).iter().filter_map(|word| match word.value {
-        Value::Expr(expr) => Some(expr),
-        _ => None,
-    });
-    let of_statements = table.statements(place.ix).flat_map(|statement| statement.kind.expressions());
-    let mut read: Vec<u32> = of_words
-        .chain(of_statements)
-        .flat_map(|expr| table.ops(table.expr(expr)))
-        .filter_map(|op| match op {
-            Op::Variable(number) => Some(*number),
-            _ => None,
-        })
-        .collect();
-    read.sort_unstable();
-    read.dedup();
-    let [first, last] = session.model.semantics().locals;
-    let (own, mut others): (Vec<u32>, Vec<u32>) =
-        read.into_iter().filter(|number| *number > 0).partition(|number| (first..=last).contains(number));
-    others.retain(|number| result.state.variables().get(*number) == ConcreteValue::Unknown);
-    if others.is_empty() { own } else { others }
-}
-
-/// The first comment of a block.
-fn comment_of(session: &Session<'_>, origin: Origin) -> Option<String> {
-    let file = session.program.file(origin.at.file)?;
-    let place = file.loaded.place(origin.at.block, session.program.dialect())?;
-    // A comment after a statement is not part of the block's own range.
-    let text = file.loaded.line_from(place.range().start);
-    let (_, rest) = text.split_once('(')?;
-    let comment = rest.split(')').next()?.trim();
-    (!comment.is_empty()).then(|| comment.to_owned())
 }
 
 /// What a run rests on that is not configured.

@@ -75,6 +75,7 @@ pub(crate) fn prepare(
             skip: conditions.block_skip.0,
             optional_stop: conditions.optional_stop == Switch::On,
             past_alarms: false,
+            assumes: false,
         },
         fuel: conditions.fuel,
         search: settings.search,

@@ -148,9 +148,9 @@ fn a_rule_is_explained() {
         "explain unknown-code",
         3,
         &expect![[r#"
-        unknown-code: code that the control does not have
+            unknown-code: code that the control does not have
 
-        severity error, on by default, group words, since 0.1.0"#]],
+            severity error, on by default, fixed by --unsafe-fixes, group words, since 0.1.0"#]],
     );
     for rule in list("rules") {
         let id = rule["id"].as_str().unwrap();

@@ -132,6 +132,24 @@ fn a_run_that_faults_is_drawn_past_the_fault_with_a_mark() {
 }
 
 #[test]
+fn what_nobody_can_know_is_assumed_for_the_picture_and_told_with_its_line() {
+    let text = PLATE.replace("G1 X18. F900.\n", "G65 P9832\nG31 X19. F50.\nG1 X18. F900.\nX#501\n");
+    let shop = Shop::with(&[("plate.nc", text.as_str())]);
+    let run = shop.gcheck("plot plate.nc --control fanuc-mill -o plate.html");
+    let page = shop.read("plate.html");
+    for note in [
+        "plate.nc, line 18: program 9832 was not found; what it does is not drawn",
+        "plate.nc, line 19: probing moves are assumed to touch at the ends of their moves",
+        "X in plate.nc, line 21, X in plate.nc, line 22",
+    ] {
+        assert!(page.contains(note), "{note}: {}", run.stderr);
+        assert!(run.stderr.contains(note), "{note}: {}", run.stderr);
+    }
+    // A note leads to its line.
+    assert!(page.contains("\"file\":0,\"line\":18}"), "{page}");
+}
+
+#[test]
 fn a_program_that_moves_nothing_is_no_mistake() {
     let shop = Shop::with(&[("none.nc", "%\nO1\nM30\n%\n")]);
     for name in ["none.svg", "none.html"] {

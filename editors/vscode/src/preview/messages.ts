@@ -9,14 +9,23 @@ export interface Toolpath {
   moves: number;
   /** Seconds, as far as they are known. */
   seconds: number;
-  /** What a reader of the picture has to know, one sentence each. */
-  notes: string[];
+  /** What a reader of the picture has to know. */
+  notes: Note[];
   /** Lowest and highest machine coordinates of X, Y and Z, where the machine's travel is told: millimetres. */
   travel: ([number, number] | null)[];
   /** How the run ended, where it did not reach the program's end. */
   stopped: string | null;
   /** Where the control would stop, and decisions that nobody knows: the picture goes on after them. */
   alarms: Alarm[];
+}
+
+/** What a reader of the picture has to know, and the block that it speaks of. */
+export interface Note {
+  words: string;
+  /** The file; empty for the document, null where it speaks of no block. */
+  file: string | null;
+  /** Its line, from 1. */
+  line: number | null;
 }
 
 /** A block that the picture goes past. */
@@ -32,7 +41,7 @@ export interface Alarm {
 export type ToPage =
   /** The path of the program with this address. */
   | { kind: "toolpath"; uri: string; toolpath: Toolpath }
-  | { kind: "nothing"; why: string; alarms: Alarm[]; notes: string[] }
+  | { kind: "nothing"; why: string; alarms: Alarm[]; notes: Note[] }
   | { kind: "lines"; first: number; last: number };
 
 export type FromPage =

@@ -3,7 +3,7 @@
 import { createPanel, type Panel } from "gcheck-panel";
 import { createViewer, type Drawing, lengthText, type Place, placeText, speedsFor, THEMES, timeText, type Viewer } from "gcheck-viewer";
 
-import type { Alarm, FromPage, ToPage, Toolpath } from "./messages";
+import type { Alarm, FromPage, Note, ToPage, Toolpath } from "./messages";
 
 declare function acquireVsCodeApi(): { postMessage(message: FromPage): void };
 
@@ -146,11 +146,7 @@ function follow(place: Place): void {
 /** What the picture goes past, each with a link to its line. */
 function list(passed: Alarm[]): void {
   alarms.replaceChildren(
-    ...passed.slice(0, 8).map((alarm) => {
-      const button = Object.assign(document.createElement("button"), { textContent: alarm.words, title: "Show the line" });
-      button.addEventListener("click", () => host.postMessage({ kind: "line", file: alarm.file, line: alarm.line }));
-      return button;
-    }),
+    ...passed.slice(0, 8).map((alarm) => link(alarm.words, alarm.file, alarm.line)),
   );
   if (passed.length > 8) {
     alarms.append(Object.assign(document.createElement("div"), { textContent: `and ${passed.length - 8} more` }));
@@ -168,7 +164,7 @@ function describe(toolpath: Toolpath): void {
       return;
     }
     const factor = axis === "X" && data.diameter ? 2 : 1;
-    lines.push(`${axis} ${lengthText(low * factor, data.units)} … ${lengthText(high * factor, data.units)}`);
+    lines.push(`${factor === 2 ? "X Ø" : axis} ${lengthText(low * factor, data.units)} … ${lengthText(high * factor, data.units)}`);
   });
   ["X", "Y", "Z"].forEach((axis, index) => {
     const range = travel[index];
@@ -181,9 +177,23 @@ function describe(toolpath: Toolpath): void {
   if (seconds > 0) {
     lines.push(`time ${timeText(seconds)}`);
   }
-  const rows = (texts: string[]) => texts.map((textContent) => Object.assign(document.createElement("div"), { textContent }));
-  figures.replaceChildren(...rows(lines));
-  notes.replaceChildren(...rows(toolpath.notes));
+  figures.replaceChildren(...lines.map((textContent) => Object.assign(document.createElement("div"), { textContent })));
+  tell(toolpath.notes);
+}
+
+/** Sentences beside the picture; those that speak of a block lead to it. */
+function tell(told: Note[]): void {
+  notes.replaceChildren(
+    ...told.map(({ words, file, line }) =>
+      file === null || line === null ? Object.assign(document.createElement("div"), { textContent: words }) : link(words, file, line),
+    ),
+  );
+}
+
+function link(textContent: string, file: string, line: number): HTMLButtonElement {
+  const button = Object.assign(document.createElement("button"), { textContent, title: "Show the line" });
+  button.addEventListener("click", () => host.postMessage({ kind: "line", file, line }));
+  return button;
 }
 
 window.addEventListener("message", (event: MessageEvent<ToPage>) => {
@@ -200,12 +210,12 @@ window.addEventListener("message", (event: MessageEvent<ToPage>) => {
       time.value = "1000";
       readout.textContent = "";
       figures.replaceChildren();
-      notes.replaceChildren();
-      nothing.textContent = [message.why, ...message.notes].join("\n");
+      nothing.textContent = message.why;
+      tell(message.notes);
       list(message.alarms);
       break;
     case "lines":
-      viewer?.select(0, message.first, message.last);
+      viewer?.select(Math.max(drawing?.files.indexOf("") ?? 0, 0), message.first, message.last);
       break;
   }
 });

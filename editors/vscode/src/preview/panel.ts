@@ -5,7 +5,7 @@ import * as path from "node:path";
 import * as vscode from "vscode";
 
 import type { Server } from "../server";
-import type { Alarm, FromPage, ToPage, Toolpath } from "./messages";
+import type { Alarm, FromPage, Note, ToPage, Toolpath } from "./messages";
 
 /** Milliseconds without an edit after which the toolpath is computed again. */
 const PAUSE = 400;
@@ -226,7 +226,7 @@ export class ToolpathPreview implements vscode.Disposable {
       if (toolpath === undefined || toolpath.data.count === 0) {
         // With moves of which none is drawn, the notes name the cause.
         const why = toolpath !== undefined && toolpath.moves > 0 ? "Nothing can be drawn." : "The program makes no move.";
-        const notes = (toolpath?.notes ?? []).filter((note) => note !== toolpath?.stopped);
+        const notes = (toolpath?.notes ?? []).filter((note) => note.words !== toolpath?.stopped);
         this.nothing([why, toolpath?.stopped].filter(Boolean).join("\n"), toolpath?.alarms, notes);
       } else {
         this.post({ kind: "toolpath", uri: document.uri.toString(), toolpath });
@@ -253,7 +253,7 @@ export class ToolpathPreview implements vscode.Disposable {
     this.post({ kind: "lines", first: selection.start.line + 1, last: selection.end.line + 1 });
   }
 
-  private nothing(why: string, alarms: Alarm[] = [], notes: string[] = []): void {
+  private nothing(why: string, alarms: Alarm[] = [], notes: Note[] = []): void {
     this.post({ kind: "nothing", why, alarms, notes });
   }
 

@@ -33,6 +33,8 @@ declare module "gcheck-viewer" {
     fileOf: string | null;
     driveOf: string | null;
     drives: Drive[];
+    callOf?: string | null;
+    calls?: [number, number][][];
     rotary: { axes: string; values: string } | null;
     headings?: { file: number; line: number; name: string }[];
     changes?: [number, number][];

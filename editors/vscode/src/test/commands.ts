@@ -7,6 +7,8 @@ import * as path from "node:path";
 
 import * as vscode from "vscode";
 
+import type { Row } from "../machine";
+
 import {
   api,
   askList,
@@ -147,10 +149,35 @@ export const commands: Test[] = [
       assert.match(text, /position, work +X0\.75 Y0\.75 Z-0\.25/);
       assert.match(text, /\nAFTER\n[^]*position, work +X2\.5 Y0\.75 Z-0\.25/);
       assert.match(text, /\nG1 +motion, set in line 8\n/);
-      assert.match(text, /\ntool +1\n/);
+      assert.match(text, /\ntool +1\b/);
       assert.match(text, /\nfeed +F12 inch\/min\n/);
       await noComplaint();
       await picture("vscode-state");
+      await closeAll();
+    },
+  ],
+  [
+    "Machine State follows the cursor, and its modes lead to where they were set",
+    async () => {
+      const editor = await open("part.nc");
+      await vscode.commands.executeCommand("gcheck.machineState.focus");
+      await focus();
+      const { machine } = await api();
+      const rows = async (label: string, what: (rows: readonly Row[]) => boolean) =>
+        until(`the machine state with ${label}`, () => {
+          const found = machine.rows().find((row) => row.label === label)?.rows;
+          return found !== undefined && what(found) ? found : undefined;
+        });
+      goTo(editor, "X2.5", 1);
+      const position = await rows("Position", (found) => found.some((row) => row.label === "X 2.5"));
+      assert.ok(position.some((row) => row.label === "Y 0.75"));
+      const modes = await rows("Modes", (found) => found.some((row) => row.label === "G1"));
+      const at = modes.find((row) => row.label === "G1")?.at;
+      assert.equal(at?.line, 7);
+      await picture("vscode-machine-state");
+      await vscode.commands.executeCommand("gcheck.revealLine", at);
+      await until("the cursor in line 8", () => (vscode.window.activeTextEditor?.selection.active.line === 7 ? true : undefined));
+      await noComplaint();
       await closeAll();
     },
   ],

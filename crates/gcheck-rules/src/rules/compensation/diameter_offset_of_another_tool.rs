@@ -124,7 +124,7 @@ impl PathRule for DiameterOffsetOfAnotherTool {
             );
         }
         if cx.model.semantics().tools.offsets_of_tools && cx.model.semantics().tools.radius_from_tool {
-            for (finding, tool) in self.pairs.take_strangers() {
+            for (finding, tool) in self.pairs.take_strangers(Some('D')) {
                 report.add(
                     finding
                         .label("that is the number of another tool")

@@ -31,6 +31,7 @@ declare_rule! {
         summary: "two codes of one modal group in a block",
         severity: Error,
         tier: Block,
+        fixable: OnRequest,
         since: "0.1.0",
         run: Run::BlockAndValues { trigger: BlockFlags::CODE, reads: Reads::Codes, check },
     }
@@ -49,7 +50,7 @@ fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
             && !depends(cx, code)
             && !depends(cx, other)
         {
-            report.add(finding(cx, (first, other), (second, code)));
+            report.add(finding(cx, (first, other), (second, code)).fix_if(cx.block_from(second)));
         }
     }
 }
@@ -88,7 +89,25 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::testing::check_rule;
+    use crate::testing::{World, check_rule, findings, only};
+
+    #[test]
+    fn the_second_code_gets_a_block_of_its_own() {
+        let split = |text: &str| {
+            let found = findings(&only(&RULE), "fanuc-mill", text, &World::default());
+            let fix = found.first()?.fixes.first()?.clone();
+            let range = fix.edits[0].range.start as usize..fix.edits[0].range.end as usize;
+            let mut text = text.to_owned();
+            text.replace_range(range, &fix.edits[0].text);
+            Some(text)
+        };
+        assert_eq!(
+            split("G0 X1. Y1. G1 Z-1. F5.\r\nM30\r\n").as_deref(),
+            Some("G0 X1. Y1.\r\nG1 Z-1. F5.\r\nM30\r\n")
+        );
+        assert_eq!(split("G90G0G1X1.\n").as_deref(), Some("G90G0\nG1X1.\n"));
+        assert_eq!(split("/G0 G1 X1.\n"), None);
+    }
 
     #[test]
     fn the_second_code_is_marked() {

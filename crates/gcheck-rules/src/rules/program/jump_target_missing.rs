@@ -5,7 +5,7 @@ use gcheck_program::{Jump, Label};
 
 use crate::declare::declare_rule;
 use crate::facts::sections::{label_index, program_around, target_word};
-use crate::{FileCx, Finding, Report, Run, Severity, limit};
+use crate::{FileCx, Finding, Fix, Report, Run, Severity, limit};
 
 declare_rule! {
     /// A jump names a sequence number that the program does not have.
@@ -43,6 +43,7 @@ declare_rule! {
         summary: "jump to a sequence number that does not exist",
         severity: Error,
         tier: Program,
+        fixable: OnRequest,
         since: "0.1.0",
         run: Run::Program { check },
     }
@@ -58,10 +59,37 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
         let word = target_word(cx, jump.code, WordKind::Label, cx.slice(jump.range.clone()));
         let is_elsewhere = word.is_some_and(|(_, word)| word.elsewhere);
         if !is_elsewhere && index.within(target, &program_around(cx, jump.range.start)).is_empty() {
-            let finding = finding(jump, target, word, index.all(target).first().copied());
+            let finding = finding(jump, target, word, index.all(target).first().copied())
+                .fix_if(to_nearest(cx, jump, target));
             report.add(cx.if_run(finding, std::slice::from_ref(&jump.range)));
         }
     }
+}
+
+/// Jumps to the label of the program whose number is nearest, if one is nearer than all others.
+fn to_nearest(cx: &FileCx<'_>, jump: &Jump, target: u32) -> Option<Fix> {
+    let program = program_around(cx, jump.range.start);
+    let mut numbers: Vec<u32> = cx
+        .file_index
+        .labels
+        .iter()
+        .filter(|label| program.contains(&label.range.start))
+        .map(|label| label.number)
+        .collect();
+    numbers.sort_unstable();
+    numbers.dedup();
+    numbers.sort_by_key(|number| number.abs_diff(target));
+    let nearest = match *numbers.as_slice() {
+        [only] => only,
+        [nearest, next, ..] if nearest.abs_diff(target) < next.abs_diff(target) => nearest,
+        _ => return None,
+    };
+    // The number is the last thing in the word or statement.
+    let text = cx.slice(jump.range.clone());
+    let digits = text.len() - text.trim_end_matches(|c: char| c.is_ascii_digit()).len();
+    let end = jump.range.start + text.len() as u32;
+    (digits > 0)
+        .then(|| Fix::risky(format!("jump to `N{nearest}`"), end - digits as u32..end, nearest.to_string()))
 }
 
 fn finding(
@@ -98,7 +126,24 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::testing::check_rule;
+    use crate::testing::{World, check_rule, findings, only};
+
+    #[test]
+    fn the_label_with_the_nearest_number_is_offered() {
+        let offered = |text: &str| {
+            let found = findings(&only(&RULE), "fanuc-mill", text, &World::default());
+            let fixes = found.into_iter().flat_map(|finding| finding.fixes);
+            fixes
+                .map(|fix| (fix.title, fix.edits[0].range.clone(), fix.edits[0].text.clone()))
+                .collect::<Vec<_>>()
+        };
+        assert_eq!(
+            offered("O1\nIF [#100 GT 5] GOTO 21\nN20 G0 X1.\nN90 M30\n"),
+            [("jump to `N20`".to_owned(), 23..25, "20".to_owned())]
+        );
+        assert_eq!(offered("O1\nGOTO 20\nN10 G0 X1.\nN30 M30\n"), [], "two are as near");
+        assert_eq!(offered("O1\nGOTO 20\nM30\nO2\nN21 M99\n"), [], "of another program");
+    }
 
     #[test]
     fn labels_of_another_program_in_the_file_do_not_count() {

@@ -201,7 +201,9 @@ impl PathRule for LengthOffsetOfAnotherTool {
             );
         }
         let of_tools = cx.model.semantics().tools.offsets_of_tools;
-        let strangers = if by_t || of_tools { self.pairs.take_strangers() } else { Vec::new() };
+        // Of a turret's `T0102` the offset is a part of the word.
+        let letter = (!by_t).then_some('H');
+        let strangers = if by_t || of_tools { self.pairs.take_strangers(letter) } else { Vec::new() };
         for (finding, tool) in strangers {
             let (owner, most) = if by_t { ("station", Severity::Info) } else { ("tool", Severity::Warning) };
             report.add(

@@ -1,10 +1,10 @@
 //! A code that the control does not have.
 
-use gcheck_controls::{CodeNumber, Confidence, Letter, load, names};
+use gcheck_controls::{Code, CodeNumber, Confidence, Effect, Letter, load, names};
 use gcheck_program::{BlockFlags, Value, Word};
 
 use crate::declare::declare_rule;
-use crate::{BlockCx, Finding, Reads, Report, Run, Severity, limit};
+use crate::{BlockCx, Finding, Fix, Reads, Report, Run, Severity, limit};
 
 declare_rule! {
     /// A G or M code is not in the control's list.
@@ -21,6 +21,10 @@ declare_rule! {
     /// ```nc,reported,haas-mill
     /// G54.25
     /// ```
+    /// A code of another control, for which this one has its own:
+    /// ```nc,reported,haas-mill
+    /// G54.1 P3
+    /// ```
     /// ## Not reported
     /// ```nc,quiet,haas-mill
     /// G154 P2
@@ -34,6 +38,7 @@ declare_rule! {
         severity: Error,
         tier: Block,
         control_specific: true,
+        fixable: OnRequest,
         since: "0.1.0",
         run: Run::BlockAndValues { trigger: BlockFlags::UNKNOWN_CODE, reads: Reads::Codes, check },
     }
@@ -81,6 +86,7 @@ fn finding(cx: &BlockCx<'_>, word: &Word) -> Finding {
         finding
     };
     let elsewhere = elsewhere(cx, number);
+    let finding = finding.fix_if(instead(cx, word, &elsewhere));
     if list.depends_on_setting(number) {
         let finding = finding
             .label("not in the set of codes that is assumed")
@@ -103,11 +109,63 @@ fn finding(cx: &BlockCx<'_>, word: &Word) -> Finding {
     }
 }
 
+/// The one code that was meant: what does here what the code does on another control of the same kind of machine, else the only
+/// code that a slip of the finger leads to.
+fn instead(cx: &BlockCx<'_>, word: &Word, elsewhere: &[Elsewhere]) -> Option<Fix> {
+    let control = cx.control();
+    let code = match elsewhere.first() {
+        Some(other) => {
+            let is_same = |code: &Code<'_>| {
+                other.same_kind && code.effect() == other.effect && code.effect() != Effect::None
+            };
+            let mut same = control.codes().filter(is_same);
+            same.next().filter(|_| same.next().is_none())?
+        }
+        None => {
+            let digits = cx.text(word).get(1..)?;
+            let mut meant = slips(digits)
+                .into_iter()
+                .filter_map(|digits| digits.parse().ok())
+                .filter_map(|number| CodeNumber::from_value(word.letter.ascii(), number))
+                .collect::<Vec<CodeNumber>>();
+            meant.sort_unstable();
+            meant.dedup();
+            let mut known = meant.into_iter().filter_map(|number| control.code(number));
+            known.next().filter(|_| known.next().is_none())?
+        }
+    };
+    let name = code.entry().code.clone();
+    Some(Fix::risky(format!("write `{name}` ({})", code.entry().title), cx.range(word), name))
+}
+
+/// What may have been meant by digits: without one of two that are alike, with two in the other order, without a point.
+fn slips(digits: &str) -> Vec<String> {
+    let all: Vec<char> = digits.chars().collect();
+    let mut slips = Vec::new();
+    for (ix, pair) in all.windows(2).enumerate() {
+        let [a, b] = pair else { continue };
+        let mut other = all.clone();
+        if a == b {
+            other.remove(ix);
+            slips.push(other.into_iter().collect());
+        } else if *a != '.' && *b != '.' {
+            other.swap(ix, ix + 1);
+            slips.push(other.into_iter().collect());
+        }
+    }
+    if digits.contains('.') {
+        slips.push(digits.replace('.', ""));
+    }
+    slips
+}
+
 /// A control that is known to have the code.
 struct Elsewhere {
     title: String,
     /// What the code is there.
     meaning: String,
+    /// What it does there.
+    effect: Effect,
     /// Both are mills, or both lathes.
     same_kind: bool,
     /// Its codes are one of several sets, which a setting chooses.
@@ -119,10 +177,12 @@ fn elsewhere(cx: &BlockCx<'_>, number: CodeNumber) -> Vec<Elsewhere> {
     let others =
         names().iter().filter(|name| **name != cx.control().name()).filter_map(|name| load(name).ok());
     let known = others.filter_map(|control| {
-        let entry = control.code(number)?.entry();
+        let code = control.code(number)?;
+        let entry = code.entry();
         (entry.confidence == Confidence::Manual).then(|| Elsewhere {
             title: control.title().to_owned(),
             meaning: entry.title.clone(),
+            effect: code.effect(),
             same_kind: control.machine() == cx.control().machine(),
             is_set: !control.code_list().by_setting.is_empty(),
         })
@@ -209,6 +269,17 @@ mod tests {
               note: on Fanuc 0i-T / 30i-T, turning centre, G code system B: incremental distances
               help: check which set of codes the machine is set to, and choose its control
         "#]].assert_eq(&words(&found[0]));
+    }
+
+    #[test]
+    fn the_code_that_was_meant_is_offered_where_there_is_only_one() {
+        let offered = |control: &str, text: &str| {
+            let found = findings(&only(&RULE), control, text, &World::default());
+            found.first().and_then(|finding| Some(finding.fixes.first()?.edits[0].text.clone()))
+        };
+        assert_eq!(offered("haas-mill", "G54.1 P3\n").as_deref(), Some("G154"), "the same elsewhere");
+        assert_eq!(offered("linuxcnc", "G433 H1\n").as_deref(), Some("G43"), "a digit twice");
+        assert_eq!(offered("haas-mill", "G54.25\n"), None);
     }
 
     #[test]

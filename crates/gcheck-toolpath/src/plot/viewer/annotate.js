@@ -76,7 +76,7 @@ function extents(paper, room, scene) {
     const edges = [0, 1, 2, 3, 4, 5, 6, 7].filter((i) => !(i & bit)).map((i) => [camera.onScreen(cornerOf(box, i)), camera.onScreen(cornerOf(box, i | bit))]);
     // An edge seen from its end has no length to be named.
     if (Math.abs(dot(camera.rows[2], [0, 1, 2].map((k) => k === axis ? 1 : 0))) > 0.97) return;
-    const words = `${"XYZ"[axis]} ${lengthText(size * (axis === 0 && d.diameter ? 2 : 1), d.units)}`;
+    const words = `${axis === 0 && d.diameter ? "X Ø" : "XYZ"[axis]} ${lengthText(size * (axis === 0 && d.diameter ? 2 : 1), d.units)}`;
     // The path is on the inner side: where there is no room around it, the corner is better.
     const { outer, inner } = placesAtEdges(edges);
     write(paper, room, words, [...outer, ...corner, ...inner], theme.text);

@@ -77,6 +77,8 @@ export function decode(data) {
     fileOf: runs(Uint8Array, data.fileOf, count),
     driveOf: runs(Uint16Array, data.driveOf, count),
     drives: data.drives ?? [],
+    callOf: runs(Uint16Array, data.callOf, count),
+    calls: data.calls ?? [[]],
     rotary,
     headings: data.headings ?? [],
     changes: data.changes ?? [],
@@ -89,7 +91,7 @@ export function decode(data) {
 /** Data without points, as decoded ones, in the units and on the kind of machine of others. */
 export const withoutPoints = ({ units, lathe, diameter }) => ({
   version: VERSION, units, lathe, diameter, tools: [], files: [""], count: 0, points: new Float32Array(0), seconds: new Float32Array(0),
-  lines: new Uint32Array(0), kinds: new Uint8Array(0), toolOf: new Uint8Array(0), fileOf: null, driveOf: null, drives: [], rotary: null,
+  lines: new Uint32Array(0), kinds: new Uint8Array(0), toolOf: new Uint8Array(0), fileOf: null, driveOf: null, drives: [], callOf: null, calls: [[]], rotary: null,
   thinned: false, cut: null, all: null,
 });
 

@@ -87,6 +87,8 @@ pub(super) fn of(global: &Global, options: &PlotOptions, prepared: &Prepared) ->
             message: finding.message.clone(),
         })
         .collect();
+    // The page goes through them from the top.
+    shown.sort_by_key(|found| found.line);
     let more = shown.len().saturating_sub(MOST);
     shown.truncate(MOST);
     Ok(Found { shown, more })

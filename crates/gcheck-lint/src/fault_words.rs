@@ -1,21 +1,23 @@
 //! What a fault is called, why the control refuses the block, and what to do.
 //!
-//! Knows: the wording of every fault. Must not know: where it happened, how it is printed.
+//! Knows: the wording of every fault. Must not know: how it is printed.
 
 use gcheck_controls::{Code, CodeIx, Letter, LetterSet, Motion};
 use gcheck_engine::{
-    ArcFault, CompensationFault, CornerFault, CycleFault, Fault, Model, Role, Units, ValueFault,
+    ArcFault, CompensationFault, Concrete, ConcreteValue, CornerFault, CycleFault, Fault, Model, Origin,
+    Program, Role, State, Units, ValueFault,
 };
+use gcheck_program::{Op, Place, Value, Word};
 
 /// A fault in words.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Words {
+pub struct Words {
     /// What is wrong, in one sentence without an end.
-    pub(crate) message: String,
+    pub message: String,
     /// Why the control stops there.
-    pub(crate) why: Option<String>,
+    pub why: Option<String>,
     /// What to do.
-    pub(crate) help: Option<String>,
+    pub help: Option<String>,
 }
 
 impl Words {
@@ -34,8 +36,82 @@ impl Words {
     }
 }
 
+/// A fault of a block that is executed in a state, in words; lengths are shown in `units` where the state does not tell those of
+/// the program.
+pub fn at_block(
+    fault: &Fault,
+    program: &Program<'_>,
+    model: &Model<'_>,
+    origin: Origin,
+    state: &State<Concrete>,
+    units: Units,
+) -> Words {
+    let place = || place(program, origin);
+    match fault {
+        Fault::Alarm(number) => {
+            let file = program.file(origin.at.file);
+            let comment = file.zip(place()).and_then(|(file, place)| {
+                // A comment after a statement is not part of the block's own range.
+                first_comment(&file.loaded.line_from(place.range().start))
+            });
+            alarm(*number, comment.as_deref())
+        }
+        Fault::Undecidable => {
+            undecidable(&place().map(|place| unknown_variables(&place, model, state)).unwrap_or_default())
+        }
+        _ => {
+            let units = state.units(model).unwrap_or(units);
+            let place = place();
+            let block = place.as_ref().map(|place| Written::of(place, model)).unwrap_or_default();
+            words(fault, model, &block, units)
+        }
+    }
+}
+
+fn place(program: &Program<'_>, origin: Origin) -> Option<Place> {
+    program.file(origin.at.file)?.loaded.place(origin.at.block, program.dialect())
+}
+
+/// What the first comment of a line says.
+fn first_comment(line: &str) -> Option<String> {
+    let (_, rest) = line.split_once('(')?;
+    let comment = rest.split(')').next()?.trim();
+    (!comment.is_empty()).then(|| comment.to_owned())
+}
+
+/// Variables of a block that have no known value; those of the call at hand only where there are no others.
+fn unknown_variables(place: &Place, model: &Model<'_>, state: &State<Concrete>) -> Vec<u32> {
+    let table = &place.table;
+    let of_words = table.words(place.block()).iter().filter_map(|word| match word.value {
+        Value::Expr(expr) => Some(expr),
+        _ => None,
+    });
+    let of_statements = table.statements(place.ix).flat_map(|statement| statement.kind.expressions());
+    let mut read: Vec<u32> = of_words
+        .chain(of_statements)
+        .flat_map(|expr| table.ops(table.expr(expr)))
+        .filter_map(|op| match op {
+            Op::Variable(number) => Some(*number),
+            _ => None,
+        })
+        .collect();
+    read.sort_unstable();
+    read.dedup();
+    let [first, last] = model.semantics().locals;
+    let (own, mut others): (Vec<u32>, Vec<u32>) =
+        read.into_iter().filter(|number| *number > 0).partition(|number| (first..=last).contains(number));
+    others.retain(|number| state.variables().get(*number) == ConcreteValue::Unknown);
+    if others.is_empty() { own } else { others }
+}
+
+/// Is this a word that looks like a code and names none?
+pub fn is_unknown_code(word: &Word) -> bool {
+    let is_code = word.letter == Letter::of('G') || word.letter == Letter::of('M');
+    is_code && !word.code.is_some()
+}
+
 /// A fault in words; lengths are shown in `units`, those of the program.
-pub(crate) fn words(fault: &Fault, model: &Model<'_>, block: &Written<'_>, units: Units) -> Words {
+pub fn words(fault: &Fault, model: &Model<'_>, block: &Written<'_>, units: Units) -> Words {
     match fault {
         Fault::Value(value) => of_value(*value),
         Fault::Undecidable => undecidable(&[]),
@@ -52,7 +128,10 @@ pub(crate) fn words(fault: &Fault, model: &Model<'_>, block: &Written<'_>, units
         Fault::WordRange(letter) => {
             Words::new(format!("the value of `{letter}` is outside what the code takes"))
         }
-        Fault::UnknownCode => Words::new("the control does not have this code")
+        Fault::UnknownCode => Words::new(match &block.unknown {
+            Some(code) => format!("the control does not have the code `{code}`"),
+            None => "the control does not have this code".to_owned(),
+        })
             .help("`gcheck codes` lists the codes; `[codes]` in gcheck.toml adds those of the shop"),
         Fault::NotNow(refused, None) => {
             Words::new(format!("{} cannot be carried out here", code(model, *refused)))
@@ -144,11 +223,27 @@ pub(crate) fn words(fault: &Fault, model: &Model<'_>, block: &Written<'_>, units
 
 /// The block in which a fault is, as far as words about it depend on it.
 #[derive(Default)]
-pub(crate) struct Written<'m> {
+pub struct Written<'m> {
     /// Its codes.
-    pub(crate) codes: Vec<Code<'m>>,
+    pub codes: Vec<Code<'m>>,
     /// Its addresses.
-    pub(crate) letters: LetterSet,
+    pub letters: LetterSet,
+    /// The first word that looks like a code and names none.
+    pub unknown: Option<String>,
+}
+
+impl<'m> Written<'m> {
+    /// What a block says.
+    pub fn of(place: &Place, model: &'m Model<'_>) -> Self {
+        let words = place.table.words(place.block());
+        let control = model.control();
+        let unknown = words.iter().find(|word| is_unknown_code(word));
+        Self {
+            codes: words.iter().filter_map(|word| control.code_at(word.code)).collect(),
+            letters: words.iter().map(|word| word.letter).collect(),
+            unknown: unknown.and_then(|word| Some(format!("{}{}", word.letter, word.number()?))),
+        }
+    }
 }
 
 /// A word that the block does not have, with those that would do as well.
@@ -202,14 +297,14 @@ fn names(letters: LetterSet, joint: &str) -> String {
 }
 
 /// `#3000`: the alarm that a program raises itself, with the text it gives.
-pub(crate) fn alarm(number: i64, text: Option<&str>) -> Words {
+pub fn alarm(number: i64, text: Option<&str>) -> Words {
     let text = text.map(|text| format!(": {text}")).unwrap_or_default();
     Words::new(format!("the program raises alarm {number} itself{text}"))
         .why("it assigns to `#3000`, which stops the machine")
 }
 
 /// More blocks than allowed.
-pub(crate) fn out_of_fuel(blocks: u64) -> Words {
+pub fn out_of_fuel(blocks: u64) -> Words {
     let blocks = if blocks == 1 { "1 block".to_owned() } else { format!("{blocks} blocks") };
     Words::new(format!("the program had not ended after {blocks}; here gcheck stopped executing it"))
         .why("a loop may never end")
@@ -217,7 +312,7 @@ pub(crate) fn out_of_fuel(blocks: u64) -> Words {
 }
 
 /// A way on that cannot be chosen; `variables` are those of the block that have no known value.
-pub(crate) fn undecidable(variables: &[u32]) -> Words {
+pub fn undecidable(variables: &[u32]) -> Words {
     let names: Vec<String> = variables.iter().map(|number| format!("`#{number}`")).collect();
     let (what, example) = match (names.split_last(), variables.first()) {
         (Some((last, [])), Some(first)) => (format!("{last}, and its value is not known"), *first),
@@ -434,7 +529,7 @@ fn length(mm: f64, units: Units) -> String {
 }
 
 /// The word of the block that a fault is about, if it is about one.
-pub(crate) fn culprit(fault: &Fault) -> Option<Culprit> {
+pub fn culprit(fault: &Fault) -> Option<Culprit> {
     Some(match fault {
         Fault::MissingValue(letter)
         | Fault::WordRange(letter)
@@ -457,7 +552,7 @@ pub(crate) fn culprit(fault: &Fault) -> Option<Culprit> {
 
 /// A word of a block.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Culprit {
+pub enum Culprit {
     /// The last with this address.
     Letter(Letter),
     /// The one that names this code.
