@@ -7,7 +7,7 @@ use super::calls::Kept;
 use super::compensation::CompensationState;
 use super::cycle::CycleWords;
 use super::feed::Feed;
-use super::mapping::Mapping;
+use super::mapping::{Mapping, TiltedPlane};
 use super::modes::Modes;
 use super::offsets::Offsets;
 use super::path_mode::Blending;
@@ -26,7 +26,7 @@ use crate::machine::WorkOffset;
 use crate::value::Abstract;
 
 /// Structures whose lattice is written by hand, with the fields that they join.
-const BY_HAND: [(&str, &[&str]); 12] = [
+const BY_HAND: [(&str, &[&str]); 13] = [
     ("Calls", &["frames", "elsewhere", "modal"]),
     ("Cylinder", &["diameter", "stands", "zero"]),
     ("Frame", &["kept", "locals"]),
@@ -34,6 +34,7 @@ const BY_HAND: [(&str, &[&str]); 12] = [
     ("ModalCall", &["arguments"]),
     ("ModalCalls", &["off", "calls", "other"]),
     ("Named", &["values", "unsure"]),
+    ("PolarPlane", &["zero", "stands"]),
     ("Rotation", &["centre"]),
     ("Row", &["tool", "listed"]),
     ("Scaling", &["centre"]),
@@ -61,6 +62,7 @@ pub fn state_fields() -> Vec<Field> {
         Probe::FIELDS,
         SavedModes::FIELDS,
         SpindleState::<Abstract>::FIELDS,
+        TiltedPlane::FIELDS,
         ToolData::FIELDS,
         ToolShift::FIELDS,
         ToolState::<Abstract>::FIELDS,

@@ -71,7 +71,7 @@ pub(crate) fn turns(cx: &PathCx<'_>) -> bool {
 /// Does the part turn under a tool that does not, in the plane of X and Z?
 pub(crate) fn turns_the_part(cx: &PathCx<'_>) -> bool {
     let state = cx.state();
-    // While X and the C axis are the coordinates of the face, the part stands where the C axis holds it.
+    // While X and the C axis are the coordinates of the face, the C axis holds the part.
     let is_face = state
         .effect(Role::PolarInterpolation, cx.model)
         .is_none_or(|effect| effect == Effect::PolarInterpolationOn);

@@ -203,17 +203,8 @@ impl<'t> Checked<'t> {
             return Err(self.text.anywhere("`axes` is empty: a machine has at least one axis"));
         }
         let shown = || axes.iter().map(|axis| axis.value.to_ascii_uppercase()).collect::<Vec<_>>().join(", ");
-        let figures = [&table.rapid, &table.acceleration, &table.jerk].into_iter().flatten();
-        let by_axis = figures.flat_map(|figures| match &figures.value {
-            ByAxis::All(_) => Vec::new(),
-            ByAxis::Each(each) => each.keys().collect(),
-        });
-        let named = table
-            .travel
-            .keys()
-            .chain(table.rotary_sign.keys())
-            .chain(table.rotary_order.iter().flatten())
-            .chain(by_axis);
+        // Rates of axes that are not listed stay: an import that narrows `axes` keeps what it does not know.
+        let named = table.travel.keys().chain(table.rotary_sign.keys()).chain(table.rotary_order.iter().flatten());
         for name in named {
             if !axes.iter().any(|axis| axis.value.eq_ignore_ascii_case(&name.value)) {
                 let message = format!("`{}` is not among the machine's `axes`: {}", name.value, shown());

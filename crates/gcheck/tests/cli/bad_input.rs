@@ -712,7 +712,6 @@ fn figures_and_axes_that_no_machine_has() {
         ("haas-mill", "[machine]\nspindle_orient_seconds = 1e4"),
         ("haas-mill", "[machine]\npockets = 4000000000"),
         ("haas-mill", "[machine]\naxes = [\"X\", \"Y\", \"Z\"]\ntravel = { A = [0.0, 90.0] }"),
-        ("haas-mill", "[machine]\naxes = [\"X\", \"Z\"]\nrapid = { X = 100.0, Y = 100.0 }"),
         ("haas-mill", "[machine]\naxes = [\"X\", \"Y\", \"Z\", \"A\"]\nrotary_order = [\"A\", \"B\"]"),
         ("haas-mill", "[machine]\naxes = [\"X\", \"Y\", \"Z\", \"A\"]\nrotary = \"table-table\""),
         ("haas-mill", "[machine]\nrotary_sign = { X = 1 }"),
@@ -768,8 +767,6 @@ fn figures_and_axes_that_no_machine_has() {
           error: gcheck.toml:3:11: a magazine has at most 1000 pockets
         [machine] | axes = ["X", "Y", "Z"] | travel = { A = [0.0, 90.0] }
           error: gcheck.toml:4:12: `A` is not among the machine's `axes`: X, Y, Z
-        [machine] | axes = ["X", "Z"] | rapid = { X = 100.0, Y = 100.0 }
-          error: gcheck.toml:4:22: `Y` is not among the machine's `axes`: X, Z
         [machine] | axes = ["X", "Y", "Z", "A"] | rotary_order = ["A", "B"]
           error: gcheck.toml:4:22: `B` is not among the machine's `axes`: X, Y, Z, A
         [machine] | axes = ["X", "Y", "Z", "A"] | rotary = "table-table"

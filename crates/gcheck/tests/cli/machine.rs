@@ -872,45 +872,50 @@ fn overwriting_keeps_comments_order_and_the_axes_that_are_not_imported() {
         &[("probe.xml", PROBE_OF_X), ("gcheck.toml", before)],
         "probe.xml --overwrite",
         &expect![[r#"
-            ! error: gcheck.toml:8:7: `Y` is not among the machine's `axes`: X
-            !   |
-            ! 8 | rapid.Y = 5000 # measured
-            !   |       ^
-            !   note: this is gcheck.toml as it would be; it was left as it is
-            exit 2
-            [machine]
-            units = "mm"
-            axes = [
-              "X", # the long one
-              "Y",
-              "Z", # down
-            ]
-            # From the door.
-            rapid = 5000 # measured
-            max_rpm   =   9000 # plate
-        "#]],
+        wrote gcheck.toml: 3 values
+        next: `gcheck check --show-settings`
+        ! machine.rapid was 5000 for every linear axis and is by axis; Y, Z keep it
+        exit 0
+        [machine]
+        units = "mm"
+        axes = [
+          "X", # the long one
+           # down
+        ]  # from probe.xml, its axes
+        # From the door.
+        rapid.Y = 5000 # measured
+        rapid.Z = 5000 # measured
+        rapid.X = 24000.0  # from probe.xml, X AXIS_FEEDRATE Maximum * 60
+        max_rpm   =   9000 # plate
+        name = "VMC"  # from probe.xml, the name of the device
+    "#]],
     );
     check_in(
         &[("mill.ini", INI), ("gcheck.toml", before)],
         "mill.ini --overwrite --quiet",
         &expect![[r#"
-            ! error: gcheck.toml:9:7: `Y` is not among the machine's `axes`: X, Z, A
-            !   |
-            ! 9 | rapid.Y = 5000 # measured
-            !   |       ^
-            !   note: this is gcheck.toml as it would be; it was left as it is
-            exit 2
-            [machine]
-            units = "mm"
-            axes = [
-              "X", # the long one
-              "Y",
-              "Z", # down
-            ]
-            # From the door.
-            rapid = 5000 # measured
-            max_rpm   =   9000 # plate
-        "#]],
+        exit 0
+        [machine]
+        units = "mm"
+        axes = [
+          "X", # the long one
+          "Z",
+          "A", # down
+        ]  # from mill.ini, [TRAJ] COORDINATES
+        # From the door.
+        rapid.Y = 5000 # measured
+        rapid.X = 3000.0  # from mill.ini, [AXIS_X] MAX_VELOCITY * 60, held by [TRAJ] MAX_LINEAR_VELOCITY
+        rapid.Z = 3000.0  # from mill.ini, [JOINT_1] MAX_VELOCITY * 60
+        rapid.A = 3600.0  # from mill.ini, [AXIS_A] MAX_VELOCITY * 60
+        max_rpm   =   12000.0 # plate; from mill.ini, [SPINDLE_0] MAX_FORWARD_VELOCITY
+        name = "Mill"  # from mill.ini, [EMC] MACHINE
+        travel.X = [-300.0, 0.0]  # from mill.ini, [AXIS_X] MIN_LIMIT and MAX_LIMIT
+        travel.Z = [-120.0, 5.0]  # from mill.ini, [JOINT_1] MIN_LIMIT and MAX_LIMIT
+        acceleration.X = 500.0  # from mill.ini, [AXIS_X] MAX_ACCELERATION
+        acceleration.Z = 400.0  # from mill.ini, [JOINT_1] MAX_ACCELERATION
+        acceleration.A = 900.0  # from mill.ini, [AXIS_A] MAX_ACCELERATION
+        max_feed = 3000.0  # from mill.ini, [TRAJ] MAX_LINEAR_VELOCITY * 60
+    "#]],
     );
 }
 

@@ -35,12 +35,16 @@ fn the_unit_of_a_preset_is_that_of_its_own_lengths() {
     settings(
         "control = \"fanuc-mill\"\n[machine]\npreset = \"tormach-1100mx\"\nmax_feed = 5000.0\n",
         &expect![[r#"
-            ! error: gcheck.toml:4:12: max_feed is 5000, and the preset `tormach-1100mx` has a rapid rate of 230: no axis cuts faster than it moves at rapid
-            !   |
-            ! 4 | max_feed = 5000.0
-            !   |            ^^^^^^
-            !   help: write `rapid` too, or a lower `max_feed`
-            exit 2
+            part.nc
+              control: fanuc-mill, by configuration (gcheck.toml)
+              configuration: gcheck.toml
+              preset: tormach-1100mx
+              axes: X Y Z
+              speed: at most 10000 rpm
+              feed: at most 5000 mm/min
+              rapid: X 7620 mm/min, Y 7620 mm/min, Z 5842 mm/min
+
+            exit 0
         "#]],
     );
 }

@@ -165,7 +165,7 @@ fn resting_on_tip(cx: &PathCx<'_>, finding: Finding) -> Finding {
     cx.resting_on(finding, Fact::Mode(Role::Length), &format!("`{name}`"))
 }
 
-/// Is the tool parallel to the turning axis, within a degree, where the other one stands there?
+/// Is the tool parallel to the turning axis, within a degree, with the other one at this angle?
 fn is_pole(turning: Axis, other: Axis, angle: f64) -> bool {
     let upright = match (turning, other) {
         (Axis::C, _) => angle,

@@ -17,11 +17,11 @@ declare_rule! {
     ///
     /// The rule needs the acceleration of the machine (`[machine] acceleration`). The speed is the lead times the speed of the
     /// spindle, and the way is the square of it by twice the acceleration. A thread that begins in front of `Z0` and ends
-    /// behind it is taken to begin in the part at `Z0`. Taps are left out: there the axis follows the spindle as it starts.
+    /// in the part is taken to begin in the part at `Z0`. Taps are left out: there the axis follows the spindle as it starts.
     /// Each speed is reported once.
     ///
     /// ## Why it matters
-    /// While the axis gathers speed it lags behind the spindle: the first turns of the thread are too narrow, and the gauge does
+    /// While the axis gathers speed it is late for the spindle: the first turns of the thread are too narrow, and the gauge does
     /// not go on.
     ///
     /// ## Reported
