@@ -9,6 +9,8 @@ mod generated;
 mod markdown;
 pub(crate) mod registry;
 #[cfg(feature = "product")]
+mod rendered;
+#[cfg(feature = "product")]
 mod rule_pages;
 #[cfg(feature = "product")]
 mod schema;

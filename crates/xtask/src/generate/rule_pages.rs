@@ -6,10 +6,11 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use gcheck_diagnostics::{RuleMeta, RuleSet};
+use gcheck_lint::RuleEntry;
 use gcheck_rules::RULES;
 
 use super::generated::Generated;
-use super::{markdown, registry};
+use super::{markdown, registry, rendered};
 
 const FOLDER: &str = "docs/rules";
 
@@ -17,7 +18,7 @@ const FOLDER: &str = "docs/rules";
 pub(super) fn generate() -> Generated {
     let rules: Vec<&RuleMeta> = RULES.iter().map(|rule| rule.meta).collect();
     let mut files = vec![(Path::new(FOLDER).join("README.md"), index(&rules))];
-    files.extend(rules.iter().map(|rule| (path(rule), page(rule))));
+    files.extend(RULES.iter().map(|rule| (path(rule.meta), page(rule))));
     files
 }
 
@@ -25,7 +26,8 @@ fn path(rule: &RuleMeta) -> PathBuf {
     Path::new(FOLDER).join(format!("{}.md", rule.id))
 }
 
-fn page(rule: &RuleMeta) -> String {
+fn page(entry: &RuleEntry) -> String {
+    let rule = entry.meta;
     let source = format!("{}/{}/{}.rs", registry::RULES, rule.group, rule.id.replace('-', "_"));
     let mut text = markdown::header(&source);
     let _ = writeln!(text, "# {}\n", rule.id);
@@ -50,14 +52,43 @@ fn page(rule: &RuleMeta) -> String {
         );
     }
     text.push('\n');
-    text.push_str(&with_plainsides(&rule.docs()));
+    let examples = rule.examples();
+    let mut examples = examples.iter();
+    let rendered = || {
+        let example = examples.next().filter(|example| example.reported)?;
+        rendered::finding(entry, example)
+    };
+    text.push_str(&with_plainsides(&rule.docs(), rendered));
+    text.push_str(&switched_off(rule));
     text
 }
 
-/// Examples of documentation say in their fence for which control they hold; on a page this is a line of text.
-fn with_plainsides(docs: &str) -> String {
+/// How the rule is silenced, or how it comes to run.
+fn switched_off(rule: &RuleMeta) -> String {
+    let id = rule.id;
+    let mut text = String::from("\n## Switching it off\n\n");
+    if !rule.recommended {
+        let _ = writeln!(text, "The rule runs only where it is selected: `--extend-select {id}`.");
+    }
+    let _ = writeln!(
+        text,
+        "For all programs, in `gcheck.toml`: `ignore = [\"{id}\"]` under `[rules]`; for some of them: \
+         `\"old/**\" = [\"{id}\"]` under `[per-file-ignores]`."
+    );
+    let _ = writeln!(
+        text,
+        "At one place, in a comment on the line or the line above, with the reason: `(gcheck: ignore {id} - reason)`; \
+         in a whole program: `(gcheck: ignore-file {id} - reason)`."
+    );
+    text
+}
+
+/// Examples of documentation say in their fence for which control they hold; on a page this is a line of text. After each
+/// example comes what `rendered` gives for it.
+fn with_plainsides(docs: &str, mut rendered: impl FnMut() -> Option<String>) -> String {
     let mut lines: Vec<String> = Vec::new();
     let mut inside = false;
+    let mut is_example = false;
     // Markdown readers differ on what may touch a heading or a fence; a blank line is right for all.
     let apart = |lines: &mut Vec<String>| {
         if lines.last().is_some_and(|line| !line.is_empty()) {
@@ -76,11 +107,21 @@ fn with_plainsides(docs: &str) -> String {
                 None => format!("On `{control}`:"),
             };
             lines.extend([heading, String::new(), "```nc".to_owned()]);
+            is_example = true;
         } else if !(line.is_empty() && lines.last().is_some_and(String::is_empty)) || inside {
             lines.push(line.to_owned());
         }
         if fence && inside || line.starts_with('#') && !inside {
             apart(&mut lines);
+        }
+        if fence
+            && inside
+            && std::mem::take(&mut is_example)
+            && let Some(finding) = rendered()
+        {
+            lines.push("```text".to_owned());
+            lines.extend(finding.lines().map(str::to_owned));
+            lines.extend(["```".to_owned(), String::new()]);
         }
         inside ^= fence;
     }
@@ -153,11 +194,23 @@ mod tests {
     use super::with_plainsides;
 
     #[test]
+    fn an_example_is_followed_by_its_finding() {
+        let docs =
+            "## Reported\n```nc,reported,a-mill\nG4\n```\n## Not reported\n```nc,quiet,a-mill\nG4 P1.\n```\n";
+        let mut findings = [Some("error[a]: b\n  1 | G4".to_owned()), None].into_iter();
+        assert_eq!(
+            with_plainsides(docs, || findings.next().flatten()),
+            "## Reported\n\nOn `a-mill`:\n\n```nc\nG4\n```\n\n```text\nerror[a]: b\n  1 | G4\n```\n\n## Not reported\n\nOn `a-mill`:\n\n\
+             ```nc\nG4 P1.\n```\n"
+        );
+    }
+
+    #[test]
     fn fences_say_the_control_in_words() {
         let docs =
             "Meaning.\n## Reported\nSo.\n```nc,reported,a-mill\nG4\n\n\nM2\n```\n```text\nplain\n```\n";
         assert_eq!(
-            with_plainsides(docs),
+            with_plainsides(docs, || None),
             "Meaning.\n\n## Reported\n\nSo.\n\nOn `a-mill`:\n\n```nc\nG4\n\n\nM2\n```\n\n```text\nplain\n```\n"
         );
     }
