@@ -34,12 +34,12 @@ impl PolarPlane {
         let zero = if starts_at_zero { angle } else { 0.0 };
         let plane = Self { rotary, zero, stands: at.raw(Axis::Y), far: x < 0.0 };
         let (sin, cos) = (angle - zero).to_radians().sin_cos();
-        let mut place = *at;
+        let mut drawn = *at;
         // Where the axis starts at zero its angle need not be known.
         let [x, y] = if starts_at_zero { [x, 0.0] } else { [x * cos, x * sin] };
-        place.set(Axis::X, x);
-        place.set(Axis::Y, y);
-        (plane, place)
+        drawn.set(Axis::X, x);
+        drawn.set(Axis::Y, y);
+        (plane, drawn)
     }
 
     /// The point of the plane with the angle of the rotary axis, which comes from `from` the shorter way.
@@ -150,39 +150,41 @@ mod tests {
         point
     }
 
-    fn stands(point: &Position) -> [f64; 3] {
-        [Axis::X, Axis::Y, Axis::C].map(|axis| (point.raw(axis) * 1e6).round() / 1e6)
+    fn stands(point: &Position) -> String {
+        [Axis::X, Axis::Y, Axis::C]
+            .map(|axis| format!("{}{}", axis.name(), (point.raw(axis) * 1e6).round() / 1e6 + 0.0))
+            .join(" ")
     }
 
     #[test]
     fn a_straight_line_turns_the_part_the_shorter_way() {
-        let (plane, place) = PolarPlane::begin(Axis::C, &at(20.0, 5.0, 90.0), true);
-        assert_eq!(stands(&place), [20.0, 0.0, 90.0]);
-        let corner = plane.turned(at(0.0, 20.0, f64::NAN), &place);
-        assert_eq!(stands(&plane.standing(corner)), [20.0, 5.0, 180.0]);
+        let (plane, begun) = PolarPlane::begin(Axis::C, &at(20.0, 5.0, 90.0), true);
+        assert_eq!(stands(&begun), "X20 Y0 C90");
+        let corner = plane.turned(at(0.0, 20.0, f64::NAN), &begun);
+        assert_eq!(stands(&plane.standing(corner)), "X20 Y5 C180");
         let beyond = plane.turned(at(-20.0, -1.0, f64::NAN), &corner);
         assert!((plane.standing(beyond).raw(Axis::C) - 272.862_405).abs() < 1e-6);
     }
 
     #[test]
     fn an_arc_about_the_centre_turns_the_part_all_round() {
-        let (plane, place) = PolarPlane::begin(Axis::C, &at(20.0, 0.0, 0.0), false);
-        let whole = plane.turned_along(place, &place, (Mm(0.0), Mm(0.0)), std::f64::consts::TAU);
-        assert_eq!(stands(&whole), [20.0, 0.0, 360.0]);
-        let beside = plane.turned_along(place, &place, (Mm(15.0), Mm(0.0)), -std::f64::consts::TAU);
-        assert_eq!(stands(&beside), [20.0, 0.0, 0.0]);
+        let (plane, begun) = PolarPlane::begin(Axis::C, &at(20.0, 0.0, 0.0), false);
+        let whole = plane.turned_along(begun, &begun, (Mm(0.0), Mm(0.0)), std::f64::consts::TAU);
+        assert_eq!(stands(&whole), "X20 Y0 C360");
+        let beside = plane.turned_along(begun, &begun, (Mm(15.0), Mm(0.0)), -std::f64::consts::TAU);
+        assert_eq!(stands(&beside), "X20 Y0 C0");
     }
 
     #[test]
     fn the_centre_keeps_the_angle() {
-        let (plane, place) = PolarPlane::begin(Axis::C, &at(10.0, 0.0, 30.0), true);
-        assert_eq!(stands(&plane.turned(at(0.0, 0.0, f64::NAN), &place)), [0.0, 0.0, 30.0]);
+        let (plane, begun) = PolarPlane::begin(Axis::C, &at(10.0, 0.0, 30.0), true);
+        assert_eq!(stands(&plane.turned(at(0.0, 0.0, f64::NAN), &begun)), "X0 Y0 C30");
     }
 
     #[test]
     fn a_tool_beyond_the_centre_stays_there() {
-        let (plane, place) = PolarPlane::begin(Axis::C, &at(-10.0, 0.0, 0.0), true);
-        let turned = plane.turned(at(0.0, -10.0, f64::NAN), &place);
-        assert_eq!(stands(&plane.standing(turned)), [-10.0, 0.0, 90.0]);
+        let (plane, begun) = PolarPlane::begin(Axis::C, &at(-10.0, 0.0, 0.0), true);
+        let turned = plane.turned(at(0.0, -10.0, f64::NAN), &begun);
+        assert_eq!(stands(&plane.standing(turned)), "X-10 Y0 C90");
     }
 }

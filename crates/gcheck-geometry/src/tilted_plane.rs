@@ -115,7 +115,7 @@ mod tests {
         // A face that looks along X is turned by C to look along Y, and by A up; or the other way round.
         let ways = machine.square_to(Vector3::x(), [Degrees(0.0); 3]);
         let shown: Vec<[f64; 3]> = ways.iter().map(|angles| angles.map(|angle| angle.0.round())).collect();
-        assert_eq!(shown, [[90.0, 0.0, 90.0], [-90.0, 0.0, -90.0]]);
+        assert_eq!(shown, [[-90.0, 0.0, -90.0], [90.0, 0.0, 90.0]]);
     }
 
     proptest! {

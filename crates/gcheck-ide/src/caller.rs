@@ -28,15 +28,12 @@ pub fn caller(workspace: &Workspace, document: DocumentId) -> Option<Caller> {
     let head = own.snapshot.file_index().programs.first().and_then(|program| program.number);
     let stem = || own.name.split('.').next().and_then(gcheck_engine::number_of_name);
     let number = head.or_else(stem)?;
-    let others = workspace.files.iter().filter(|file| file.id != document);
-    others
-        .filter_map(|file| Some((file, call(&file.snapshot, number)?)))
-        .next()
-        .map(|(file, (line, text, variables))| Caller { file: file.name.to_string(), line, text, variables })
+    let mut others = workspace.files.iter().filter(|file| file.id != document);
+    others.find_map(|file| call(&file.snapshot, &file.name, number))
 }
 
-/// Line, text and arguments of the first call of a program that gives it some.
-fn call(snapshot: &Snapshot, number: u32) -> Option<(u32, String, Vec<(u32, f64)>)> {
+/// The first call of a program in a file that gives it arguments.
+fn call(snapshot: &Snapshot, file: &str, number: u32) -> Option<Caller> {
     let control = snapshot.control();
     let letters = &control.semantics().argument_letters;
     snapshot.file_index().calls.iter().find_map(|call| {
@@ -49,7 +46,8 @@ fn call(snapshot: &Snapshot, number: u32) -> Option<(u32, String, Vec<(u32, f64)
             .collect();
         let range = place.range();
         let text = snapshot.slice(range.clone()).trim().to_owned();
-        (!variables.is_empty()).then(|| (snapshot.line_at(range.start) + 1, text, variables))
+        let line = snapshot.line_at(range.start) + 1;
+        (!variables.is_empty()).then(|| Caller { file: file.to_owned(), line, text, variables })
     })
 }
 

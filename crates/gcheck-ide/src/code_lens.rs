@@ -73,9 +73,9 @@ pub fn run_statistics(
     };
     let Pictured { shown: (statistics, passed, tips), ran: Ran { stopped, .. }, .. } =
         picture(snapshot, caller, fuel, stop, begin, |(statistics, passed, tips), shown| match shown {
-            Shown::Event(step) => {
-                statistics.add(step);
-                tips.look(step, statistics.sections().len());
+            Shown::Event(seen) => {
+                statistics.add(seen);
+                tips.look(seen, statistics.sections().len());
             }
             Shown::Alarm { file, line, fault, .. } => passed.alarm(file, *line, fault),
             Shown::Assumed { assumption, .. } => passed.is_less |= assumption.leaves_moves_out(),

@@ -996,7 +996,7 @@ mod tests {
 
                 Moves in a straight line at the feed rate. *(motion, stays in effect)*
 
-                needs `F`, may have `X` `Y` `Z` `A` `B` `C` `U` `V` `W` `,R` `,C` `,A`
+                here or earlier `F`; may have `X` `Y` `Z` `A` `B` `C` `U` `V` `W` `,R` `,C` `,A`
             "#]],
         );
     }
@@ -1022,7 +1022,7 @@ mod tests {
 
                 Moves the named axes on a straight line at the programmed feed. *(motion, stays in effect)*
 
-                needs `F`, may have `X` `Y` `Z` `A` `B` `C` `U` `V` `W` `L` `,C` `,R`
+                here or earlier `F`; may have `X` `Y` `Z` `A` `B` `C` `U` `V` `W` `L` `,C` `,R`
             "#]],
         );
     }

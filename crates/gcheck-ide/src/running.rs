@@ -36,9 +36,10 @@ pub(crate) struct Ran {
 /// picture shows no more of a longer one.
 const MOST_BLOCKS: u64 = 3_000_000;
 
-/// Runs a document for a picture of its path: past alarms, from a control that was just switched on. A subprogram by itself is run
-/// as if it were called at zero of all axes, since its increments lead nowhere without a start, a macro with the arguments of a caller; `begin` is told of the machine
-/// before each run, and makes what is shown of it.
+/// Runs a document for a picture of its path: past alarms, from a control that was just switched on.
+///
+/// A subprogram by itself is run as if it were called at zero of all axes, since its increments lead nowhere without a start;
+/// a macro with the arguments of a caller. `begin` is told of the machine before each run, and makes what is shown of it.
 ///
 /// # Errors
 /// [`Cancelled`] when `stop` said yes.
@@ -60,7 +61,7 @@ pub(crate) fn picture<T>(
     let mut go = |machine: Machine| {
         let mut shown = begin(&machine);
         let ran = run_through(snapshot, &machine, Options::PICTURE, fuel, stop, &mut |what| {
-            show(&mut shown, what)
+            show(&mut shown, what);
         })?;
         Ok((shown, ran, machine))
     };

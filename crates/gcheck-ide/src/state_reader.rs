@@ -288,8 +288,8 @@ impl<'a> StateReader<'a> {
         }
         // However long the tool is: with its own length in effect the program says where the tip goes.
         let is_own = Abstract::known(state.h()).is_some_and(|h| h > 0.0);
-        let is_on = state.effect(Role::Length, self.model).is_some_and(|effect| effect == Effect::LengthPlus);
-        if is_on && is_own { work } else { tip }
+        let adds = state.effect(Role::Length, self.model).is_some_and(|effect| effect == Effect::LengthPlus);
+        if adds && is_own { work } else { tip }
     }
 
     /// `X1.5 Y2 Z-3`, unknown coordinates left out.

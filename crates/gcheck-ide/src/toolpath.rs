@@ -182,7 +182,7 @@ mod tests {
         assert_eq!(path.stopped, None);
         assert_eq!(path.data["all"], json!([[0.0, 0.0, 50.0], [50.0, 50.0, 50.0]]));
         assert_eq!(path.alarms.iter().map(|alarm| alarm.line).collect::<Vec<_>>(), [4, 5]);
-        assert_eq!(path.alarms[1].words, "line 5: the canned cycle needs `Z`");
+        assert_eq!(path.alarms[1].words, "line 5: `G83` needs `Z`");
         assert_eq!(path.data["alarms"][1], json!({ "file": 0, "line": 5, "at": [5.0, 0.0, 50.0] }));
     }
 

@@ -52,7 +52,7 @@ pub fn at_block(
             let file = program.file(origin.at.file);
             let comment = file.zip(place()).and_then(|(file, place)| {
                 // A comment after a statement is not part of the block's own range.
-                first_comment(&file.loaded.line_from(place.range().start))
+                first_comment(file.loaded.line_from(place.range().start))
             });
             alarm(*number, comment.as_deref())
         }
@@ -111,6 +111,7 @@ pub fn is_unknown_code(word: &Word) -> bool {
 }
 
 /// A fault in words; lengths are shown in `units`, those of the program.
+#[expect(clippy::too_many_lines, reason = "one line a fault")]
 pub fn words(fault: &Fault, model: &Model<'_>, block: &Written<'_>, units: Units) -> Words {
     match fault {
         Fault::Value(value) => of_value(*value),

@@ -38,7 +38,7 @@ impl<D: Domain> State<D> {
     /// part X stands at the point's radius. What a mode turns is unknown where the machine's rotary axes are not described.
     pub fn to_machine(&self, work: &Position, model: &Model<'_>, machine: &Machine) -> Position {
         let WorkOffset { origin, rotation } = self.work_offset();
-        let drawn = self.out_of_plane(self.mapping.standing(*work));
+        let drawn = self.off_plane(self.mapping.standing(*work));
         let placed = (drawn + self.shift()).turned(rotation) + origin;
         let stands = placed + *self.length();
         let position = match self.following(&placed, model, machine) {
@@ -79,7 +79,7 @@ impl<D: Domain> State<D> {
                 untooled.with_xyz(on_part.unwrap_or([Mm::UNKNOWN; 3]))
             }
         };
-        let mut work = self.into_plane((placed - origin).turned(-rotation) - self.shift());
+        let mut work = self.on_plane((placed - origin).turned(-rotation) - self.shift());
         if *self.face() != Face::Off {
             work.set(Axis::X, f64::NAN);
             work.set(Axis::Y, f64::NAN);
@@ -88,7 +88,7 @@ impl<D: Domain> State<D> {
     }
 
     /// A point of a tilted plane in the coordinates before.
-    fn out_of_plane(&self, point: Position) -> Position {
+    fn off_plane(&self, point: Position) -> Position {
         match &self.mapping.tilted {
             Perhaps::No => point,
             Perhaps::Yes(plane) => point.with_xyz(plane.frame().apply(point.xyz())),
@@ -97,7 +97,7 @@ impl<D: Domain> State<D> {
     }
 
     /// A point in the coordinates of the tilted plane.
-    fn into_plane(&self, point: Position) -> Position {
+    fn on_plane(&self, point: Position) -> Position {
         match &self.mapping.tilted {
             Perhaps::No => point,
             Perhaps::Yes(plane) => {

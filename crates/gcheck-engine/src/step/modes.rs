@@ -16,7 +16,7 @@ use crate::lattice::{Flat, Lattice, Perhaps};
 use crate::model::Role;
 use crate::observer::Observer;
 use crate::polar_plane::PolarPlane;
-use crate::position::Axis;
+use crate::position::{Axis, Position};
 use crate::state::{Blending, CoolantState, Face, ModalCalls, State, TiltedPlane};
 use crate::value::{Domain, Truth};
 
@@ -52,11 +52,16 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if let Some((machine, followed)) = before
             && (followed || state.follows_rotary(&machine, self.model))
         {
-            // The axes stand where they did; the program's point for that is another one.
-            state.points.actual = state.from_machine(&machine, self.model, self.machine);
-            state.points.position = self.programmed_of(state.actual(), state);
+            self.read_anew(&machine, state);
         }
         Ok(())
+    }
+
+    /// The axes stand where they did, and the program's X, Y and Z for that are other ones.
+    fn read_anew(&self, machine: &Position, state: &mut State<D>) {
+        let read = state.from_machine(machine, self.model, self.machine);
+        state.points.actual = state.actual().with_xyz(read.xyz());
+        state.points.position = self.programmed_of(state.actual(), state);
     }
 
     /// Planes, units, offsets and tools must not change under cutter compensation on some controls.
@@ -543,9 +548,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if !on {
             self.leave_face(state);
         } else if *state.face() == Face::Off {
-            let (plane, place) = PolarPlane::begin(rotary, state.actual(), rules.starts_at_zero);
+            let (plane, begun) = PolarPlane::begin(rotary, state.actual(), rules.starts_at_zero);
             state.mapping.face = Face::On(plane);
-            state.points.actual = place;
+            state.points.actual = begun;
             state.points.position = self.programmed_of(state.actual(), state);
         }
         Ok(())
@@ -569,8 +574,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             let machine = state.machine(self.model, self.machine);
             state.set_mode(Role::TiltedPlane, CodeIx::NONE);
             self.tilted_plane(ix, false, state);
-            state.points.actual = state.from_machine(&machine, self.model, self.machine);
-            state.points.position = self.programmed_of(state.actual(), state);
+            self.read_anew(&machine, state);
         }
     }
 

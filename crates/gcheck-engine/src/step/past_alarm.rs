@@ -271,7 +271,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 self.unknown_frame(ix, true, state);
             }
             E::DynamicOffsetOn | E::DynamicOffsetOff | E::SquareToPlane => {
-                self.unknown_frame(ix, true, state)
+                self.unknown_frame(ix, true, state);
             }
             E::WriteOffsets => self.lose_tables(state),
             E::LocalShift

@@ -78,7 +78,8 @@ impl ModeLeftOn {
         if !is_later || !is_carried || cx.file_uses(|effect| effect == off) {
             return None;
         }
-        let (name, cancel) = (cx.name_of(code), cx.name_of_effect(off).unwrap_or_default());
+        // A control that has nothing else leaves it on by its nature.
+        let (name, cancel) = (cx.name_of(code), cx.name_of_effect(off)?);
         let finding = cx
             .finding(rule, cx.range(), format!("the tool cuts with {of_tool} of the tool before (`{name}`)"))
             .label("nothing in the file switches it off")
@@ -104,8 +105,8 @@ impl ModeLeftOn {
         if self.mode.is_usual_from_head && self.is_usual(cx) {
             return;
         }
+        let Some(cancel) = cx.name_of_effect(off) else { return };
         let Some(finding) = left_at_end(cx, rule, role, |effect| effect == on, at_end) else { return };
-        let cancel = cx.name_of_effect(off).unwrap_or_default();
         let set = cx.definitions().set_by(Fact::Mode(role));
         let after_call = self.carried.after_call.clone().filter(|(at, _)| Some(*at) == set);
         let finding = match after_call {

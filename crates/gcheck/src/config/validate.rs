@@ -204,7 +204,8 @@ impl<'t> Checked<'t> {
         }
         let shown = || axes.iter().map(|axis| axis.value.to_ascii_uppercase()).collect::<Vec<_>>().join(", ");
         // Rates of axes that are not listed stay: an import that narrows `axes` keeps what it does not know.
-        let named = table.travel.keys().chain(table.rotary_sign.keys()).chain(table.rotary_order.iter().flatten());
+        let named =
+            table.travel.keys().chain(table.rotary_sign.keys()).chain(table.rotary_order.iter().flatten());
         for name in named {
             if !axes.iter().any(|axis| axis.value.eq_ignore_ascii_case(&name.value)) {
                 let message = format!("`{}` is not among the machine's `axes`: {}", name.value, shown());

@@ -333,7 +333,7 @@ pub(super) fn units(units: config::Units) -> Units {
     }
 }
 
-pub(super) fn axis_of(name: &str) -> Option<Axis> {
+fn axis_of(name: &str) -> Option<Axis> {
     Axis::of(Letter::parse(&name.to_ascii_uppercase())?)
 }
 

@@ -8,7 +8,6 @@ use std::collections::BTreeMap;
 use gcheck_engine::{Axis, Units};
 use gcheck_geometry::{Arrangement, Kinematics, Mm, RotaryAxis};
 
-use super::equipment::axis_of;
 use crate::config::{MachineTable, Placed, Rotary, rotary_axis};
 
 /// What the layers of a configuration say, each over the one before.
@@ -58,7 +57,12 @@ impl RotaryAxes {
             }
         }
         if let Some(names) = &table.rotary_shorter_way {
-            self.shorter_way = names.iter().filter_map(|name| axis_of(&name.value)).collect();
+            let of_machine = |rotary: RotaryAxis| match rotary {
+                RotaryAxis::A => Axis::A,
+                RotaryAxis::B => Axis::B,
+                RotaryAxis::C => Axis::C,
+            };
+            self.shorter_way = axes(names).into_iter().map(of_machine).collect();
         }
     }
 

@@ -96,7 +96,7 @@ fn sizes(sheet: &mut Sheet<'_>, bit: &Value, range: Range<usize>, name: &str) ->
     let asked = sheet.asked;
     let flutes = |table: &str| bit.get(table)?.get("Flutes");
     let teeth = flutes("parameter").or_else(|| flutes("attribute")).and_then(count);
-    let mut tool = LibraryTool { range, teeth, ..LibraryTool::default() };
+    let mut tool = LibraryTool { teeth, range, ..LibraryTool::default() };
     let title = bit.get("name").and_then(Value::as_str).unwrap_or(name);
     title.trim().clone_into(&mut tool.title);
     let shape = bit.get("shape").and_then(Value::as_str).unwrap_or_default().to_ascii_lowercase();

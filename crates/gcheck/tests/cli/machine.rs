@@ -197,9 +197,8 @@ fn a_tool_library_gives_what_is_clear() {
         library,
         "--config machine.units=mm",
         &expect![[r#"
-            wrote gcheck.toml: 5 values
+            wrote gcheck.toml: 6 values
             next: `gcheck check --show-settings`
-            ! tools.json:2: not used: `NOF` (flutes) of 1 tool: `gcheck.toml` has no key for it
             ! tools.json:2: not used: `LB` of 1 tool: it is the length below the holder, not the length offset
             ! tools.json:5: not used: tool 3: lines 4 and 5 have it with other sizes, so neither is written
             exit 0
@@ -209,7 +208,7 @@ fn a_tool_library_gives_what_is_clear() {
             units = "mm"  # from --config
 
             [tools]
-            1 = { diameter = 6.0 }  # from tools.json, 6 flat
+            1 = { diameter = 6.0, teeth = 3 }  # from tools.json, 6 flat
             2 = { length = 63.5, diameter = 6.35, corner_radius = 3.175 }  # from tools.json, ball end mill
         "#]],
     );

@@ -165,7 +165,10 @@ fn size_taken_away(cx: &PathCx<'_>, at: At) -> Finding {
             "give the tool's offset number, or end the compensation with `{off}` away from the part"
         ));
     let code = cx.state().mode(Role::Compensation).only().and_then(|code| cx.code_of(code));
-    match code.map(|code| code.entry()).filter(|entry| entry.cancelled_by.iter().any(|item| item == "D0")) {
+    match code
+        .map(gcheck_controls::Code::entry)
+        .filter(|entry| entry.cancelled_by.iter().any(|item| item == "D0"))
+    {
         Some(entry) => finding.note(format!("`D0` ends `{name}` as `{off}` does  [{}]", entry.source)),
         None => finding,
     }
@@ -235,36 +238,36 @@ mod tests {
 
     #[test]
     fn a_later_zero_takes_the_size_away() {
-        let under_g41 = |block: &str| {
+        let beside_path = |block: &str| {
             format!("G20 G17 G90\nG0 X0. Y0.\nG41 D01 G1 X0.5 F10.\n{block}\nX2.\nG40 X3.\nM30\n")
         };
-        let under_g141 = |block: &str| {
+        let along_vector = |block: &str| {
             format!(
                 "G20 G17 G90\nG0 X0. Y0. Z1.\nG1 Z0.5 F10.\nG141 D01 X0. Y0. Z0.5\nX1. Y0.2 Z0.5 I0. J0.6 K0.8\n{block}\nG40 Z1.\nM30\n"
             )
         };
         for program in [
-            under_g41("D0 X1. Y0.2"),
-            under_g41("D00\nX1. Y0.2"),
-            under_g41("D00 X1."),
-            under_g41("D[1-1] X1. Y0.2"),
-            under_g141("D0 X2. Y0.2 Z0.5 I0. J0.6 K0.8"),
-            under_g141("X2. Y0.2 Z0.5 I0. J0.6 K0.8 D0"),
+            beside_path("D0 X1. Y0.2"),
+            beside_path("D00\nX1. Y0.2"),
+            beside_path("D00 X1."),
+            beside_path("D[1-1] X1. Y0.2"),
+            along_vector("D0 X2. Y0.2 Z0.5 I0. J0.6 K0.8"),
+            along_vector("X2. Y0.2 Z0.5 I0. J0.6 K0.8 D0"),
         ] {
             let found = findings(&only(&RULE), "haas-mill", &program, &World::default());
             assert_eq!(found.len(), 1, "{program}");
         }
         for program in [
-            under_g41("X1. Y0.2"),
-            under_g41("D02 X1. Y0.2"),
-            under_g41("D#500 X1. Y0.2"),
-            under_g141("X2. Y0.2 Z0.5 I0. J0.6 K0.8"),
-            under_g141("D0"),
+            beside_path("X1. Y0.2"),
+            beside_path("D02 X1. Y0.2"),
+            beside_path("D#500 X1. Y0.2"),
+            along_vector("X2. Y0.2 Z0.5 I0. J0.6 K0.8"),
+            along_vector("D0"),
         ] {
             check_rule(&RULE, "haas-mill", &program, &expect![[""]]);
         }
         for control in ["fanuc-mill", "generic-mill"] {
-            let found = findings(&only(&RULE), control, &under_g41("D00 X1. Y0.2"), &World::default());
+            let found = findings(&only(&RULE), control, &beside_path("D00 X1. Y0.2"), &World::default());
             assert_eq!(found.len(), 1, "{control}");
         }
     }

@@ -289,6 +289,8 @@ mod tests {
             &expect![[r#"
                 4 | X2. C200.
                   | ^^^^^^^^^ warning[rotary-axis-jumps] C turns 190 degrees in one block at feed
+                5 | X3. C10.
+                  | ^^^^^^^^ warning[rotary-axis-jumps] C turns 190 degrees in one block at feed
             "#]],
         );
     }
@@ -299,7 +301,12 @@ mod tests {
             &RULE,
             "haas-mill",
             "G21 G90 G94\nG234 H1 X0. Y0. Z1. B1. C0.\nG1 X10. F1000.\nX11. B.05\nX11.5 B.02 C45.\nX12. B.05 C100.\nX13. B45. C119.\nX14. B0. C120.\nX14.1 C100.\nM30\n",
-            &expect![""],
+            &expect![[r#"
+                5 | X11.5 B.02 C45.
+                  | ^^^^^^^^^^^^^^^ warning[rotary-axis-jumps] C turns 45 degrees within 0.5 mm of the path
+                9 | X14.1 C100.
+                  | ^^^^^^^^^^^ warning[rotary-axis-jumps] C turns 20 degrees within 0.1 mm of the path
+            "#]],
         );
     }
 
@@ -316,7 +323,15 @@ mod tests {
     #[test]
     fn without_tip_control_the_neighbours_tell() {
         let jump = "G21 G90 G93 G0 X0. Y0. Z10. B0. C0.\nG1 X10. B20. C10. F9.\nX20. B-330. C20. F9.\nX30. B-320. C20. F9.\nM30\n";
-        check_rule(&RULE, "haas-mill", jump, &expect![""]);
+        check_rule(
+            &RULE,
+            "haas-mill",
+            jump,
+            &expect![[r#"
+            3 | X20. B-330. C20. F9.
+              | ^^^^^^^^^^^^^^^^^^^^ warning[rotary-axis-jumps] B turns 350 degrees in one block at feed
+        "#]],
+        );
         // Each block turns as far, or the control may keep the angle within a turn.
         for quiet in [
             "G21 G90 G93 G0 X0. Y0. Z10. B0. C0.\nG1 X10. B300. C10. F9.\nX20. B0. C20. F9.\nM30\n",

@@ -57,7 +57,7 @@ impl PathRule for JumpToMissingBlock {
     fn fault(&mut self, cx: &PathCx<'_>, fault: &Fault, report: &mut Report<'_>) {
         let number = match fault {
             Fault::NoSuchLabel(number) => number,
-            Fault::JumpTarget(number) => return self.impossible(cx, *number, report),
+            Fault::JumpTarget(number) => return impossible(cx, *number, report),
             _ => return,
         };
         let block = cx.range();
@@ -97,19 +97,17 @@ impl PathRule for JumpToMissingBlock {
     }
 }
 
-impl JumpToMissingBlock {
-    /// A number that no block can have. That of a word (`M99 P-3`) is outside of its range, which other rules report.
-    fn impossible(&self, cx: &PathCx<'_>, number: f64, report: &mut Report<'_>) {
-        if cx.has_effect(|effect| effect == Effect::Return) {
-            return;
-        }
-        report.add(
-            cx.finding(&META, cx.range(), format!("jump to block {number}, which cannot exist"))
-                .label(format!("the target is {number}"))
-                .note("sequence numbers are whole numbers from 0 on; the control stops with an alarm when it takes the jump")
-                .help("correct the target, or the variables that it reads"),
-        );
+/// A number that no block can have. That of a word (`M99 P-3`) is outside of its range, which other rules report.
+fn impossible(cx: &PathCx<'_>, number: f64, report: &mut Report<'_>) {
+    if cx.has_effect(|effect| effect == Effect::Return) {
+        return;
     }
+    report.add(
+        cx.finding(&META, cx.range(), format!("jump to block {number}, which cannot exist"))
+            .label(format!("the target is {number}"))
+            .note("sequence numbers are whole numbers from 0 on; the control stops with an alarm when it takes the jump")
+            .help("correct the target, or the variables that it reads"),
+    );
 }
 
 #[cfg(test)]

@@ -168,8 +168,28 @@ mod tests {
         world.machine.engine.axes = Some(vec![Axis::X, Axis::Z, Axis::C]);
         let program =
             |on: &str, off: &str| format!("G21 G18 G98\n{on}\nG1 X10. Y5. F100.\nV5.\n{off}\nG1 Y1.\nM30\n");
-        check_rule_in(&RULE, "haas-lathe", &program("G112", "G113"), &world, &expect![[""]]);
-        check_rule_in(&RULE, "fanuc-lathe", &program("G12.1", "G13.1"), &world, &expect![[""]]);
+        check_rule_in(
+            &RULE,
+            "haas-lathe",
+            &program("G112", "G113"),
+            &world,
+            &expect![[r#"
+            6 | G1 Y1.
+              |    ^^^ error[axis-not-on-machine] the machine has no axis `Y`
+        "#]],
+        );
+        check_rule_in(
+            &RULE,
+            "fanuc-lathe",
+            &program("G12.1", "G13.1"),
+            &world,
+            &expect![[r#"
+            3 | G1 X10. Y5. F100.
+              |         ^^^ error[axis-not-on-machine] the machine has no axis `Y`
+            4 | V5.
+              | ^^^ error[axis-not-on-machine] the machine has no axis `V`
+        "#]],
+        );
     }
 
     #[test]

@@ -159,7 +159,10 @@ mod tests {
             "fanuc-mill",
             "G21 G94 G0 X0. A0.\nG1 A90. F12000.\nA180.\nX10.\nX20.\nM30\n",
             &World::of_examples(&META),
-            &expect![[""]],
+            &expect![[r#"
+                2 | G1 A90. F12000.
+                  |         ^^^^^^^ warning[feed-above-machine-limit] feed of 12000 mm/min is above the machine's 10000 mm/min (`F`)
+            "#]],
         );
     }
 

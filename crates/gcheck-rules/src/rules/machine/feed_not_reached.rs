@@ -210,7 +210,10 @@ mod tests {
                 control,
                 "G21 G90 G94 G0 X0. Y0. Z5. A0.\nG93 G1 X22. A360. F60.\nX0. A0. F8.\nM30\n",
                 &world_with_a_table(),
-                &expect![[""]],
+                &expect![[r#"
+                    2 | G93 G1 X22. A360. F60.
+                      | ^^^^^^^^^^^^^^^^^^^^^^ hint[feed-not-reached] the feed asks A for 21600 deg/min, and A turns 3600 deg/min at most
+                "#]],
             );
         }
     }
@@ -218,8 +221,28 @@ mod tests {
     #[test]
     fn a_feed_a_minute_counts_as_the_manual_says() {
         let program = "G21 G90 G94 G0 X0. Y0. Z5. A0.\nG1 X22. A360. F800.\nA0. F9000.\nA100. F3000.\nM30\n";
-        check_rule_in(&RULE, "linuxcnc", program, &world_with_a_table(), &expect![[""]]);
-        check_rule_in(&RULE, "fanuc-mill", program, &world_with_a_table(), &expect![[""]]);
+        check_rule_in(
+            &RULE,
+            "linuxcnc",
+            program,
+            &world_with_a_table(),
+            &expect![[r#"
+            2 | G1 X22. A360. F800.
+              | ^^^^^^^^^^^^^^^^^^^ hint[feed-not-reached] the feed asks A for 13091 deg/min, and A turns 3600 deg/min at most
+            3 | A0. F9000.
+              | ^^^^^^^^^^ hint[feed-not-reached] the feed asks A for 9000 deg/min, and A turns 3600 deg/min at most
+        "#]],
+        );
+        check_rule_in(
+            &RULE,
+            "fanuc-mill",
+            program,
+            &world_with_a_table(),
+            &expect![[r#"
+            3 | A0. F9000.
+              | ^^^^^^^^^^ hint[feed-not-reached] the feed asks A for 9000 deg/min, and A turns 3600 deg/min at most
+        "#]],
+        );
         check_rule_in(&RULE, "haas-mill", program, &world_with_a_table(), &expect![[""]]);
     }
 
@@ -230,7 +253,10 @@ mod tests {
             "fanuc-mill",
             "G20 G90 G94 G0 X0. Y0. Z5. A0.\nG1 A100. F3000.\nA0. F9000.\nM30\n",
             &world_with_a_table(),
-            &expect![[""]],
+            &expect![[r#"
+                3 | A0. F9000.
+                  | ^^^^^^^^^^ hint[feed-not-reached] the feed asks A for 9000 deg/min, and A turns 3600 deg/min at most
+            "#]],
         );
     }
 

@@ -155,14 +155,20 @@ mod tests {
             "linuxcnc",
             "G96 D9000 S300 M3\nG96 D7000 S300\nM2\n",
             &World::of_examples(&META),
-            &expect![[""]],
+            &expect![[r#"
+                1 | G96 D9000 S300 M3
+                  |     ^^^^^ warning[speed-above-machine-limit] speed limit of 9000 rpm is above the machine's 8000 rpm (`D`)
+            "#]],
         );
         check_rule_in(
             &RULE,
             "fanuc-lathe",
             "G50 S7000\nG50 X0. Z0.\nG50 S#1\nG50 S8500\nM30\n",
             &World::of_examples(&META),
-            &expect![[""]],
+            &expect![[r#"
+                4 | G50 S8500
+                  |     ^^^^^ warning[speed-above-machine-limit] speed limit of 8500 rpm is above the machine's 8000 rpm (`S`)
+            "#]],
         );
     }
 

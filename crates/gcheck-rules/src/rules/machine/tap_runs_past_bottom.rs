@@ -117,7 +117,10 @@ mod tests {
             "linuxcnc",
             "G20 G90 S600 M3\nG0 X0 Y0 Z.2\nG33.1 Z-1 K.05\nG0 X1\nG33.1 Z-1 K.05\nS100\nG33.1 Z-1 K.05\nM2\n",
             &World::of_examples(&META),
-            &expect![[""]],
+            &expect![[r#"
+                3 | G33.1 Z-1 K.05
+                  | ^^^^^^^^^^^^^^ warning[tap-runs-past-bottom] the tap runs 0.3 in past its bottom
+            "#]],
         );
     }
 

@@ -132,7 +132,10 @@ mod tests {
             "fanuc-lathe",
             "G21 G97 S2000 M3\nG0 X20. Z-10.\nG32 Z-15. F2.\nG0 X30.\nM30\n",
             &World::of_examples(&META),
-            &expect![[""]],
+            &expect![[r#"
+                3 | G32 Z-15. F2.
+                  | ^^^^^^^^^^^^^ warning[thread-run-in-too-short] Z needs 22.222 mm to its speed, and has 5 mm in all
+            "#]],
         );
     }
 
@@ -143,7 +146,10 @@ mod tests {
             "fanuc-lathe",
             "G21 G97 S1500 M3\nG0 X22. Z3.\nG92 X19.5 Z-15. F2.\nX19.\nX18.5\nG0 X50.\nS200 M3\nG0 X22. Z3.\nG92 X19.5 Z-15. F2.\nM30\n",
             &World::of_examples(&META),
-            &expect![[""]],
+            &expect![[r#"
+                3 | G92 X19.5 Z-15. F2.
+                  | ^^^^^^^^^^^^^^^^^^^ warning[thread-run-in-too-short] Z needs 12.5 mm to its speed, and has 3 mm before the face
+            "#]],
         );
     }
 
@@ -154,7 +160,10 @@ mod tests {
             "linuxcnc",
             "G21 G90 G97 S1000 M3\nG0 X20 Z6\nG33 Z1 K2\nG33 Z-20 K2\nM2\n",
             &World::of_examples(&META),
-            &expect![[""]],
+            &expect![[r#"
+                3 | G33 Z1 K2
+                  | ^^^^^^^^^ warning[thread-run-in-too-short] Z needs 5.556 mm to its speed, and has 5 mm in all
+            "#]],
         );
     }
 

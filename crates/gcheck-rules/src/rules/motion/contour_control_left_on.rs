@@ -131,7 +131,12 @@ mod tests {
             &RULE,
             "fanuc-mill",
             "T1 M6\nG8 P1\nG1 X10. F1000.\nT2 M6\nG1 X20.\nT3 M6\nG5.1 Q1 R2\nG1 X30.\nT4 M6\nM30\n",
-            &expect![[""]],
+            &expect![[r#"
+                4 | T2 M6
+                  |    ^^ info[contour-control-left-on] contour control is still on at the tool change (`G8 P1`)
+                9 | T4 M6
+                  |    ^^ info[contour-control-left-on] contour control is still on at the tool change (`G5.1 Q1`)
+            "#]],
         );
     }
 

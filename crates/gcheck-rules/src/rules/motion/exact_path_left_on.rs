@@ -86,7 +86,10 @@ mod tests {
             &RULE,
             "linuxcnc",
             "G21 G90 G94\nT1 M6\nG0 X0\nG1 X10 F100\nG61\nY10\nT2 M6\nG1 X20\nX30\nM2\n",
-            &expect![[""]],
+            &expect![[r#"
+                8 | G1 X20
+                  | ^^^^^^ info[exact-path-left-on] the tool cuts with the exact path of the tool before (`G61`)
+            "#]],
         );
     }
 

@@ -247,7 +247,10 @@ mod tests {
             "haas-mill",
             "G21 G90 G0 X0. Y0.\nG1 X10. F500.\nY0.3\nX20.\nG187 E0.01\nY.6\nX30.\nG187\nG3 X30.2 Y.8 J.2\nM30\n",
             &world,
-            &expect![[""]],
+            &expect![[r#"
+                4 | X20.
+                  | ^^^^ info[tolerance-above-feature] the tolerance of 0.5 mm is larger than the step before this of 0.3 mm (setting 85)
+            "#]],
         );
     }
 
@@ -257,7 +260,10 @@ mod tests {
             &RULE,
             "haas-mill",
             "G21 G90 G187 E0.5\nG187 P3\nG0 X0. Y0.\nG61 G1 X10. F500.\nY0.3\nX20.\nG64 Y.6\nX30.\nM30\n",
-            &expect![[""]],
+            &expect![[r#"
+                8 | X30.
+                  | ^^^^ info[tolerance-above-feature] the tolerance of 0.5 mm is larger than the step before this of 0.3 mm (`G187 E`)
+            "#]],
         );
     }
 

@@ -1,7 +1,7 @@
 //! A loose tolerance of one tool's work that the next tool cuts with.
 
 use gcheck_controls::Effect;
-use gcheck_engine::{At, Event, Fact, PathMode, Smoothing};
+use gcheck_engine::{At, Event, Fact, PathMode, Role, Smoothing};
 use gcheck_geometry::Mm;
 
 use crate::declare::declare_rule;
@@ -84,15 +84,25 @@ const LOOSE: f64 = 0.1;
 struct ToleranceOfToolBefore {
     /// Where the first tool comes.
     first_tool: Option<At>,
-    /// The block that gave the tolerance in effect, while that is loose.
-    set: Option<At>,
-    /// Millimetres.
-    tolerance: Option<f64>,
-    /// It is one of smoothing, not of blending.
-    is_smoothing: bool,
+    /// The block that gave the tolerance of smoothing in effect, and its millimetres, while that is loose.
+    smoothing: Option<(At, f64)>,
+    /// The block whose tolerance was told.
+    told: Option<At>,
 }
 
-remembers!(ToleranceOfToolBefore: first_tool, set);
+remembers!(ToleranceOfToolBefore: first_tool, told);
+
+impl ToleranceOfToolBefore {
+    /// The loose tolerance in effect: the block that gave it, its millimetres, its code and word.
+    fn loose(&self, cx: &PathCx<'_>) -> Option<(At, f64, Effect, char)> {
+        if let Some((set, tolerance)) = self.smoothing {
+            return Some((set, tolerance, Effect::Smoothing, 'E'));
+        }
+        let Some(PathMode::Blending { tolerance, .. }) = cx.state().path_mode(cx.model) else { return None };
+        let set = cx.definitions().set_by(Fact::Mode(Role::PathControl))?;
+        (tolerance.0 > LOOSE).then_some((set, tolerance.0, Effect::PathBlending, 'P'))
+    }
+}
 
 impl PathRule for ToleranceOfToolBefore {
     fn memory(&mut self) -> Remembers<'_> {
@@ -110,34 +120,25 @@ impl PathRule for ToleranceOfToolBefore {
     }
 
     fn changed(&mut self, cx: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
-        let (tolerance, is_smoothing) = match event {
-            Event::PathMode(PathMode::Blending { tolerance, .. }) => (Some(*tolerance), false),
-            Event::PathMode(_) | Event::End => (None, false),
+        let tolerance = match event {
+            Event::End => None,
             // A level alone keeps the tolerance.
             Event::Smoothing(Smoothing { level: Some(_), tolerance: None }) => return,
-            Event::Smoothing(smoothing) => (smoothing.tolerance, true),
+            Event::Smoothing(smoothing) => smoothing.tolerance,
             _ => return,
         };
         let loose = tolerance.map(|tolerance| tolerance.0).filter(|tolerance| *tolerance > LOOSE);
-        *self = Self {
-            first_tool: self.first_tool,
-            set: loose.map(|_| cx.origin().at),
-            tolerance: loose,
-            is_smoothing,
-        };
+        self.smoothing = loose.map(|tolerance| (cx.origin().at, tolerance));
     }
 
     fn cut(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
-        let (Some(set), Some(first), Some(tolerance)) = (self.set, self.first_tool, self.tolerance) else {
-            return;
-        };
+        let Some((set, tolerance, effect, letter)) = self.loose(cx) else { return };
+        let Some(first) = self.first_tool.filter(|_| self.told != Some(set)) else { return };
         let Some(changed) = cx.definitions().set_by(Fact::Tool) else { return };
         if !is_before(first, set) || !is_before(set, changed) || !is_cut(cx, event) || !cuts_across(event) {
             return;
         }
-        self.set = None;
-        let (effect, letter) =
-            if self.is_smoothing { (Effect::Smoothing, 'E') } else { (Effect::PathBlending, 'P') };
+        self.told = Some(set);
         let name = cx.name_of_effect(effect).unwrap_or_default();
         let finding = cx
             .finding(
@@ -168,7 +169,10 @@ mod tests {
             &RULE,
             "haas-mill",
             "T1 M6\nG20 G90 G0 X0. Y0.\nG187 P1 E0.02\nG1 X1. F50.\nT2 M6\nG1 X2. F20.\nX3.\nT3 M6\nX4.\nM30\n",
-            &expect![[""]],
+            &expect![[r#"
+                6 | G1 X2. F20.
+                  | ^^^^^^^^^^^ info[tolerance-of-tool-before] the tool cuts with the tolerance of the tool before (`G187 E`)
+            "#]],
         );
     }
 

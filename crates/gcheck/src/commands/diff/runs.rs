@@ -29,7 +29,7 @@ pub(super) struct Compared {
     pub(super) prepared: [Prepared; 2],
     pub(super) differences: Differences,
     /// Commands that are not compared and that the programs do not have alike; nothing where a run was cut off.
-    pub(super) not_compared: Vec<NotCompared>,
+    pub(super) left_out: Vec<NotCompared>,
     /// Why a run did not come to its end, as far as that counts.
     pub(super) faults: [Option<Stopped>; 2],
     /// Which control reads each, in words.
@@ -48,13 +48,13 @@ impl Compared {
             units: self.units,
             tolerance: self.tolerance,
             faults: &self.faults,
-            not_compared: &self.not_compared,
+            left_out: &self.left_out,
         }
     }
 
     /// Was everything compared that the programs do not have alike?
     pub(super) fn is_all_known(&self) -> bool {
-        !self.differences.unknown && self.not_compared.is_empty()
+        !self.differences.unknown && self.left_out.is_empty()
     }
 
     /// Do both come to their end, and make the machine do the same?
@@ -87,7 +87,7 @@ pub(super) fn both(
     let is_whole = !differences.is_cut_short() && faults.iter().all(Option::is_none);
     let left_out = [ran_a.left_out, ran_b.left_out];
     Ok(Compared {
-        not_compared: if is_whole { left_out::not_compared(&left_out) } else { Vec::new() },
+        left_out: if is_whole { left_out::not_compared(&left_out) } else { Vec::new() },
         faults,
         controls: [ran_a.control, ran_b.control],
         units: ran_a.units,

@@ -38,7 +38,7 @@ pub(in crate::commands) struct Sides<'s> {
     pub(in crate::commands) tolerance: f64,
     pub(in crate::commands) faults: &'s [Option<Stopped>; 2],
     /// Commands that are not compared and that the programs do not have alike.
-    pub(in crate::commands) not_compared: &'s [NotCompared],
+    pub(in crate::commands) left_out: &'s [NotCompared],
 }
 
 impl Sides<'_> {
@@ -86,7 +86,7 @@ impl Sides<'_> {
             (true, _) => format!("{a} and {b} are compared up to where a run ends before its program\n"),
             (false, Some(_)) => format!("{a} and {b} move differently; {}\n", rest(differences)),
             (false, None) if differences.is_same() => {
-                let is_known = !differences.unknown && self.not_compared.is_empty();
+                let is_known = !differences.unknown && self.left_out.is_empty();
                 let known = if is_known { "" } else { " as far as known" };
                 format!("{a} and {b} make the machine do the same{known}, {within}\n")
             }
@@ -105,7 +105,7 @@ impl Sides<'_> {
             "some cutting moves start or end at unknown coordinates, which were not compared".to_owned()
         });
         let names = || {
-            let each = self.not_compared.iter().map(|of| {
+            let each = self.left_out.iter().map(|of| {
                 let sides = of.sides.iter().zip(&self.prepared).filter_map(|(side, prepared)| {
                     let (count, place) = side.as_ref()?;
                     let at = format!("{}:{}", place.file, place.line);
@@ -125,7 +125,7 @@ impl Sides<'_> {
             });
             format!("not compared: {}", each.collect::<Vec<_>>().join(", "))
         };
-        unknown.into_iter().chain((!self.not_compared.is_empty()).then(names)).collect()
+        unknown.into_iter().chain((!self.left_out.is_empty()).then(names)).collect()
     }
 
     fn parting(&self, out: &mut String, parting: &Parting) {
@@ -390,7 +390,7 @@ impl Sides<'_> {
             })
         };
         let not_compared: Vec<Json> = self
-            .not_compared
+            .left_out
             .iter()
             .map(|of| {
                 let [of_a, of_b] = &of.sides;

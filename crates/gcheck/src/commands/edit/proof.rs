@@ -96,8 +96,7 @@ pub(super) fn prove(
 /// The proof failed: the first differences, each with its lines.
 fn different(before: &Prepared, after: &Prepared, asked: &Asked<'_>, differences: &Differences) -> Problem {
     let (units, tolerance) = (asked.units, asked.tolerance);
-    let sides =
-        Sides { prepared: [before, after], units, tolerance, faults: &[None, None], not_compared: &[] };
+    let sides = Sides { prepared: [before, after], units, tolerance, faults: &[None, None], left_out: &[] };
     let text = sides.text(differences);
     let mut lines: Vec<&str> = text.lines().collect();
     // The verdict is ours to say.
