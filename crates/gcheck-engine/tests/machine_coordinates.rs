@@ -291,7 +291,7 @@ fn an_axis_that_turns_the_shorter_way() {
         "BC",
         "G0 G90 G54 B0. C10.\nB350. C350.\nB0. C180.\nG91 C350.",
         &expect![[r#"
-            G0 G90 G54 B0. C10. | B0 C? | B0 C?
+            G0 G90 G54 B0. C10. | B0 C10 | B0 C10
             B350. C350. | B350 C350 | B350 C350
             B0. C180. | B0 C180 | B0 C180
             G91 C350. | B0 C530 | B0 C530"#]],
@@ -350,7 +350,14 @@ fn a_trunnion_turns_a_tilted_plane_up() {
         "fanuc-mill",
         "XYZAC",
         "G0 G90 G54 X0. Y0. Z0. A0 B0 C0\nG43 H1 Z100.\nG68.2 X0 Y0 Z0 I0. J90. K0.\nG53.1\nX5. Y0. Z10.\nG69\nG53 Z0.",
-        &expect![[r#""#]],
+        &expect![[r#"
+            G0 G90 G54 X0. Y0. Z0. A0 B0 C0 | X0 Y0 Z0 A0 C0 | X-100 Y-50 Z-200 A0 C0
+            G43 H1 Z100. | X0 Y0 Z100 A0 C0 | X-100 Y-50 Z-20 A0 C0
+            G68.2 X0 Y0 Z0 I0. J90. K0. | X0 Y100 Z0 A0 C0 | X-100 Y-50 Z-20 A0 C0
+            G53.1 | X0 Y-50 Z150 A-90 C0 | X-100 Y-50 Z-20 A-90 C0
+            X5. Y0. Z10. | X5 Y0 Z10 A-90 C0 | X-95 Y0 Z-160 A-90 C0
+            G69 | X5 Y50 Z-40 A-90 C0 | X-95 Y0 Z-160 A-90 C0
+            G53 Z0. | X5 Y50 Z120 A-90 C0 | X-95 Y0 Z0 A-90 C0"#]],
     );
 }
 
@@ -361,6 +368,12 @@ fn tilted_planes_of_a_machine_that_nobody_described() {
         "fanuc-mill",
         "XYZAC",
         "G0 G90 G54 X0. Y0. Z0. A0 B0 C0\nG68.2 X10. Y0 Z0 I0. J90. K0.\nX5. Y0. Z10.\nG53.1\nX5. Y0. Z10.\nG69",
-        &expect![[r#""#]],
+        &expect![[r#"
+            G0 G90 G54 X0. Y0. Z0. A0 B0 C0 | X0 Y0 Z0 A0 C0 | X-100 Y-50 Z-200 A0 C0
+            G68.2 X10. Y0 Z0 I0. J90. K0. | X-10 Y0 Z0 A0 C0 | X-100 Y-50 Z-200 A0 C0
+            X5. Y0. Z10. | X5 Y0 Z10 A0 C0 | X-85 Y-60 Z-200 A0 C0
+            G53.1 | X? Y? Z? A? C? | X? Y? Z? A? C?
+            X5. Y0. Z10. | X5 Y0 Z10 A? C? | X? Y? Z? A? C?
+            G69 | X? Y? Z? A? C? | X? Y? Z? A? C?"#]],
     );
 }

@@ -547,6 +547,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         self.flush_compensation(state)?;
         if !on {
             self.leave_face(state);
+        } else if state.actual().raw(Axis::X).is_nan() {
+            // On which side of the centre the tool is, nobody knows.
+            state.mapping.face = Face::Unknown;
+            self.unknown_frame(ix, true, state);
         } else if *state.face() == Face::Off {
             let (plane, begun) = PolarPlane::begin(rotary, state.actual(), rules.starts_at_zero);
             state.mapping.face = Face::On(plane);

@@ -280,7 +280,12 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 (false, Some(false)) => value,
                 (false, None) => f64::NAN,
             };
-            target.set(axis, value);
+            let is_unsure = *state.face() == Face::Unknown && self.is_second_on_face(own);
+            target.set(axis, if is_unsure { f64::NAN } else { value });
+            if is_unsure {
+                // It may be a coordinate of the face.
+                target.set(Axis::Y, f64::NAN);
+            }
         }
         if self.words.present().intersects(super::POLAR) {
             self.polar_target(&mut target, state)?;

@@ -59,7 +59,8 @@ fn faults_of(control: &Control, text: &str) -> Vec<(usize, Fault)> {
     here.map(|alarm| (text[..alarm.origin.start as usize].matches('\n').count(), alarm.fault)).collect()
 }
 
-/// What depends on something that is not configured is a question to the user, not a mistake of the program.
+/// What depends on something that is not configured is a question to the user, and an alarm of the program's own is what it
+/// means to do: neither is a mistake of the program.
 fn is_open(fault: &Fault) -> bool {
-    matches!(fault, Fault::Undecidable)
+    matches!(fault, Fault::Undecidable | Fault::Alarm(_))
 }
