@@ -232,8 +232,10 @@ impl<'t> Checked<'t> {
             let message = format!("the feed override of {name} has {positions}  [{}]", switch.source);
             return Err(self.text.problem(feed, message));
         }
-        // Where the pages do not give the positions: no feed ends at 0, and no switch goes further than this.
-        if !(feed.value > 0.0 && feed.value <= MOST_FEED_OVERRIDE) && switch.is_none() {
+        // Where the pages do not give the positions: no feed ends at 0, and no switch goes further than this. A control that is
+        // chosen elsewhere may have the position 0.
+        let is_possible = feed.value > 0.0 || feed.value == 0.0 && self.control.is_none();
+        if !(is_possible && feed.value <= MOST_FEED_OVERRIDE) && switch.is_none() {
             let message = format!("a feed override is above 0 and at most {MOST_FEED_OVERRIDE} percent");
             return Err(self.text.problem(feed, message));
         }
