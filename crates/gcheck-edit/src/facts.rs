@@ -3,7 +3,7 @@
 //! Knows: which modes those are. Must not know: words.
 
 use gcheck_controls::{CodeIx, Effect};
-use gcheck_engine::{Concrete, ConcreteValue, FeedMode, Model, Role, State, Transform, Units, Wrapped};
+use gcheck_engine::{Concrete, ConcreteValue, FeedMode, Model, Role, State, Transform, Units};
 use gcheck_geometry::Plane;
 
 /// The modes in effect for the words of a block.
@@ -102,7 +102,7 @@ fn mapped(state: &State<Concrete>, model: &Model<'_>) -> Option<Role> {
     if *state.transform() != Transform::NONE {
         return Some(Role::Rotation);
     }
-    (*state.wrapped() != Wrapped::No).then_some(Role::Cylinder)
+    state.may_be_wrapped().then_some(Role::Cylinder)
 }
 
 /// What a mode that moves the axes elsewhere is called.

@@ -55,7 +55,7 @@ impl BlockLines {
             .map_or_else(|| (Rc::from(""), 0), |file| (Rc::clone(&file.name), file.line(origin.start)))
     }
 
-    /// The same of a block by its number; line 0 where there is no such block.
+    /// The same of a block by its number; line 0 for a block that does not exist.
     fn of_block(&mut self, program: &Program<'_>, at: At) -> CallLine {
         let file = program.file(at.file);
         let place = file.and_then(|file| file.loaded.place(at.block, program.dialect()));

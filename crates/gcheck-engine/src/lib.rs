@@ -42,15 +42,14 @@ pub use machine::{BarFeeder, Cutting, Dynamics, Guesses, Machine, Tool, WorkOffs
 pub use model::{Model, Role};
 pub use observer::{Nobody, Observer};
 pub use origin::{At, Origin};
-pub use polar_plane::PolarPlane;
 pub use position::{Axis, Position};
 pub use program::{Library, LookedUp, NoLibrary, Program, ProgramFile, SourceFile, number_of_name};
 pub use run::{Alarm, MOST_ALARMS, RunResult, Stopped, run};
 #[cfg(feature = "forgetful")]
 pub use state::state_fields;
 pub use state::{
-    Bar, CycleWords, Diameters, Face, Frame, FrameKind, ModeSet, NameId, State, Tables, ToolData, ToolShift,
-    Touch, Transform, Variables, Way, Ways, Wrapped,
+    Bar, CycleWords, Diameters, Frame, FrameKind, ModeSet, NameId, State, Tables, ToolData, ToolShift, Touch,
+    Transform, Variables, Way, Ways,
 };
 pub use step::look::{Look, Trial};
 pub use step::{Ending, Options, owns_axes};

@@ -6,22 +6,22 @@
 //! While the mode is on, positions have the plane's coordinates on X and Y, as radii, and the angle on the rotary axis. The
 //! plane's first axis points at the tool at `zero`.
 
-use gcheck_geometry::Mm;
+use gcheck_geometry::{Degrees, Mm};
 
 use crate::lattice::{Joinable, Lattice, merged};
 use crate::position::{Axis, Position};
 
 /// A flat plane on the face of the part. NaN is unknown.
 #[derive(Debug, Clone, Copy)]
-pub struct PolarPlane {
+pub(crate) struct PolarPlane {
     /// The axis that turns the part.
-    pub rotary: Axis,
+    pub(crate) rotary: Axis,
     /// Its angle where the plane's first axis points at the tool, degrees.
-    pub zero: f64,
+    pub(crate) zero: f64,
     /// Where the axis stands that the plane's second coordinate is written with, work coordinates.
-    pub stands: f64,
+    pub(crate) stands: f64,
     /// The tool is on the far side of the centre, where X is below zero.
-    pub far: bool,
+    pub(crate) far: bool,
 }
 
 /// Steps in which an arc's turn about the centre is added up, radians of the arc.
@@ -48,7 +48,7 @@ impl PolarPlane {
         let angle = self.angle(point.raw(Axis::X), point.raw(Axis::Y));
         // In the centre the tool is at every angle.
         let angle = if is_centre(&point) { before } else { angle };
-        point.set(self.rotary, before + nearest(angle - before));
+        point.set(self.rotary, nearest(angle, before));
         point
     }
 
@@ -73,13 +73,12 @@ impl PolarPlane {
         for step in 1..=count {
             let (sin, cos) = (sweep * f64::from(step) / f64::from(count)).sin_cos();
             let next = self.angle(centre.0.0 + dx * cos - dy * sin, centre.1.0 + dx * sin + dy * cos);
-            turned += nearest(next - last);
+            turned += nearest(next, last) - last;
             last = next;
         }
         let mut to = to;
         // The end is that of the program, within what its digits leave of the arc.
-        let end = from.raw(self.rotary) + turned;
-        to.set(self.rotary, end + nearest(shorter.raw(self.rotary) - end));
+        to.set(self.rotary, nearest(shorter.raw(self.rotary), from.raw(self.rotary) + turned));
         to
     }
 
@@ -103,9 +102,9 @@ fn is_centre(point: &Position) -> bool {
     point.raw(Axis::X).hypot(point.raw(Axis::Y)) < 1e-9
 }
 
-/// The same turn as the shortest one, degrees.
-fn nearest(turn: f64) -> f64 {
-    turn - 360.0 * (turn / 360.0).round()
+/// An angle as it is the shorter way from another one, degrees.
+fn nearest(angle: f64, from: f64) -> f64 {
+    Degrees(angle).nearest_to(Degrees(from)).0
 }
 
 /// About another axis, or from the other side, it is another plane.

@@ -46,7 +46,7 @@ pub use cycle::CycleWords;
 pub(crate) use feed::Feed;
 #[cfg(feature = "forgetful")]
 pub use fields::state_fields;
-pub use mapping::{Diameters, Face, Wrapped};
+pub use mapping::Diameters;
 pub(crate) use mapping::{Mapping, TiltedPlane};
 pub use mode_set::ModeSet;
 pub(crate) use modes::Modes;
@@ -65,10 +65,12 @@ pub(crate) use turning::{KeptTurningWords, TurningWords};
 pub(crate) use variables::{Locals, Variable};
 pub use variables::{NameId, Variables};
 
+use crate::cylinder::Cylinder;
 use crate::event::{FeedMode, PathMode, Spindle, Units};
 use crate::lattice::{Lattice, Perhaps, lattice};
 use crate::machine::WorkOffset;
 use crate::model::{Model, Role};
+use crate::polar_plane::PolarPlane;
 use crate::position::Position;
 use crate::value::{Abstract, AbstractValue, Concrete, ConcreteValue, Domain, Truth};
 
@@ -309,13 +311,23 @@ impl<D: Domain> State<D> {
     }
 
     /// Whether X and a rotary axis make the moves of a flat plane.
-    pub fn face(&self) -> &Face {
+    pub(crate) fn face(&self) -> &Perhaps<PolarPlane> {
         &self.mapping.face
     }
 
     /// Whether a linear axis is wrapped around a cylinder.
-    pub fn wrapped(&self) -> &Wrapped {
+    pub(crate) fn wrapped(&self) -> &Perhaps<Cylinder> {
         &self.mapping.wrapped
+    }
+
+    /// The cylinder around which a linear axis is wrapped for certain.
+    pub fn cylinder(&self) -> Option<&Cylinder> {
+        self.wrapped().yes()
+    }
+
+    /// May a linear axis be wrapped around a cylinder?
+    pub fn may_be_wrapped(&self) -> bool {
+        !self.wrapped().is_no()
     }
 
     /// Diameters of cylinders as the program gave them.
@@ -394,9 +406,9 @@ impl<D: Domain> State<D> {
     pub fn plane(&self, model: &Model<'_>) -> Option<Plane> {
         if model.semantics().polar_interpolation.is_some_and(|rules| rules.own_plane) {
             match self.face() {
-                Face::Off => {}
-                Face::On(_) => return Some(Plane::Xy),
-                Face::Unknown => return None,
+                Perhaps::No => {}
+                Perhaps::Yes(_) => return Some(Plane::Xy),
+                Perhaps::Unknown => return None,
             }
         }
         match self.effect(Role::Plane, model)? {

@@ -69,8 +69,8 @@ fn both(angle: f64, other: impl Fn(f64) -> f64) -> Vec<f64> {
 /// Puts the angle of an axis as near to the one before as whole turns allow.
 fn put(angles: &mut [Degrees; 3], axis: RotaryAxis, angle: f64) {
     if let Some(slot) = angles.get_mut(axis.index()) {
-        let before = if slot.0.is_nan() { 0.0 } else { slot.0 };
-        *slot = Degrees(angle - 360.0 * ((angle - before) / 360.0).round());
+        let before = if slot.0.is_nan() { Degrees(0.0) } else { *slot };
+        *slot = Degrees(angle).nearest_to(before);
     }
 }
 

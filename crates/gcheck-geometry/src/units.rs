@@ -239,6 +239,12 @@ impl Degrees {
         // A tiny negative angle rounds up to a whole turn.
         Self(if angle >= 360.0 { 0.0 } else { angle })
     }
+
+    /// The same direction, as many whole turns away as it is the shorter way from another angle.
+    #[must_use]
+    pub fn nearest_to(self, from: Self) -> Self {
+        Self(self.0 - 360.0 * ((self.0 - from.0) / 360.0).round())
+    }
 }
 
 impl Seconds {

@@ -731,7 +731,7 @@ impl Items<'_, '_> {
         }
     }
 
-    /// Numbers of offsets: those of the tools, that of the tool in hand first. `false` where the address is no offset's.
+    /// Numbers of offsets: those of the tools, that of the tool in hand first. `false` for an address that names no offset.
     fn offsets(&mut self, letter: char) -> bool {
         let snapshot = self.typing.snapshot;
         let is_offset = Letter::new(letter as u8).and_then(|letter| self.typing.entry(letter)).is_some_and(

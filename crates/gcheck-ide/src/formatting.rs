@@ -42,7 +42,7 @@ pub fn format_on_type_in(snapshot: &Snapshot, style: &Style, offset: u32) -> Vec
 }
 
 fn format_lines(snapshot: &Snapshot, style: &Style, lines: Option<Range<u32>>) -> Vec<Edit> {
-    // What is written for another control is not ours to write anew.
+    // What is written for another control must not be rewritten.
     if snapshot.settings().unsupported.is_some() {
         return Vec::new();
     }

@@ -384,7 +384,7 @@ impl Cx<'_> {
         if !words.any(wraps) {
             return None;
         }
-        let cylinder = after.wrapped().cylinder()?;
+        let cylinder = after.cylinder()?;
         let units = reader.units(after);
         let diameter = if cylinder.diameter.is_finite() {
             format!("{} {}", plain(cylinder.diameter / units.in_mm(), decimals(units)), unit(units))
@@ -518,7 +518,7 @@ impl Cx<'_> {
         }
         if let (Some(look), Some(axis), None) = (look, moved.axis.filter(|_| moved.is_target), calls) {
             text.push_str(&self.coordinate(axis, look));
-            let wrapped = self.state.and_then(|state| state.after.as_ref()?.wrapped().cylinder().copied());
+            let wrapped = self.state.and_then(|state| state.after.as_ref()?.cylinder().copied());
             if let Some(cylinder) = wrapped.filter(|cylinder| cylinder.linear == axis) {
                 let _ = write!(text, "\n\nturns `{}` instead:", cylinder.rotary.name());
                 text.push_str(&self.coordinate(cylinder.rotary, look));

@@ -173,7 +173,7 @@ pub fn state_at(
             on_every_path: state.on_every_path,
             visits: state.visits,
             assumed: if state.is_assumed { assumed(&snapshot, range.end) } else { None },
-            calls: calls(look, &state.before),
+            calls: calls(&snapshot, look, &state.before),
             before,
             after,
         });
@@ -246,12 +246,17 @@ fn tool(reader: &StateReader<'_>, state: &State<Abstract>) -> Option<ToolView> {
 }
 
 /// The blocks that led to the program of a state.
-fn calls(look: &Look<'_, '_>, state: &State<Abstract>) -> Vec<CallView> {
+fn calls(snapshot: &Snapshot, look: &Look<'_, '_>, state: &State<Abstract>) -> Vec<CallView> {
     let program = look.program();
     let view = |caller: At| {
         let file = program.file(caller.file)?;
         let start = file.loaded.place(caller.block, program.dialect())?.range().start;
-        let line = line_starts(&file.loaded.text()).partition_point(|line| *line <= start) as u32;
+        // The lines of the document are known; those of other files are counted.
+        let line = if caller.file == 0 {
+            snapshot.line_at(start) + 1
+        } else {
+            line_starts(&file.loaded.text()).partition_point(|line| *line <= start) as u32
+        };
         let text = file.loaded.line_from(start).trim().to_owned();
         Some(CallView { text, file: file.name.to_string(), line })
     };

@@ -328,7 +328,7 @@ fn beyond<T: Copy>(
     if !rounding.overlaps {
         return Meet::Pass(even_turn(limits, &(second.begin - first.end), first, second));
     }
-    // Both at half the acceleration: while they overlap, the sum is no more than the whole.
+    // Both at half the acceleration: while they overlap, the sum does not exceed the whole.
     first.share(OVERLAPPED);
     second.share(OVERLAPPED);
     let reached = [&*first, &*second].map(|side| side.cap.min((side.pull() * side.length).sqrt()));

@@ -39,6 +39,7 @@ pub(crate) mod reach;
 pub(crate) mod second_spindle;
 pub(crate) mod sections;
 pub(crate) mod shared_list;
+pub(crate) mod smoothing;
 pub(crate) mod thread_cycles;
 pub(crate) mod threads;
 pub(crate) mod tool_comment;

@@ -24,7 +24,7 @@ use serde_json::{Value, json};
 struct Fragile;
 
 /// Panics when a rule asks for program 666 or an analysis for the text of program 665, and takes longer than an analysis may to
-/// find out that there is no program 777.
+/// find out that program 777 does not exist.
 #[derive(Default)]
 struct FragilePrograms {
     has_looked: AtomicBool,

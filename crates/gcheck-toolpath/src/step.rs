@@ -77,7 +77,7 @@ impl<'a> Step<'a> {
             feed: number(state.feed()),
             rpm: turns(state),
             machine: stands,
-            swings: state.follows_rotary(&stands, model),
+            swings: machine.kinematics.is_some() && state.follows_rotary(&stands, model),
             tool: tool(state.tool()),
             aim: aim(state, event),
             h: tool(state.h()),

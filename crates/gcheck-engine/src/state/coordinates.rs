@@ -12,7 +12,6 @@ use crate::lattice::Perhaps;
 use crate::machine::{Machine, WorkOffset};
 use crate::model::{Model, Role};
 use crate::position::{Axis, Position};
-use crate::state::Face;
 use crate::value::Domain;
 
 /// How the linear axes follow the points of the program.
@@ -44,14 +43,10 @@ impl<D: Domain> State<D> {
         let position = match self.following(&placed, model, machine) {
             Following::Offsets => stands,
             Following::Unknown => stands.with_xyz([Mm::UNKNOWN; 3]),
-            Following::Origin(part) => {
-                let [turned, origin] = [part.apply(origin.xyz()), origin.xyz()];
-                let moved = differences(turned, origin);
-                stands.with_xyz(sums(stands.xyz(), moved))
-            }
+            Following::Origin(part) => stands + origin_moved(&origin, &part),
             Following::Tip(part, kinematics) => {
                 let axes = self.length_along_z().and_then(|length| {
-                    kinematics.axes_for_tip(part.apply(placed.xyz()), length, angles(&placed))
+                    kinematics.axes_for_tip(part.apply(placed.xyz()), length, placed.abc())
                 });
                 stands.with_xyz(axes.unwrap_or([Mm::UNKNOWN; 3]))
             }
@@ -67,20 +62,17 @@ impl<D: Domain> State<D> {
         let placed = match self.following(&untooled, model, at) {
             Following::Offsets => untooled,
             Following::Unknown => untooled.with_xyz([Mm::UNKNOWN; 3]),
-            Following::Origin(part) => {
-                let moved = differences(part.apply(origin.xyz()), origin.xyz());
-                untooled.with_xyz(differences(untooled.xyz(), moved))
-            }
+            Following::Origin(part) => untooled - origin_moved(&origin, &part),
             Following::Tip(part, kinematics) => {
                 let tip = self
                     .length_along_z()
-                    .and_then(|length| kinematics.tip_for_axes(machine.xyz(), length, angles(&untooled)));
+                    .and_then(|length| kinematics.tip_for_axes(machine.xyz(), length, untooled.abc()));
                 let on_part = tip.and_then(|tip| Some(part.inverse()?.apply(tip)));
                 untooled.with_xyz(on_part.unwrap_or([Mm::UNKNOWN; 3]))
             }
         };
         let mut work = self.on_plane((placed - origin).turned(-rotation) - self.shift());
-        if *self.face() != Face::Off {
+        if !self.face().is_no() {
             work.set(Axis::X, f64::NAN);
             work.set(Axis::Y, f64::NAN);
         }
@@ -145,7 +137,7 @@ impl<D: Domain> State<D> {
             Arrangement::HeadTable | Arrangement::TableTable => machine.rotary_centre(model),
         };
         let Some(centre) = centre else { return Following::Unknown };
-        let part = kinematics.part_frame(centre, angles(placed));
+        let part = kinematics.part_frame(centre, placed.abc());
         let is_on = |role: Role, effect: Effect| self.effect(role, model) == Some(effect);
         match (tip, origin) {
             (true, false) if is_tilted || is_on(Role::Length, Effect::ToolCentrePoint) => {
@@ -178,7 +170,7 @@ impl<D: Domain> State<D> {
     /// A position without the axes of a face that may be on, nobody knows where.
     fn without_unknown_face(&self, mut position: Position, model: &Model<'_>) -> Position {
         let may_be = self.may_be(Role::PolarInterpolation, Effect::PolarInterpolationOn, model);
-        if *self.face() == Face::Unknown || may_be && *self.face() == Face::Off {
+        if self.face().is_unknown() || may_be && self.face().is_no() {
             // Z stays its own.
             for axis in model.axes.iter().filter(|axis| axis.is_rotary()).chain(&[Axis::X, Axis::Y]) {
                 position.set(*axis, f64::NAN);
@@ -193,14 +185,7 @@ fn is_upright(placed: &Position, model: &Model<'_>) -> bool {
     model.axes.iter().all(|axis| !axis.is_rotary() || placed.raw(*axis) == 0.0)
 }
 
-fn angles(placed: &Position) -> [Degrees; 3] {
-    [Axis::A, Axis::B, Axis::C].map(|axis| Degrees(placed.raw(axis)))
-}
-
-fn differences([x, y, z]: [Mm; 3], [from_x, from_y, from_z]: [Mm; 3]) -> [Mm; 3] {
-    [x - from_x, y - from_y, z - from_z]
-}
-
-fn sums([x, y, z]: [Mm; 3], [by_x, by_y, by_z]: [Mm; 3]) -> [Mm; 3] {
-    [x + by_x, y + by_y, z + by_z]
+/// The way of an origin that the table took along, in X, Y and Z.
+fn origin_moved(origin: &Position, part: &Frame) -> Position {
+    Position::ZERO.with_xyz(part.apply(origin.xyz())) - Position::ZERO.with_xyz(origin.xyz())
 }

@@ -15,10 +15,8 @@ use proptest::test_runner::{Config, TestCaseError, TestRng, TestRunner};
 use self::alterations::alterations;
 use self::choices::{Choices, Made};
 use super::*;
-use crate::cylinder::Cylinder;
 use crate::lattice::{Flat, May};
 use crate::machine::{BarFeeder, Machine};
-use crate::polar_plane::PolarPlane;
 use crate::position::Axis;
 use crate::start::start_state;
 

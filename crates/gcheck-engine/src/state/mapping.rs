@@ -8,7 +8,7 @@ use gcheck_geometry::tilted_plane::by_euler_angles;
 use gcheck_geometry::{Degrees, Frame, Mm};
 
 use crate::cylinder::Cylinder;
-use crate::lattice::{Joinable, Lattice, Perhaps, lattice};
+use crate::lattice::{Lattice, Perhaps, lattice};
 use crate::polar_plane::PolarPlane;
 use crate::position::{Axis, Position};
 
@@ -17,9 +17,9 @@ lattice! {
     #[derive(Debug, Clone, Default)]
     pub(crate) struct Mapping {
         /// A linear axis wrapped around a cylinder.
-        pub(crate) wrapped: Wrapped,
+        pub(crate) wrapped: Perhaps<Cylinder>,
         /// The face of the part, where X and a rotary axis make its moves.
-        pub(crate) face: Face,
+        pub(crate) face: Perhaps<PolarPlane>,
         /// A plane that lies tilted in the part.
         pub(crate) tilted: Perhaps<TiltedPlane>,
         /// Diameters of cylinders as the program gave them.
@@ -48,26 +48,24 @@ impl TiltedPlane {
 impl Mapping {
     /// Any diameter may have been given, and what was wrapped may be wrapped otherwise; what was not still is not.
     pub(crate) fn forget(&mut self) {
-        if self.wrapped != Wrapped::No {
-            self.wrapped = Wrapped::Unknown;
-        }
-        if self.face != Face::Off {
-            self.face = Face::Unknown;
-        }
-        if !self.tilted.is_no() {
-            self.tilted = Perhaps::Unknown;
-        }
+        self.wrapped = self.wrapped.or_other();
+        self.face = self.face.or_other();
+        self.tilted = self.tilted.or_other();
         self.diameters.forget();
     }
 
     /// A point with the angle that its place on the drawing has; the axes come from `from`.
     #[must_use]
-    pub(crate) fn turned(&self, point: Position, from: &Position) -> Position {
-        let point = self.wrapped.turned(point);
+    pub(crate) fn turned(&self, mut point: Position, from: &Position) -> Position {
+        match &self.wrapped {
+            Perhaps::No => {}
+            Perhaps::Yes(cylinder) => point.set(cylinder.rotary, cylinder.angle(point.raw(cylinder.linear))),
+            Perhaps::Unknown => point = without_rotary(point),
+        }
         match &self.face {
-            Face::Off => point,
-            Face::On(plane) => plane.turned(point, from),
-            Face::Unknown => without_rotary(point),
+            Perhaps::No => point,
+            Perhaps::Yes(plane) => plane.turned(point, from),
+            Perhaps::Unknown => without_rotary(point),
         }
     }
 
@@ -81,25 +79,40 @@ impl Mapping {
         sweep: f64,
     ) -> Position {
         match &self.face {
-            Face::On(plane) => plane.turned_along(point, from, centre, sweep),
-            Face::Off | Face::Unknown => self.turned(point, from),
+            Perhaps::Yes(plane) => plane.turned_along(point, from, centre, sweep),
+            Perhaps::No | Perhaps::Unknown => self.turned(point, from),
         }
     }
 
     /// A point with linear axes where they stand.
     #[must_use]
     pub(crate) fn standing(&self, point: Position) -> Position {
-        let point = self.wrapped.standing(point);
+        self.off_face(self.unwrapped(point))
+    }
+
+    /// A point with the wrapped axis where it stands.
+    #[must_use]
+    pub(crate) fn unwrapped(&self, mut point: Position) -> Position {
+        match &self.wrapped {
+            Perhaps::No => {}
+            Perhaps::Yes(cylinder) => point.set(cylinder.linear, cylinder.stands),
+            Perhaps::Unknown => point = point.with_xyz([Mm::UNKNOWN; 3]),
+        }
+        point
+    }
+
+    /// A point of the face with X and Y where their axes stand.
+    #[must_use]
+    pub(crate) fn off_face(&self, mut point: Position) -> Position {
         match &self.face {
-            Face::Off => point,
-            Face::On(plane) => plane.standing(point),
-            Face::Unknown => {
-                let mut point = point;
+            Perhaps::No => {}
+            Perhaps::Yes(plane) => point = plane.standing(point),
+            Perhaps::Unknown => {
                 point.set(Axis::X, f64::NAN);
                 point.set(Axis::Y, f64::NAN);
-                point
             }
         }
+        point
     }
 }
 
@@ -108,131 +121,6 @@ fn without_rotary(mut point: Position) -> Position {
         point.set(axis, f64::NAN);
     }
     point
-}
-
-/// Whether X and a rotary axis make the moves of a flat plane.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub enum Face {
-    /// They do not.
-    #[default]
-    Off,
-    /// They do.
-    On(PolarPlane),
-    /// They may.
-    Unknown,
-}
-
-impl Face {
-    /// The plane, if there is one for certain.
-    pub const fn plane(&self) -> Option<&PolarPlane> {
-        match self {
-            Self::On(plane) => Some(plane),
-            Self::Off | Self::Unknown => None,
-        }
-    }
-}
-
-impl Lattice for Face {
-    fn join(&self, other: &Self) -> Self {
-        match (self, other) {
-            (Self::Off, Self::Off) => Self::Off,
-            (Self::On(a), Self::On(b)) => a.joined(b, false).map_or(Self::Unknown, Self::On),
-            _ => Self::Unknown,
-        }
-    }
-
-    fn widen(&self, newer: &Self) -> Self {
-        self.join(newer)
-    }
-
-    fn covers(&self, inner: &Self) -> bool {
-        match (self, inner) {
-            (Self::Unknown, _) | (Self::Off, Self::Off) => true,
-            (Self::On(a), Self::On(b)) => a.stands_for(b),
-            _ => false,
-        }
-    }
-
-    fn same(&self, other: &Self) -> bool {
-        self == other
-    }
-}
-
-/// Whether an axis is wrapped.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub enum Wrapped {
-    /// None is.
-    #[default]
-    No,
-    /// One is.
-    On(Cylinder),
-    /// One may be, and nobody knows which.
-    Unknown,
-}
-
-impl Wrapped {
-    /// The cylinder, if an axis is wrapped for certain.
-    pub const fn cylinder(&self) -> Option<&Cylinder> {
-        match self {
-            Self::On(cylinder) => Some(cylinder),
-            Self::No | Self::Unknown => None,
-        }
-    }
-
-    pub(crate) const fn cylinder_mut(&mut self) -> Option<&mut Cylinder> {
-        match self {
-            Self::On(cylinder) => Some(cylinder),
-            Self::No | Self::Unknown => None,
-        }
-    }
-
-    /// The point with the angle that its place on the drawing has.
-    #[must_use]
-    pub(crate) fn turned(&self, mut point: Position) -> Position {
-        match self {
-            Self::No => {}
-            Self::On(cylinder) => point.set(cylinder.rotary, cylinder.angle(point.raw(cylinder.linear))),
-            Self::Unknown => point = without_rotary(point),
-        }
-        point
-    }
-
-    /// The point with the linear axis where it stands.
-    #[must_use]
-    pub(crate) fn standing(&self, mut point: Position) -> Position {
-        match self {
-            Self::No => {}
-            Self::On(cylinder) => point.set(cylinder.linear, cylinder.stands),
-            Self::Unknown => point = point.with_xyz([Mm::UNKNOWN; 3]),
-        }
-        point
-    }
-}
-
-impl Lattice for Wrapped {
-    fn join(&self, other: &Self) -> Self {
-        match (self, other) {
-            (Self::No, Self::No) => Self::No,
-            (Self::On(a), Self::On(b)) => a.joined(b, false).map_or(Self::Unknown, Self::On),
-            _ => Self::Unknown,
-        }
-    }
-
-    fn widen(&self, newer: &Self) -> Self {
-        self.join(newer)
-    }
-
-    fn covers(&self, inner: &Self) -> bool {
-        match (self, inner) {
-            (Self::Unknown, _) | (Self::No, Self::No) => true,
-            (Self::On(a), Self::On(b)) => a.stands_for(b),
-            _ => false,
-        }
-    }
-
-    fn same(&self, other: &Self) -> bool {
-        self == other
-    }
 }
 
 /// By rotary axis A, B, C: the diameter that the program gave last, millimetres. `None` none yet; 0 gave the default back to
@@ -302,14 +190,15 @@ mod tests {
 
     #[test]
     fn what_may_be_one_thing_or_another_is_unknown() {
-        let (on, off) = (Wrapped::On(cylinder()), Wrapped::No);
-        assert_eq!(on.join(&off), Wrapped::Unknown);
-        let other = Wrapped::On(Cylinder { diameter: 50.0, ..cylinder() });
+        let (on, off) = (Perhaps::Yes(cylinder()), Perhaps::No);
+        assert_eq!(on.join(&off), Perhaps::Unknown);
+        let other = Perhaps::Yes(Cylinder { diameter: 50.0, ..cylinder() });
         let joined = on.join(&other);
-        assert!(joined.cylinder().is_some_and(|cylinder| cylinder.diameter.is_nan()));
+        assert!(joined.yes().is_some_and(|cylinder| cylinder.diameter.is_nan()));
         assert!(joined.covers(&on) && joined.covers(&other) && !on.covers(&other));
-        assert!(Wrapped::Unknown.covers(&off) && !off.covers(&on));
-        let point = Wrapped::Unknown.standing(Wrapped::Unknown.turned(Position::ZERO));
+        assert!(Perhaps::Unknown.covers(&off) && !off.covers(&on));
+        let mapping = Mapping { wrapped: Perhaps::Unknown, ..Mapping::default() };
+        let point = mapping.standing(mapping.turned(Position::ZERO, &Position::ZERO));
         assert!(point.raw(Axis::A).is_nan() && point.raw(Axis::X).is_nan());
     }
 

@@ -10,10 +10,11 @@ use crate::assumption::Assumption;
 use crate::cylinder::Cylinder;
 use crate::event::{Event, Units};
 use crate::fault::Fault;
+use crate::lattice::Perhaps;
 use crate::model::Role;
 use crate::observer::Observer;
 use crate::position::{Axis, Position};
-use crate::state::{ModeSet, State, Wrapped};
+use crate::state::{ModeSet, State};
 use crate::value::{Domain, Truth};
 
 /// Angles closer than this are one, degrees.
@@ -49,7 +50,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         {
             // Words that may be nothing may begin nothing, and may leave one of two.
             state.mapping.diameters.forget();
-            state.mapping.wrapped = Wrapped::Unknown;
+            state.mapping.wrapped = Perhaps::Unknown;
             state.modes.add(Role::Cylinder, &ModeSet::one(ix));
             self.emit(state, Event::Modal(ix));
             return Ok(());
@@ -79,16 +80,16 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let Some(linear) = linear.first().copied() else { return Ok(()) };
         let diameter = self.diameter_of(rotary, rules, state);
         // The same axis on another cylinder goes on with its drawing.
-        if state.wrapped().cylinder().is_none_or(|cylinder| cylinder.linear != linear) {
+        if state.cylinder().is_none_or(|cylinder| cylinder.linear != linear) {
             self.unwrap_axis(state);
         }
-        let stands = state.wrapped().standing(*state.actual()).raw(linear);
+        let stands = state.mapping.unwrapped(*state.actual()).raw(linear);
         let mut cylinder = Cylinder { linear, rotary, diameter, stands, zero: f64::NAN };
         cylinder.anchor(state.actual());
         if cylinder.zero.abs() > SAME_ANGLE {
             self.assumptions.insert(Assumption::CylinderStart(rotary));
         }
-        state.mapping.wrapped = Wrapped::On(cylinder);
+        state.mapping.wrapped = Perhaps::Yes(cylinder);
         state.set_mode(Role::Cylinder, ix);
         self.emit(state, Event::Modal(ix));
         self.emit(state, Event::Cylinder(Some(cylinder)));
@@ -118,9 +119,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     /// Ends mapping: the linear axis is where it stood all along.
     fn unwrap_axis(&mut self, state: &mut State<D>) {
-        if *state.wrapped() != Wrapped::No {
-            state.points.actual = state.wrapped().standing(*state.actual());
-            state.mapping.wrapped = Wrapped::No;
+        if !state.wrapped().is_no() {
+            state.points.actual = state.mapping.unwrapped(*state.actual());
+            state.mapping.wrapped = Perhaps::No;
             state.points.position = self.programmed_of(state.actual(), state);
             self.emit(state, Event::Cylinder(None));
         }
@@ -131,7 +132,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     /// The end of the program ends mapping where a setting says so.
     pub(super) fn unwrap_at_end(&mut self, state: &mut State<D>) {
-        if *state.wrapped() == Wrapped::No {
+        if state.wrapped().is_no() {
             return;
         }
         let rules = self.model.semantics().cylinder.as_ref();
@@ -164,7 +165,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     /// A word for the rotary axis turns the part, and the drawing with it.
     pub(super) fn turn_drawing(&mut self, state: &mut State<D>) {
-        let Some(cylinder) = state.wrapped().cylinder() else { return };
+        let Some(cylinder) = state.cylinder() else { return };
         let letters: LetterSet =
             self.model.letters_of(cylinder.rotary).filter(|letter| self.words.has(*letter)).collect();
         if letters.is_empty() {
@@ -192,7 +193,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             }
         }
         self.assumptions.insert(Assumption::CylinderStart(rotary));
-        if let Some(cylinder) = state.mapping.wrapped.cylinder_mut() {
+        if let Some(cylinder) = state.mapping.wrapped.yes_mut() {
             cylinder.anchor(&at);
         }
     }
@@ -202,7 +203,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let moves = |axis: Axis| {
             named.iter().filter_map(|letter| self.model.axis_of(letter)).any(|(moved, _)| moved == axis)
         };
-        let Some(cylinder) = state.mapping.wrapped.cylinder_mut() else { return };
+        let Some(cylinder) = state.mapping.wrapped.yes_mut() else { return };
         if moves(cylinder.linear) {
             cylinder.stands = to.raw(cylinder.linear);
             to.set(cylinder.linear, f64::NAN);

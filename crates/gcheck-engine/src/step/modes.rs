@@ -17,7 +17,7 @@ use crate::model::Role;
 use crate::observer::Observer;
 use crate::polar_plane::PolarPlane;
 use crate::position::{Axis, Position};
-use crate::state::{Blending, CoolantState, Face, ModalCalls, State, TiltedPlane};
+use crate::state::{Blending, CoolantState, ModalCalls, State, TiltedPlane};
 use crate::value::{Domain, Truth};
 
 impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
@@ -52,13 +52,13 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if let Some((machine, followed)) = before
             && (followed || state.follows_rotary(&machine, self.model))
         {
-            self.read_anew(&machine, state);
+            self.reread(&machine, state);
         }
         Ok(())
     }
 
     /// The axes stand where they did, and the program's X, Y and Z for that are other ones.
-    fn read_anew(&self, machine: &Position, state: &mut State<D>) {
+    fn reread(&self, machine: &Position, state: &mut State<D>) {
         let read = state.from_machine(machine, self.model, self.machine);
         state.points.actual = state.actual().with_xyz(read.xyz());
         state.points.position = self.programmed_of(state.actual(), state);
@@ -390,10 +390,15 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     fn smoothing(&mut self, state: &mut State<D>) {
         let unit = self.unit(state);
-        let tolerance = self.words.number(Letter::of('E')).filter(|e| *e > 0.0).map(|e| Mm(e * unit));
-        let smoothing = Smoothing { level: self.level(Letter::of('P'), state), tolerance };
+        let given = self.words.number(Letter::of('E'));
+        let tolerance = given.filter(|e| *e > 0.0).map(|e| Mm(e * unit));
+        let written = self.raw(Letter::of('P'), state);
+        let smoothing = Smoothing { level: written.and_then(level), tolerance };
         let kept = &mut state.blending;
-        if smoothing == Smoothing::default() {
+        if [given, written].into_iter().flatten().any(f64::is_nan) {
+            // The word may be of any value, or nothing; then the other one may be given up.
+            (kept.smoothing_level, kept.smoothing_tolerance) = (Some(f64::NAN), Some(f64::NAN));
+        } else if smoothing == Smoothing::default() {
             (kept.smoothing_level, kept.smoothing_tolerance) = (None, None);
         } else {
             kept.smoothing_level = smoothing.level.map(f64::from).or(kept.smoothing_level);
@@ -402,19 +407,18 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         self.emit(state, Event::Smoothing(smoothing));
     }
 
-    fn contour_control(&mut self, switch: Letter, level: Option<Letter>, state: &mut State<D>) {
-        // What is unknown, or has other meanings on other series, switches nothing.
+    fn contour_control(&mut self, switch: Letter, letter: Option<Letter>, state: &mut State<D>) {
         let Some(switched) = self.words.number(switch) else { return };
+        let written = letter.and_then(|letter| self.raw(letter, state));
         let on = switched > 0.0;
-        let level = level.and_then(|letter| self.level(letter, state)).filter(|_| on);
-        state.blending.contour = on.then(|| level.map_or(0.0, f64::from));
+        let level = written.and_then(level).filter(|_| on);
+        state.blending.contour = if switched.is_nan() || on && written.is_some_and(f64::is_nan) {
+            Some(f64::NAN)
+        } else {
+            on.then(|| level.map_or(0.0, f64::from))
+        };
+        // What is unknown, or has other meanings on other series, switches nothing on.
         self.emit(state, Event::ContourControl { on, level });
-    }
-
-    /// A small whole number, as it is written.
-    fn level(&mut self, letter: Letter, state: &State<D>) -> Option<u8> {
-        #[expect(clippy::cast_sign_loss, reason = "in range")]
-        self.raw(letter, state).filter(|level| (0.0..=99.0).contains(level)).map(|level| level as u8)
     }
 
     /// The path mode is announced again, where it is known: its numbers count in the program's present units from then on.
@@ -549,11 +553,11 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             self.leave_face(state);
         } else if state.actual().raw(Axis::X).is_nan() {
             // On which side of the centre the tool is, nobody knows.
-            state.mapping.face = Face::Unknown;
+            state.mapping.face = Perhaps::Unknown;
             self.unknown_frame(ix, true, state);
-        } else if *state.face() == Face::Off {
+        } else if state.face().is_no() {
             let (plane, begun) = PolarPlane::begin(rotary, state.actual(), rules.starts_at_zero);
-            state.mapping.face = Face::On(plane);
+            state.mapping.face = Perhaps::Yes(plane);
             state.points.actual = begun;
             state.points.position = self.programmed_of(state.actual(), state);
         }
@@ -562,9 +566,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     /// The axes are where polar interpolation left them.
     pub(super) fn leave_face(&mut self, state: &mut State<D>) {
-        if *state.face() != Face::Off {
-            state.points.actual = state.mapping.standing(*state.actual());
-            state.mapping.face = Face::Off;
+        if !state.face().is_no() {
+            state.points.actual = state.mapping.off_face(*state.actual());
+            state.mapping.face = Perhaps::No;
             state.points.position = self.programmed_of(state.actual(), state);
         }
     }
@@ -578,7 +582,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             let machine = state.machine(self.model, self.machine);
             state.set_mode(Role::TiltedPlane, CodeIx::NONE);
             self.tilted_plane(ix, false, state);
-            self.read_anew(&machine, state);
+            self.reread(&machine, state);
         }
     }
 
@@ -604,14 +608,15 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     /// The rotary axes turn to where the tool is square to the plane in effect; the linear axes stand still.
     fn turn_square(&mut self, ix: CodeIx, state: &mut State<D>) {
+        const TURNING: [Axis; 3] = [Axis::A, Axis::B, Axis::C];
         let mut machine = state.machine(self.model, self.machine);
-        let from = [Axis::A, Axis::B, Axis::C].map(|axis| Degrees(machine.raw(axis)));
+        let from = machine.abc();
         let ways = self.machine.kinematics.zip(state.upward());
         // `P` chooses between two ways by rules that no page at hand gives.
         let ways = ways.filter(|_| !self.words.has(Letter::of('P')));
         let ways = ways.map_or_else(Vec::new, |(kinematics, upward)| kinematics.square_to(upward, from));
         let within = |way: &[Degrees; 3]| {
-            [Axis::A, Axis::B, Axis::C].into_iter().zip(way).all(|(axis, angle)| {
+            TURNING.into_iter().zip(way).all(|(axis, angle)| {
                 self.machine.travel.get(&axis).is_none_or(|(low, high)| (*low..=*high).contains(&angle.0))
             })
         };
@@ -622,7 +627,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if nearest.is_none() {
             self.assumptions.insert(Assumption::Code(ix));
         }
-        for (index, axis) in [Axis::A, Axis::B, Axis::C].into_iter().enumerate() {
+        for (index, axis) in TURNING.into_iter().enumerate() {
             if self.model.axes.contains(&axis) {
                 let angle = nearest.and_then(|way| way.get(index).copied());
                 machine.set(axis, angle.map_or(f64::NAN, |angle| angle.0));
@@ -664,4 +669,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     pub(super) fn shifts_are_one(&self) -> bool {
         self.model.semantics().local_shift == LocalShift::Shared
     }
+}
+
+/// A small whole number.
+fn level(number: f64) -> Option<u8> {
+    #[expect(clippy::cast_sign_loss, reason = "in range")]
+    (0.0..=99.0).contains(&number).then_some(number as u8)
 }

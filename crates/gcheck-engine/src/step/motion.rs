@@ -6,7 +6,7 @@
 use std::rc::Rc;
 
 use gcheck_controls::{CodeIx, Effect, Letter, LetterSet};
-use gcheck_geometry::{Bezier, Mm, Plane};
+use gcheck_geometry::{Bezier, Degrees, Mm, Plane};
 use nalgebra::Point2;
 
 use super::arc::{axes_of_plane, plane_axes};
@@ -18,7 +18,7 @@ use crate::lattice::Perhaps;
 use crate::model::Role;
 use crate::observer::Observer;
 use crate::position::{Axis, Position};
-use crate::state::{ControlPoints, Course, Face, KeptTurningWords, State, TurningWords};
+use crate::state::{ControlPoints, Course, KeptTurningWords, State, TurningWords};
 use crate::value::Domain;
 
 #[expect(clippy::unnecessary_wraps, reason = "handlers of effects share one signature")]
@@ -247,7 +247,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// The programmed point of the block: axes that it does not name stay.
     pub(super) fn target(&mut self, state: &State<D>) -> Step<Position> {
         let mut target = *state.position();
-        if let Some(cylinder) = state.wrapped().cylinder() {
+        if let Some(cylinder) = state.cylinder() {
             // It turns though no word of the program names it.
             target.set(cylinder.rotary, state.actual().raw(cylinder.rotary));
         }
@@ -258,7 +258,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             let Some((own, is_increment)) = self.model.axis_of(letter) else { continue };
             let Some(mut value) = self.words.number(letter) else { continue };
             let axis = self.axis_on_face(own, state);
-            let is_drawn = self.is_second_on_face(own) && *state.face() != Face::Off;
+            let is_drawn = self.is_second_on_face(own) && !state.face().is_no();
             if let Some(machine) = &self.machine.axes
                 && !machine.contains(&own)
                 && !is_drawn
@@ -280,7 +280,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 (false, Some(false)) => value,
                 (false, None) => f64::NAN,
             };
-            let is_unsure = *state.face() == Face::Unknown && self.is_second_on_face(own);
+            let is_unsure = state.face().is_unknown() && self.is_second_on_face(own);
             target.set(axis, if is_unsure { f64::NAN } else { value });
             if is_unsure {
                 // It may be a coordinate of the face.
@@ -306,7 +306,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// The axis that a word for this one moves: on the face of a part some controls write the second coordinate with the
     /// address of the rotary axis.
     fn axis_on_face(&self, own: Axis, state: &State<D>) -> Axis {
-        if self.is_second_on_face(own) && state.face().plane().is_some() { Axis::Y } else { own }
+        if self.is_second_on_face(own) && state.face().yes().is_some() { Axis::Y } else { own }
     }
 
     /// Is the second coordinate on the face of a part written with the address of this axis?
@@ -794,9 +794,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     }
 }
 
-/// The angle `to`, as many whole turns away as it is the shorter way from `from`; from nobody knows where it is itself.
+/// The angle `to` as it is the shorter way from `from`; where that is not known, itself.
 fn shorter_way(from: f64, to: f64) -> f64 {
-    if from.is_nan() { to } else { to - 360.0 * ((to - from) / 360.0).round() }
+    if from.is_nan() { to } else { Degrees(to).nearest_to(Degrees(from)).0 }
 }
 
 /// A curve by control points is of this order at least.

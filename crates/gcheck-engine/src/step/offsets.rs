@@ -31,7 +31,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         }
         let here = before.moved(&old, &after);
         state.points.actual = here;
-        if let Some(cylinder) = state.mapping.wrapped.cylinder_mut() {
+        if let Some(cylinder) = state.mapping.wrapped.yes_mut() {
             // The axis that is wrapped stands still as all the others do.
             let linear = cylinder.linear;
             let mut standing = old;
@@ -160,7 +160,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         }
         state.offsets.shift_on = Truth::True;
         let here = *state.actual();
-        if let Some(cylinder) = state.mapping.wrapped.cylinder_mut() {
+        if let Some(cylinder) = state.mapping.wrapped.yes_mut() {
             // The drawing has a new zero; what that says of the axis that stands still is in no page.
             cylinder.stands = f64::NAN;
             cylinder.anchor(&here);

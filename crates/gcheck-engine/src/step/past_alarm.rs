@@ -22,8 +22,7 @@ use crate::observer::Observer;
 use crate::origin::At;
 use crate::position::{Axis, Position};
 use crate::state::{
-    Bar, Blending, Course, Face, KeptTurningWords, ModalCalls, ModeSet, State, ToolData, Transform,
-    TurningWords, Wrapped,
+    Bar, Blending, Course, KeptTurningWords, ModalCalls, ModeSet, State, ToolData, Transform, TurningWords,
 };
 use crate::value::{Domain, Truth};
 
@@ -259,11 +258,11 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 state.points.lose();
             }
             E::CylinderMapping => {
-                state.mapping.wrapped = Wrapped::Unknown;
+                state.mapping.wrapped = Perhaps::Unknown;
                 state.points.lose();
             }
             E::PolarInterpolationOn | E::PolarInterpolationOff => {
-                state.mapping.face = Face::Unknown;
+                state.mapping.face = Perhaps::Unknown;
                 self.unknown_frame(ix, true, state);
             }
             E::TiltedPlaneOn | E::TiltedPlaneOff => {

@@ -13,7 +13,7 @@ use crate::model::Role;
 use crate::observer::Observer;
 use crate::origin::{At, Origin};
 use crate::position::Axis;
-use crate::state::{State, Wrapped};
+use crate::state::State;
 use crate::value::Domain;
 
 /// What blocks that only move need of the state, and none of them changes.
@@ -43,7 +43,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let goes_straight = state.active_cycle(self.model) == Some(CodeIx::NONE)
             && Self::goes_direct(state)
             && state.calls.modal.is_off()
-            && *state.wrapped() == Wrapped::No
+            && state.wrapped().is_no()
             && !state.tool_shift.is_on()
             && MAPPINGS.iter().all(|role| self.is_unmapped(*role, state));
         let feeds = kind == TravelKind::Rapid

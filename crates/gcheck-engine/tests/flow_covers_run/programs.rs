@@ -236,6 +236,8 @@ const FOUND: &[(&str, &str, &str)] = &[
     ("a condition writes no variable", MILL, "IF [#110 NE #0] GOTO 10\n#111=1.\nN10\n#111=#110\nM30\n"),
     ("a jump without its label leaves both ways", MILL, "IF [#112 EQ 0.] GOTO 50\nF[0.]\nG1 X#112\nM30\n"),
     ("a tool that nobody listed has an entry", MILL, "T1 M6\nG10 L10 P1 R5.\nG43 H1\nM30\n"),
+    ("smoothing of an unknown tolerance", HAAS, "G187 P1\nG187 E#110\nG0 X1.\nM30\n"),
+    ("contour control that may be on", MILL, "G5.1 Q#110 R5\nG0 X1.\nM30\n"),
     ("a computed tool may be none", MILL, "T2 M6\nT[#110] M6\nG0 X1.\nM30\n"),
     ("a tool by an unknown number", CNC, "T1 M6\nM61 Q#110\nG10 L1 P1 Z5\nG43\nG0 Z1\nM2\n"),
     ("H0 is the tool in the spindle", CNC, "T1 M6\nG43 H0\nG0 Z0\nT0 M6\nG43 H0\nM2\n"),

@@ -6,6 +6,7 @@
 use std::ops::Range;
 
 use crate::facts::offset_schemes::whole;
+use crate::facts::reach::is_on_the_face;
 use crate::{PathCx, Uses};
 use gcheck_controls::{Effect, LetterSet, Machine};
 use gcheck_engine::{At, Axis, Fact, Role, Truth};
@@ -72,10 +73,10 @@ pub(crate) fn turns(cx: &PathCx<'_>) -> bool {
 pub(crate) fn turns_the_part(cx: &PathCx<'_>) -> bool {
     let state = cx.state();
     // While X and the C axis are the coordinates of the face, the C axis holds the part.
-    let is_face = state
-        .effect(Role::PolarInterpolation, cx.model)
-        .is_none_or(|effect| effect == Effect::PolarInterpolationOn);
-    turns(cx) && !is_face && state.plane(cx.model) == Some(Plane::Zx) && state.live_tool() == Truth::False
+    turns(cx)
+        && !is_on_the_face(cx)
+        && state.plane(cx.model) == Some(Plane::Zx)
+        && state.live_tool() == Truth::False
 }
 
 /// Does the code remove material layer by layer down to a profile?

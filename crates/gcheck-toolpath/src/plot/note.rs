@@ -1,6 +1,6 @@
 //! Sentences beside a picture, each with the block that it speaks of.
 //!
-//! Knows: which moves a picture leaves out, and how that is said. Must not know: why a coordinate is not known.
+//! Knows: which moves a picture leaves out, and which words tell it. Must not know: why a coordinate is not known.
 
 use std::fmt::Write as _;
 

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use gcheck_controls::{CodeNumber, Control, Effect, Letter, Machine, UserCode};
-use gcheck_geometry::RotaryAxis;
+use gcheck_geometry::{MM_PER_INCH, RotaryAxis};
 use gcheck_lint::Selection;
 use gcheck_rules::RULES;
 
@@ -46,7 +46,6 @@ const MOST_FEED_OVERRIDE: f64 = 999.0;
 const ACCELERATION: [f64; 2] = [1.0, 1e6];
 /// Lowest and highest jerk of an axis, millimetres a second cubed.
 const JERK: [f64; 2] = [1.0, 1e9];
-const MM_PER_INCH: f64 = 25.4;
 
 /// The rotary axis of a name.
 pub(crate) fn rotary_axis(name: &str) -> Option<RotaryAxis> {

@@ -152,7 +152,7 @@ fn paths() -> Vec<(&'static str, Alter)> {
         ("scaling", |s| s.transform = Transform::NONE.scaled([2.0; 3], [0.0; 3])),
         ("rotation", |s| s.transform = Transform::NONE.rotated(30.0, [0.0; 3], Plane::Xy)),
         ("mirror", |s| s.transform.mirrors_mut()[0] = Perhaps::Yes(0.0)),
-        ("cylinder", |s| s.mapping.wrapped = made()),
+        ("cylinder", |s| s.mapping.wrapped = Perhaps::Yes(made())),
         ("diameter of cylinders", |s| s.mapping.diameters.set(Axis::A, 50.0)),
         ("compensation", |s| s.compensation.on = Perhaps::Yes(made())),
         ("compensation on an unknown path", |s| {
@@ -166,9 +166,7 @@ fn paths() -> Vec<(&'static str, Alter)> {
         ("tolerance of smoothing", |s| s.blending.smoothing_tolerance = Some(0.1)),
         ("contour control", |s| s.blending.contour = Some(1.0)),
         ("tilted plane", |s| s.mapping.tilted = Perhaps::Yes(made())),
-        ("face of the part", |s| {
-            s.mapping.face = Face::On(PolarPlane { rotary: Axis::C, zero: 0.0, stands: 0.0, far: false });
-        }),
+        ("face of the part", |s| s.mapping.face = Perhaps::Yes(made())),
         ("control points", |s| s.curve = Perhaps::Yes(ControlPoints(Rc::new(vec![[1.0; 3]])))),
         ("touched point", |s| s.probe.point = point()),
         ("result of the probe", |s| s.probe.result = Truth::True),

@@ -221,26 +221,18 @@ made! {
         }
         transform
     };
-    Wrapped, 5, c => match c.below(4) {
-        0 => Wrapped::No,
-        3 => Wrapped::Unknown,
-        _ => Wrapped::On(Cylinder {
-            linear: c.one_of(&[Axis::X, Axis::Y]),
-            rotary: Axis::A,
-            diameter: c.make(),
-            stands: c.make(),
-            zero: c.make(),
-        }),
+    Cylinder, 4, c => Cylinder {
+        linear: c.one_of(&[Axis::X, Axis::Y]),
+        rotary: Axis::A,
+        diameter: c.make(),
+        stands: c.make(),
+        zero: c.make(),
     };
-    Face, 5, c => match c.below(4) {
-        0 => Face::Off,
-        3 => Face::Unknown,
-        _ => Face::On(PolarPlane {
-            rotary: c.one_of(&[Axis::B, Axis::C]),
-            zero: c.make(),
-            stands: c.make(),
-            far: c.make(),
-        }),
+    PolarPlane, 4, c => PolarPlane {
+        rotary: c.one_of(&[Axis::B, Axis::C]),
+        zero: c.make(),
+        stands: c.make(),
+        far: c.make(),
     };
     TiltedPlane, 6, c => TiltedPlane {
         origin: [c.make(), c.make(), c.make()],
@@ -248,7 +240,7 @@ made! {
     };
     Mapping, 18, c => {
         let mut mapping =
-            Mapping { wrapped: c.make(), face: c.make(), tilted: c.some(), ..Mapping::default() };
+            Mapping { wrapped: c.some(), face: c.some(), tilted: c.some(), ..Mapping::default() };
         for axis in [Axis::A, Axis::B] {
             if c.make::<bool>() {
                 mapping.diameters.set(axis, c.make());

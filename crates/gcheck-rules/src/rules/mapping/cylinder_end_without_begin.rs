@@ -1,7 +1,7 @@
 //! The end of a cylindrical mapping that never began.
 
 use gcheck_controls::{Effect, LetterSet};
-use gcheck_engine::{At, Wrapped};
+use gcheck_engine::At;
 use gcheck_program::BlockFlags;
 
 use crate::declare::declare_rule;
@@ -73,7 +73,7 @@ impl PathRule for CylinderEndWithoutBegin {
         } else if letters.intersects(OF_CYLINDER) {
             self.sized = Some((cx.origin().at, cx.range()));
         } else if let Some((_, sized)) = self.sized.take()
-            && *cx.state().wrapped() == Wrapped::No
+            && !cx.state().may_be_wrapped()
         {
             let name = cx.name_of_effect(Effect::CylinderMapping).unwrap_or_default();
             let range = cx.effect_range(is_mapping);

@@ -55,7 +55,7 @@ impl PathRule for CylinderFeedMode {
         let state = cx.state();
         let fact = Fact::Mode(Role::FeedMode);
         let set_by = cx.definitions().set_by(fact);
-        if state.wrapped().cylinder().is_none() || set_by.is_none() || set_by == self.told {
+        if state.cylinder().is_none() || set_by.is_none() || set_by == self.told {
             return;
         }
         let what = match state.feed_mode(cx.model) {

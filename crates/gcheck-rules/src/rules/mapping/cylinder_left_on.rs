@@ -111,7 +111,7 @@ impl CylinderLeftOn {
     fn judge(&mut self, cx: &PathCx<'_>, place: Place, report: &mut Report<'_>) {
         let is_on = |effect| effect == Effect::CylinderMapping;
         let Some(ActiveMode::Certain(code)) = left_on(cx, Role::Cylinder, is_on) else { return };
-        let Some(cylinder) = cx.state().wrapped().cylinder() else { return };
+        let Some(cylinder) = cx.state().cylinder() else { return };
         if place == Place::Reference && !takes_away(cx, cylinder) {
             return;
         }

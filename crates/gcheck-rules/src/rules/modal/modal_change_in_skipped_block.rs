@@ -184,7 +184,7 @@ impl ModalChangeInSkippedBlock {
         }
         self.mapping = None;
         let begins = cx.origin().letters.intersects(LetterSet::of("XYZABCQR"));
-        let ended = cx.state().wrapped().cylinder().map(|cylinder| (cylinder.linear, cylinder.rotary));
+        let ended = cx.state().cylinder().map(|cylinder| (cylinder.linear, cylinder.rotary));
         if is_optional(cx) && (begins || ended.is_some()) {
             self.mapping = Some(Mapping {
                 ended: ended.filter(|_| !begins),
@@ -195,7 +195,7 @@ impl ModalChangeInSkippedBlock {
     }
 
     fn tell_mapping(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
-        let wrapped = || cx.state().wrapped().cylinder().map(|cylinder| (cylinder.linear, cylinder.rotary));
+        let wrapped = || cx.state().cylinder().map(|cylinder| (cylinder.linear, cylinder.rotary));
         let Some(mapping) = &self.mapping else { return };
         let Some((linear, rotary)) = mapping.ended.or_else(wrapped) else { return };
         if !cx.origin().letters.contains(linear.letter()) {

@@ -82,7 +82,7 @@ impl PathRule for IndexBeforeRetract {
         if !cx.origin().letters.intersects(ROTARY) || !turns_in_place(cx, travel) || !cx.is_on_every_path() {
             return;
         }
-        let is_plain = cx.state().wrapped().cylinder().is_none() && !follows_the_tool(cx);
+        let is_plain = cx.state().cylinder().is_none() && !follows_the_tool(cx);
         let Some(z) = travel.from.get(Axis::Z).filter(|_| is_plain) else { return };
         let Some(cut) = cx.shared::<Depth>().and_then(|depth| depth.last_cut(z)) else { return };
         if self.told.replace(cx.origin().at) == Some(cx.origin().at) {

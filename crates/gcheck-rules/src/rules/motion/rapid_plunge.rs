@@ -256,7 +256,7 @@ impl PathRule for RapidPlunge {
 impl RapidPlunge {
     /// Where the part begins, in Z: at its zero, or where a step of a shaft lies below the widest one.
     fn surface(&mut self, cx: &PathCx<'_>) -> f64 {
-        let Some(cylinder) = cx.state().wrapped().cylinder() else { return 0.0 };
+        let Some(cylinder) = cx.state().cylinder() else { return 0.0 };
         let radius = cylinder.diameter / 2.0;
         if radius.is_finite() {
             self.widest = self.widest.max(radius);

@@ -4,10 +4,11 @@ use std::collections::BTreeSet;
 use std::f64::consts::FRAC_PI_3;
 
 use gcheck_controls::{Control, CornerRules, Effect};
-use gcheck_engine::{At, Event, Fact, PathMode, Position, Role, Smoothing, TravelKind};
+use gcheck_engine::{At, Event, Fact, PathMode, Position, Role, TravelKind};
 use gcheck_geometry::Mm;
 
 use crate::declare::declare_rule;
+use crate::facts::smoothing::SmoothingTolerance;
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 use crate::{Remembers, remembers};
 
@@ -69,14 +70,12 @@ const NOISE: f64 = 0.1;
 struct ToleranceAboveFeature {
     /// The straight moves before this one, the last one last.
     before: [Option<Way>; 2],
-    /// The tolerance of smoothing, millimetres, and the block that gave it.
-    smoothing: Option<f64>,
-    smoothed: Option<At>,
+    smoothing: SmoothingTolerance,
     /// The blocks that gave the tolerances that were reported; none for that of the control's setting.
     told: BTreeSet<Option<At>>,
 }
 
-remembers!(ToleranceAboveFeature: smoothed, told);
+remembers!(ToleranceAboveFeature: smoothing, told);
 
 /// A tolerance in effect.
 struct Tolerance {
@@ -126,16 +125,7 @@ impl PathRule for ToleranceAboveFeature {
     }
 
     fn changed(&mut self, cx: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
-        match event {
-            // A level alone keeps the tolerance.
-            Event::Smoothing(Smoothing { level: Some(_), tolerance: None }) => {}
-            Event::Smoothing(smoothing) => {
-                self.smoothing = smoothing.tolerance.map(|tolerance| tolerance.0);
-                self.smoothed = Some(cx.origin().at);
-            }
-            Event::End => (self.smoothing, self.smoothed) = (None, None),
-            _ => {}
-        }
+        self.smoothing.changed(cx, event);
     }
 
     fn moved(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
@@ -211,14 +201,9 @@ impl ToleranceAboveFeature {
             let name = format!("`{}`", cx.code_name(Role::PathControl).unwrap_or_default());
             return Some(Tolerance { mm: tolerance.0, set, name, is_blending: true });
         }
-        if let Some(mm) = self.smoothing {
-            let name = cx.name_of_effect(Effect::Smoothing).unwrap_or_default();
-            return Some(Tolerance {
-                mm,
-                set: self.smoothed,
-                name: format!("`{name} E`"),
-                is_blending: false,
-            });
+        if let Some((set, mm)) = self.smoothing.in_effect(cx) {
+            let name = format!("`{} E`", cx.name_of_effect(Effect::Smoothing).unwrap_or_default());
+            return (!mm.is_nan()).then_some(Tolerance { mm, set: Some(set), name, is_blending: false });
         }
         let number = setting(cx.control())?;
         let machine = &cx.environment.machine.engine;

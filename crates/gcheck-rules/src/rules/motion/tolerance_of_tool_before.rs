@@ -1,13 +1,14 @@
 //! A loose tolerance of one tool's work that the next tool cuts with.
 
 use gcheck_controls::Effect;
-use gcheck_engine::{At, Event, Fact, PathMode, Role, Smoothing};
+use gcheck_engine::{At, Event, Fact, PathMode, Role};
 use gcheck_geometry::Mm;
 
 use crate::declare::declare_rule;
 use crate::facts::boundary::{Boundary, boundary, is_before, with_tool_change};
 use crate::facts::cutting::is_cut;
 use crate::facts::edge::cuts_across;
+use crate::facts::smoothing::SmoothingTolerance;
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 use crate::{Remembers, remembers};
 
@@ -84,18 +85,17 @@ const LOOSE: f64 = 0.1;
 struct ToleranceOfToolBefore {
     /// Where the first tool comes.
     first_tool: Option<At>,
-    /// The block that gave the tolerance of smoothing in effect, and its millimetres, while that is loose.
-    smoothing: Option<(At, f64)>,
+    smoothing: SmoothingTolerance,
     /// The block whose tolerance was told.
     told: Option<At>,
 }
 
-remembers!(ToleranceOfToolBefore: first_tool, told);
+remembers!(ToleranceOfToolBefore: first_tool, smoothing, told);
 
 impl ToleranceOfToolBefore {
     /// The loose tolerance in effect: the block that gave it, its millimetres, its code and word.
     fn loose(&self, cx: &PathCx<'_>) -> Option<(At, f64, Effect, char)> {
-        if let Some((set, tolerance)) = self.smoothing {
+        if let Some((set, tolerance)) = self.smoothing.in_effect(cx).filter(|(_, mm)| *mm > LOOSE) {
             return Some((set, tolerance, Effect::Smoothing, 'E'));
         }
         let Some(PathMode::Blending { tolerance, .. }) = cx.state().path_mode(cx.model) else { return None };
@@ -120,15 +120,7 @@ impl PathRule for ToleranceOfToolBefore {
     }
 
     fn changed(&mut self, cx: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
-        let tolerance = match event {
-            Event::End => None,
-            // A level alone keeps the tolerance.
-            Event::Smoothing(Smoothing { level: Some(_), tolerance: None }) => return,
-            Event::Smoothing(smoothing) => smoothing.tolerance,
-            _ => return,
-        };
-        let loose = tolerance.map(|tolerance| tolerance.0).filter(|tolerance| *tolerance > LOOSE);
-        self.smoothing = loose.map(|tolerance| (cx.origin().at, tolerance));
+        self.smoothing.changed(cx, event);
     }
 
     fn cut(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
