@@ -90,7 +90,7 @@ const ENOUGH_LINES: usize = 3;
 /// `extension` is without the dot, in lower case.
 pub fn unsupported_dialect(head: &str, extension: Option<&str>) -> Option<&'static UnsupportedDialect> {
     let head = head.get(..head.floor_char_boundary(HEAD_BYTES)).unwrap_or(head);
-    let lines: Vec<&str> = head.split(['\n', '\r']).map(without_number).collect();
+    let lines = Lines::of(head);
     let words = Words::of(head);
     let is_met = |hint: &&Hint| {
         hint.extension.as_deref().is_some_and(|end| Some(end) == extension) || hint.is_in(&words, &lines)
@@ -103,17 +103,60 @@ pub fn unsupported_dialect(head: &str, extension: Option<&str>) -> Option<&'stat
     enough.max_by_key(|(points, _)| *points).map(|(_, dialect)| dialect)
 }
 
+/// The lines of a head without their numbers, sorted by what hints look for: there are many hints.
+struct Lines<'a> {
+    /// By the first letter, in lower case: letters that are not ASCII, and other characters, are one.
+    by_first: [Vec<&'a str>; 128],
+    moves: Vec<&'a str>,
+    with_placeholders: Vec<&'a str>,
+}
+
+impl<'a> Lines<'a> {
+    fn of(head: &'a str) -> Self {
+        let mut by_first = [const { Vec::new() }; 128];
+        let (mut moves, mut with_placeholders) = (Vec::new(), Vec::new());
+        for line in head.split(['\n', '\r']).map(without_number) {
+            if let Some(lines) = line.chars().next().and_then(|first| by_first.get_mut(place_of(first))) {
+                lines.push(line);
+            }
+            if is_move(line) {
+                moves.push(line);
+            }
+            if line.contains('#') {
+                with_placeholders.push(line);
+            }
+        }
+        Self { by_first, moves, with_placeholders }
+    }
+
+    /// Does a line begin as the pattern says?
+    fn begin(&self, pattern: &str) -> bool {
+        let lines = match pattern.chars().next() {
+            Some(first) if !matches!(first, '#' | '~') => {
+                self.by_first.get(place_of(first)..=place_of(first))
+            }
+            _ => Some(self.by_first.as_slice()),
+        };
+        lines.into_iter().flatten().flatten().any(|line| begins(line, pattern))
+    }
+}
+
+/// Where lines are that begin with this letter.
+fn place_of(first: char) -> usize {
+    usize::try_from(u32::from(first.to_ascii_lowercase())).map_or(0, |code| if code < 128 { code } else { 0 })
+}
+
 impl Hint {
-    fn is_in(&self, words: &Words, lines: &[&str]) -> bool {
-        let by_line = self.line.as_ref().is_some_and(|begin| lines.iter().any(|line| begins(line, begin)));
+    fn is_in(&self, words: &Words, lines: &Lines<'_>) -> bool {
+        let by_line = self.line.as_ref().is_some_and(|begin| lines.begin(begin));
         let by_text = self.text.as_ref().is_some_and(|text| words.have(text));
         let by_word = self.word.is_some_and(|word| {
-            lines.iter().filter(|line| is_move(line) && has_word(line, word)).count() >= ENOUGH_LINES
+            lines.moves.iter().filter(|line| has_word(line, word)).count() >= ENOUGH_LINES
         });
         let by_placeholder = self
             .placeholder
             .as_ref()
-            .is_some_and(|name| lines.iter().any(|line| has_placeholder(line, name)));
+            .is_some_and(|name| lines.with_placeholders.iter().any(|line| has_placeholder(line, name)));
         by_line || by_text || by_word || by_placeholder
     }
 }

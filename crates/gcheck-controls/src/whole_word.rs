@@ -4,30 +4,39 @@
 
 use std::borrow::Cow;
 
-use memchr::memchr_iter;
-
 /// A text in which many words are looked for, in any case.
 #[derive(Debug)]
-pub(crate) struct Words(String);
+pub(crate) struct Words {
+    /// In lower case.
+    text: String,
+    /// By its first byte: where a word may begin.
+    starts: Vec<Vec<u32>>,
+}
 
 impl Words {
     pub(crate) fn of(text: &str) -> Self {
-        Self(text.to_ascii_lowercase())
+        let text = text.to_ascii_lowercase();
+        let mut starts = vec![Vec::new(); 256];
+        let mut is_inside = false;
+        for (at, letter) in text.char_indices() {
+            if !is_inside
+                && let Some(first) = text.as_bytes().get(at)
+                && let Some(starts) = starts.get_mut(usize::from(*first))
+            {
+                starts.push(at as u32);
+            }
+            is_inside = letter.is_alphanumeric();
+        }
+        Self { text, starts }
     }
 
     /// Is the word in the text as a whole? `VF-2` is in `POSTED FOR VF-2`, not in `VF-22`.
     pub(crate) fn have(&self, word: &str) -> bool {
-        let text = &self.0;
         let word = lower(word);
         let Some(first) = word.bytes().next() else { return false };
-        // Words are many and texts are short: a search that is made ready for each word costs more than it saves.
-        memchr_iter(first, text.as_bytes()).any(|at| {
-            if !text.as_bytes().get(at..).is_some_and(|rest| rest.starts_with(word.as_bytes())) {
-                return false;
-            }
-            let before = text.get(..at).and_then(|text| text.chars().next_back());
-            let after = text.get(at + word.len()..).and_then(|text| text.chars().next());
-            !before.is_some_and(char::is_alphanumeric) && !after.is_some_and(char::is_alphanumeric)
+        self.starts.get(usize::from(first)).into_iter().flatten().any(|at| {
+            let rest = self.text.get(*at as usize..).and_then(|rest| rest.strip_prefix(&*word));
+            rest.is_some_and(|rest| !rest.starts_with(char::is_alphanumeric))
         })
     }
 }

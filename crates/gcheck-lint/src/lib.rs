@@ -33,6 +33,7 @@ mod shared_memory;
 mod suppression;
 mod syntax_errors;
 mod text;
+mod text_memo;
 mod uses;
 mod values;
 mod watchers;

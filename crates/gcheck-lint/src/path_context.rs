@@ -20,6 +20,7 @@ use gcheck_program::{BlockFlags, BlockTable, ExprIx, FileIndex, Place, Word};
 use crate::block_context::facts_of;
 use crate::evaluated::{BlockOfValues, Evaluated, with_codes};
 use crate::shared_memory::SharedMemories;
+use crate::text_memo::TextMemo;
 use crate::{Environment, SharedMemory, WordFacts};
 
 /// What a rule of the path tier may ask while a program is executed.
@@ -39,6 +40,7 @@ pub struct PathCx<'a> {
     /// The rule that is being called wants no more calls of this kind.
     pub(crate) had_enough: &'a Cell<bool>,
     pub(crate) shared: &'a SharedMemories,
+    pub(crate) memo: &'a TextMemo,
     /// Evaluated when the first rule asks.
     pub(crate) evaluated: &'a Evaluated,
     /// See [`PathCx::is_called_only`].
@@ -136,6 +138,14 @@ impl<'a> PathCx<'a> {
     /// What rules remember together, of a type that the asking rule [shares](crate::PathRule::shares).
     pub fn shared<T: SharedMemory + 'static>(&self) -> Option<&'a T> {
         self.shared.get()
+    }
+
+    /// What follows from the text of the main file alone for a block and a number, worked out once and then kept.
+    pub fn from_text<T: Clone + 'static>(&self, at: At, number: u32, work_out: impl FnOnce() -> T) -> T {
+        match self.program.file(0) {
+            Some(file) => self.memo.get(&file.loaded, (at, number), work_out),
+            None => work_out(),
+        }
     }
 
     /// What may be the state.

@@ -20,6 +20,7 @@ use crate::containment;
 use crate::evaluated::Evaluated;
 use crate::path_context::ReadBlock;
 use crate::shared_memory::{SharedMemories, SharedMemory};
+use crate::text_memo::TextMemo;
 use crate::{Environment, FinishCx, FollowedCx, PathCx, PathRule, Remembers, Report, RuleEntry, Uses, Watch};
 
 /// A rule that watches.
@@ -49,6 +50,7 @@ pub(crate) struct Watchers<'a, 'c> {
     file_index: &'a FileIndex,
     rules: Vec<Active>,
     shared: SharedMemories,
+    memo: Rc<TextMemo>,
     /// By bit of [`Watch`]: indices of the rules that watch it.
     lists: Lists,
     add: &'c mut dyn FnMut(Option<Severity>, Finding),
@@ -126,6 +128,7 @@ impl<'a, 'c> Watchers<'a, 'c> {
             file_index,
             rules: active,
             shared,
+            memo: Rc::default(),
             lists,
             add,
             made: HashSet::new(),
@@ -231,26 +234,27 @@ impl<'a, 'c> Watchers<'a, 'c> {
     ) {
         let bit = watch.bits().trailing_zeros() as usize;
         let Some(list) = self.lists.get_mut(bit) else { return };
+        let (is_one_way, skips) = (self.scope == Scope::OneWay, self.scope == Scope::Skipping);
+        let (made, again, add) = (&mut self.made, &mut self.again, &mut self.add);
+        let severity = Cell::new(None);
+        let mut once = |finding: Finding| {
+            let key = block_delete::key(&finding);
+            if skips && made.contains(&key) {
+                again.insert(key);
+            } else if made.insert(key) {
+                add(severity.get(), block_delete::name_condition(finding, block, skips));
+            }
+        };
+        let mut report = Report::new(&mut once);
         let mut next = 0;
         while let Some(index) = list.get(next) {
-            let Some(active) = self.rules.get_mut(*index) else { return };
-            if self.scope == Scope::OneWay && !active.rule.counts_on_some_path() {
+            let Some(active) = self.rules.get_mut(*index) else { break };
+            if is_one_way && !active.rule.counts_on_some_path() {
                 next += 1;
                 continue;
             }
-            let skips = self.scope == Scope::Skipping;
-            let (made, again, add, severity) =
-                (&mut self.made, &mut self.again, &mut self.add, active.severity);
-            let mut once = |finding: Finding| {
-                let key = block_delete::key(&finding);
-                if skips && made.contains(&key) {
-                    again.insert(key);
-                } else if made.insert(key) {
-                    add(severity, block_delete::name_condition(finding, block, skips));
-                }
-            };
-            let meta = active.entry.meta;
-            containment::call(meta, || call(&mut *active.rule, &mut Report::new(&mut once)));
+            severity.set(active.severity);
+            containment::call(active.entry.meta, || call(&mut *active.rule, &mut report));
             if had_enough.take() {
                 list.remove(next);
             } else {
@@ -283,6 +287,7 @@ impl<'a, 'c> Watchers<'a, 'c> {
         read: Option<&'x ReadBlock>,
         had_enough: &'x Cell<bool>,
         shared: &'x SharedMemories,
+        memo: &'x TextMemo,
         evaluated: &'x Evaluated,
     ) -> PathCx<'x>
     where
@@ -297,6 +302,7 @@ impl<'a, 'c> Watchers<'a, 'c> {
             read,
             had_enough,
             shared,
+            memo,
             evaluated,
             is_called_only: self.is_called_only,
             letters: self.letters_of(flow),
@@ -306,7 +312,7 @@ impl<'a, 'c> Watchers<'a, 'c> {
     /// Asks something about the block under way before a rule does.
     fn look<T>(&self, flow: &FlowCx<'_>, evaluated: &Evaluated, ask: impl FnOnce(&PathCx<'_>) -> T) -> T {
         let (had_enough, shared) = (Cell::new(false), SharedMemories::default());
-        ask(&self.context(flow, self.current.as_deref(), &had_enough, &shared, evaluated))
+        ask(&self.context(flow, self.current.as_deref(), &had_enough, &shared, &self.memo, evaluated))
     }
 
     /// Reads which codes the computed words of the block under way name: `G#1`.
@@ -344,8 +350,8 @@ impl<'a, 'c> Watchers<'a, 'c> {
         let read = self.current.take();
         // Rules ask the shared memories while they are called.
         let shared = std::mem::take(&mut self.shared);
-        let had_enough = Cell::new(false);
-        let cx = self.context(flow, read.as_deref(), &had_enough, &shared, evaluated);
+        let (had_enough, memo) = (Cell::new(false), Rc::clone(&self.memo));
+        let cx = self.context(flow, read.as_deref(), &had_enough, &shared, &memo, evaluated);
         self.each(watch, flow.origin.flags, &had_enough, |rule, report| call(rule, &cx, report));
         self.current = read;
         self.shared = shared;
@@ -355,9 +361,9 @@ impl<'a, 'c> Watchers<'a, 'c> {
     fn show_move(&mut self, kinds: &[Watch], flow: &FlowCx<'_>, event: &Event) {
         let read = self.current.take();
         let mut shared = std::mem::take(&mut self.shared);
-        let had_enough = Cell::new(false);
+        let (had_enough, memo) = (Cell::new(false), Rc::clone(&self.memo));
         let (none, evaluated) = (SharedMemories::default(), Evaluated::default());
-        let alone = self.context(flow, read.as_deref(), &had_enough, &none, &evaluated);
+        let alone = self.context(flow, read.as_deref(), &had_enough, &none, &memo, &evaluated);
         let cx = PathCx { shared: &shared, ..alone };
         for kind in kinds {
             self.each(*kind, flow.origin.flags, &had_enough, |rule, report| match *kind {
@@ -381,7 +387,7 @@ impl<'a, 'c> Watchers<'a, 'c> {
         let mut shared = std::mem::take(&mut self.shared);
         let (none, had_enough, evaluated) =
             (SharedMemories::default(), Cell::new(false), Evaluated::default());
-        let cx = self.context(flow, self.current.as_deref(), &had_enough, &none, &evaluated);
+        let cx = self.context(flow, self.current.as_deref(), &had_enough, &none, &self.memo, &evaluated);
         for memory in shared.iter_mut() {
             call(memory, &cx);
         }
@@ -477,7 +483,8 @@ impl FlowObserver for Watchers<'_, '_> {
             return;
         }
         if !moves {
-            self.changed = true;
+            // A cut after a dwell is made as the one before it.
+            self.changed |= !matches!(event, Event::Dwell(_));
             self.show(Watch::CHANGES, cx, |rule, cx, report| rule.changed(cx, event, report));
             self.remember(cx, |memory, cx| memory.changed(cx, event));
             return;

@@ -4,7 +4,7 @@
 //! bounded: of a large file only the tables in use are kept, and the others are lowered again when a jump needs them.
 
 use std::borrow::Cow;
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::collections::VecDeque;
 use std::ops::Range;
 use std::rc::Rc;
@@ -33,6 +33,8 @@ pub struct Loaded<'a> {
     tables: RefCell<Tables>,
     /// What was looked at, when somebody asked to be told.
     touched: RefCell<Option<Touched>>,
+    /// How many times it began to be noted.
+    section: Cell<u32>,
 }
 
 #[derive(Debug)]
@@ -134,7 +136,16 @@ impl<'a> Loaded<'a> {
         }
         let graph = Arc::new(builder.finish());
         let (text, tables) = (Text::Whole(text), RefCell::new(tables));
-        Self { text, chunks, flags, region_end, graph, tables, touched: RefCell::default() }
+        Self {
+            text,
+            chunks,
+            flags,
+            region_end,
+            graph,
+            tables,
+            touched: RefCell::default(),
+            section: Cell::default(),
+        }
     }
 
     /// Puts a file together from chunks whose flow graph is known; `flags` says for each of them what any of its blocks
@@ -161,15 +172,22 @@ impl<'a> Loaded<'a> {
             graph,
             tables: RefCell::new(tables),
             touched: RefCell::default(),
+            section: Cell::default(),
         }
     }
 
     /// From now on it is noted which blocks are looked at; gives what was noted so far.
     pub fn note_touched(&self) -> Touched {
+        self.section.set(self.section.get().wrapping_add(1));
         let mut touched = self.touched.replace(Some(Touched::default())).unwrap_or_default();
         touched.chunks.sort_unstable();
         touched.chunks.dedup();
         touched
+    }
+
+    /// Changes when another section begins to be noted: what was read in the one before counts as not yet read.
+    pub fn section(&self) -> u32 {
+        self.section.get()
     }
 
     /// Notes a block as looked at, without reading it.

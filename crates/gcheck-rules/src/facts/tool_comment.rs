@@ -3,6 +3,8 @@
 //! Knows: which comments belong to a tool, and how lists of tools at the head of a program are written. Must not know: any
 //! rule, what kinds of tools there are.
 
+use std::rc::Rc;
+
 use gcheck_engine::{Abstract, At, Domain, Fact};
 use gcheck_geometry::Mm;
 use gcheck_program::BlockFlags;
@@ -14,6 +16,7 @@ use crate::facts::offset_schemes::whole;
 pub(crate) const HEAD: u32 = 100;
 
 /// What comments say of a tool.
+#[derive(Debug)]
 pub(crate) struct ToolComment {
     /// The block of the comment.
     pub(crate) at: At,
@@ -47,23 +50,29 @@ impl ToolComment {
 }
 
 /// What the comment of the tool in the spindle says.
-pub(crate) fn comment_at_work(cx: &PathCx<'_>) -> Option<ToolComment> {
+pub(crate) fn comment_at_work(cx: &PathCx<'_>) -> Option<Rc<ToolComment>> {
     comment_of_tool(cx, cx.definitions().set_by(Fact::Tool)?)
 }
 
 /// What the comment of the tool says that a block put in: the one of its block, one alone in the block before or after, or
 /// the tool's entry in a list at the head of the program.
-pub(crate) fn comment_of_tool(cx: &PathCx<'_>, changed: At) -> Option<ToolComment> {
+pub(crate) fn comment_of_tool(cx: &PathCx<'_>, changed: At) -> Option<Rc<ToolComment>> {
+    let tool = Abstract::known(cx.state().tool()).and_then(whole);
+    cx.from_text(changed, tool.unwrap_or(u32::MAX), || {
+        let (at, text) = beside(cx, changed).or_else(|| listed(cx, tool?))?;
+        let words = text.split(|c: char| !c.is_ascii_alphanumeric()).filter(|word| !word.is_empty());
+        let words = words.map(str::to_ascii_uppercase).collect();
+        Some(Rc::new(ToolComment { at, words, text }))
+    })
+}
+
+/// The comment of a block, or one that is alone in the block before or after it.
+fn beside(cx: &PathCx<'_>, changed: At) -> Option<(At, String)> {
     let is_alone =
         |at: &At| cx.place_of(*at).is_some_and(|place| place.table.words(place.block()).is_empty());
     let before = changed.block.checked_sub(1).map(|block| At { block, ..changed });
-    let beside = [before, Some(changed.next())].into_iter().flatten().filter(is_alone);
-    let mut near = std::iter::once(changed).chain(beside);
-    let near = near.find_map(|at| Some((at, comments_in(cx, at)?)));
-    let (at, text) = near.or_else(|| in_list(cx))?;
-    let words = text.split(|c: char| !c.is_ascii_alphanumeric()).filter(|word| !word.is_empty());
-    let words = words.map(str::to_ascii_uppercase).collect();
-    Some(ToolComment { at, words, text })
+    let near = [before, Some(changed.next())].into_iter().flatten().filter(is_alone);
+    std::iter::once(changed).chain(near).find_map(|at| Some((at, comments_in(cx, at)?)))
 }
 
 /// `10MM`, `10` before `MM`, `.25"`, `1/4` before anything: a number with its unit, or a fraction, which is one of an inch. A whole
@@ -116,11 +125,6 @@ fn only_comments(text: &str) -> String {
         rest = behind;
     }
     comments
-}
-
-/// The entry of the tool in the spindle in a list at the head of the program.
-fn in_list(cx: &PathCx<'_>) -> Option<(At, String)> {
-    listed(cx, Abstract::known(cx.state().tool()).and_then(whole)?)
 }
 
 /// The entry of a tool in a list at the head of the program.

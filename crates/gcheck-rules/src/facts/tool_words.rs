@@ -2,13 +2,15 @@
 //!
 //! Knows: the words that shops use. Must not know: any rule, which comments belong to a tool.
 
+use std::rc::Rc;
+
 use gcheck_engine::Fact;
 
 use crate::PathCx;
 use crate::facts::tool_comment::{ToolComment, comment_of_tool};
 
 /// The comment of the tool that works, if it has one.
-pub(crate) struct ToolWords(Option<ToolComment>);
+pub(crate) struct ToolWords(Option<Rc<ToolComment>>);
 
 impl ToolWords {
     /// Of the tool that works.

@@ -55,7 +55,7 @@ impl TurnedBackwards {
             return None;
         }
         (self.changed, self.tool) = (Some(changed), tool);
-        let comment = comment_of_tool(cx, changed).filter(is_of_kind)?;
+        let comment = comment_of_tool(cx, changed).filter(|comment| is_of_kind(comment))?;
         let started = cx.definitions().set_by(Fact::Spindle);
         let start =
             started.and_then(|at| cx.find_word(at, |word| turns_backwards(cx.model.effect(word.code))));
