@@ -472,6 +472,17 @@ fn is_zero(length: Mm) -> bool {
     length.abs() <= Mm::ZERO
 }
 
+/// The angle in radians of an arc of so many turns about a centre, counter-clockwise positive as `turns` is: one turn is a whole
+/// one at most, and points in one direction are a whole turn apart.
+pub fn sweep_about(centre: (Mm, Mm), from: (Mm, Mm), to: (Mm, Mm), turns: i32) -> f64 {
+    let about = |point: (Mm, Mm)| (point.0 - centre.0, point.1 - centre.1);
+    let direction = if turns < 0 { ArcDirection::Cw } else { ArcDirection::Ccw };
+    sweep_between(about(from), about(to), direction, turns.unsigned_abs(), ONE_DIRECTION)
+}
+
+/// Directions that differ by less are one: radians. Computed ends of a circle differ by more than one rounding.
+const ONE_DIRECTION: f64 = 1e-9;
+
 /// The angle in radians from one direction to another; directions at most `same` apart are a whole turn apart.
 fn sweep_between(from: (Mm, Mm), to: (Mm, Mm), direction: ArcDirection, turns: u32, same: f64) -> f64 {
     let (from, to) = ((from.0.0, from.1.0), (to.0.0, to.1.0));
@@ -524,6 +535,19 @@ mod tests {
 
     fn near(one: [Mm; 3], other: [Mm; 3]) -> bool {
         one.iter().zip(other).all(|(one, other)| one.is_near(other, Mm(1e-6)))
+    }
+
+    #[test]
+    fn ends_on_either_side_of_the_jump_of_the_angle() {
+        let centre = (Mm(20.0), Mm(0.0));
+        for off in [-1e-13, 0.0, 1e-13] {
+            for (turns, angle) in [(-1, -TAU), (1, TAU), (-3, -3.0 * TAU)] {
+                let found = sweep_about(centre, (Mm(-4.0), Mm(off)), (Mm(-4.0), Mm(-off)), turns);
+                assert!((found - angle).abs() < 1e-9, "{off} {turns}: {found}");
+            }
+        }
+        let quarter = sweep_about(centre, (Mm(30.0), Mm(0.0)), (Mm(20.0), Mm(-10.0)), -2);
+        assert!((quarter + 1.25 * TAU).abs() < 1e-12, "{quarter}");
     }
 
     #[test]

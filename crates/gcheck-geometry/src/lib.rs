@@ -18,7 +18,7 @@ pub mod segment;
 pub mod tilted_plane;
 pub mod units;
 
-pub use arc::{Arc, ArcDirection, ArcError, ArcTolerance};
+pub use arc::{Arc, ArcDirection, ArcError, ArcTolerance, sweep_about};
 pub use bounds::{Bounds, MAX_AXES};
 pub use compensation::*;
 pub use frame::Frame;

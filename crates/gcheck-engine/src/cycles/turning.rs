@@ -94,6 +94,9 @@ pub struct Grooving {
     pub relief: Mm,
 }
 
+/// A rest of the depth or the width that is smaller comes from adding the steps up.
+const NEAR: Mm = Mm(1e-6);
+
 /// The strokes of [`Grooving`]: along Z for [`Effect::GrooveFace`], along X for [`Effect::GrooveDiameter`]. Ends where it
 /// began.
 ///
@@ -138,7 +141,7 @@ pub fn grooving(
         let total = (deep1 - deep0).abs();
         let peck = words.peck.unwrap_or(total);
         let mut depth = peck;
-        while depth < total {
+        while depth < total - NEAR {
             let level = deep0 + depth * deeper;
             sink.feed(point(level, side))?;
             sink.rapid(point(level - words.retract.min(depth) * deeper, side))?;
@@ -154,7 +157,10 @@ pub fn grooving(
         if way >= width {
             break;
         }
-        way = (way + step).min(width);
+        way = way + step;
+        if way > width - NEAR {
+            way = width;
+        }
     }
     sink.rapid_if_elsewhere(from)?;
     Ok(sink.at)
@@ -523,6 +529,26 @@ mod tests {
             rapid z-10 x20
         "#]],
         );
+    }
+
+    /// Ten steps of a tenth are one, though their sum is not: no depth and no side is cut twice.
+    #[test]
+    fn steps_that_add_up_are_not_cut_twice() {
+        let words = Grooving {
+            to: (Mm(19.0), Mm(-2.0)),
+            peck: Some(Mm(0.1)),
+            step: Some(Mm(0.1)),
+            retract: Mm(0.0),
+            relief: Mm(0.0),
+        };
+        let mut cuts = Vec::new();
+        let mut keep = |stroke: Stroke| {
+            if let Stroke::Feed(to) = stroke {
+                cuts.push(to);
+            }
+        };
+        grooving(Effect::GrooveDiameter, at(20.0, -1.0), &words, &mut keep).unwrap();
+        assert_eq!(cuts.len(), 11 * 10, "eleven plunges of ten pecks");
     }
 
     #[test]

@@ -7,7 +7,7 @@ use std::rc::Rc;
 use gcheck_controls::{CompensationStyle, Effect, Letter, Semantics};
 use gcheck_geometry::{
     Arc, CompensationConfig, CompensationError, Compensator, Cutter, CutterSide, LineKind, Mm, OffsetCourse,
-    OffsetEvent, OffsetSegment, PathPoint, Plane,
+    OffsetEvent, OffsetSegment, PathPoint, Plane, sweep_about,
 };
 
 use super::arc::axes_of_plane;
@@ -451,7 +451,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let to = match segment.course {
             OffsetCourse::Arc { centre: [first, second], ccw, turns } if compensation.plane == Plane::Xy => {
                 let turns = i32::try_from(turns).unwrap_or(i32::MAX) * if ccw { 1 } else { -1 };
-                let sweep = sweep([first, second], segment, ccw, turns);
+                let sweep = sweep([first, second], segment, turns);
                 state.mapping.turned_along(to, &from, (Mm(first), Mm(second)), sweep)
             }
             _ => state.mapping.turned(to, &from),
@@ -471,7 +471,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                     to,
                     centre: (Mm(first), Mm(second)),
                     turns,
-                    sweep: sweep([first, second], segment, ccw, turns),
+                    sweep: sweep([first, second], segment, turns),
                     expanded: inserted,
                 })
             }
@@ -481,18 +481,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 }
 
 /// Angle of an offset arc in radians, counter-clockwise positive.
-fn sweep([first, second]: [f64; 2], segment: &OffsetSegment, ccw: bool, turns: i32) -> f64 {
-    let angle = |point: PathPoint| (point.second - second).atan2(point.first - first);
-    let mut sweep = angle(segment.end) - angle(segment.start);
-    let turn = std::f64::consts::TAU;
-    if ccw {
-        if sweep <= 1e-12 {
-            sweep += turn;
-        }
-    } else if sweep >= -1e-12 {
-        sweep -= turn;
-    }
-    sweep + turn * f64::from(turns - turns.signum())
+fn sweep([first, second]: [f64; 2], segment: &OffsetSegment, turns: i32) -> f64 {
+    let point = |point: PathPoint| (Mm(point.first), Mm(point.second));
+    sweep_about((Mm(first), Mm(second)), point(segment.start), point(segment.end), turns)
 }
 
 /// The point in the compensation's own coordinates.

@@ -3,7 +3,7 @@
 //! Knows: words that stay from block to block, repeats, incremental levels. Must not know: the strokes of one hole ([`crate::cycles`]).
 
 use gcheck_controls::{CodeIx, DwellWord, Effect, Letter, LetterSet, Need};
-use gcheck_geometry::{Mm, Plane, Seconds};
+use gcheck_geometry::{Mm, Plane, Seconds, sweep_about};
 
 use super::arc::plane_axes;
 use super::{Count, Executor, Step};
@@ -760,15 +760,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let (moved, turns) = self.arc_of_axes(plane, centre, turns, state);
         let [f0, s0, _] = plane.to_local(state.actual().xyz());
         let [f1, s1, _] = plane.to_local(end.xyz());
-        let angle = |f: Mm, s: Mm| (s.0 - moved.1.0).atan2(f.0 - moved.0.0);
-        let mut sweep = angle(f1, s1) - angle(f0, s0);
-        let turn = std::f64::consts::TAU;
-        if turns > 0 && sweep <= 1e-12 {
-            sweep += turn;
-        } else if turns < 0 && sweep >= -1e-12 {
-            sweep -= turn;
-        }
-        sweep += turn * f64::from(turns - turns.signum());
+        let sweep = sweep_about(moved, (f0, s0), (f1, s1), turns);
         let event = ArcMove {
             plane,
             from: *state.actual(),
