@@ -292,10 +292,74 @@ fn an_axis_that_turns_the_shorter_way() {
         "G0 G90 G54 B0. C10.\nB350. C350.\nB0. C180.\nG91 C350.",
         &expect![[r#"
             G0 G90 G54 B0. C10. | B0 C10 | B0 C10
-            B350. C350. | B350 C350 | B350 C350
-            B0. C180. | B0 C180 | B0 C180
-            G91 C350. | B0 C530 | B0 C530"#]],
+            B350. C350. | B350 C-10 | B350 C-10
+            B0. C180. | B0 C-180 | B0 C-180
+            G91 C350. | B0 C170 | B0 C170"#]],
     );
+}
+
+/// Whether a block has a code does not change the way.
+#[test]
+fn the_shorter_way_without_a_code() {
+    check_on(
+        Machine { shorter_way: vec![Axis::C], ..Machine::default() },
+        "haas-mill",
+        "BC",
+        "G0 G90 G54 B0. C350.\nC10.\nB350.\nG0 C350.",
+        &expect![[r#"
+            G0 G90 G54 B0. C350. | B0 C350 | B0 C350
+            C10. | B0 C370 | B0 C370
+            B350. | B350 C370 | B350 C370
+            G0 C350. | B350 C350 | B350 C350"#]],
+    );
+}
+
+/// Of the machine only Z moves; on the part that is turned under the tool the tip moves in Y and Z.
+#[test]
+fn a_return_while_the_tip_stays_on_a_turned_part() {
+    let machine = || rotary(Arrangement::TableTable, [RotaryAxis::A, RotaryAxis::C]);
+    check_on(
+        machine(),
+        "fanuc-mill",
+        "XYZAC",
+        "G0 G90 G54 X0. Y0. A0. C0.\nG43.4 H1 Z50.\nX10. Y5. Z20. A30. C0.\nG53 Z0.\nX10. Y5. Z20.\nG91 G28 Z0.",
+        &expect![[r#"
+            G0 G90 G54 X0. Y0. A0. C0. | X0 Y0 Z? A0 C0 | X-100 Y-50 Z? A0 C0
+            G43.4 H1 Z50. | X0 Y0 Z50 A0 C0 | X-100 Y-50 Z-70 A0 C0
+            X10. Y5. Z20. A30. C0. | X10 Y5 Z20 A30 C0 | X-90 Y-80.6699 Z-106.8782 A30 C0
+            G53 Z0. | X10 Y58.4391 Z112.5593 A30 C0 | X-90 Y-80.6699 Z0 A30 C0
+            X10. Y5. Z20. | X10 Y5 Z20 A30 C0 | X-90 Y-80.6699 Z-106.8782 A30 C0
+            G91 G28 Z0. | X10 Y? Z? A30 C0 | X-90 Y? Z? A30 C0"#]],
+    );
+    check_on(
+        machine(),
+        "haas-mill",
+        "XYZAC",
+        "G0 G90 G54 X0. Y0. A0. C0.\nG43 H1 Z50.\nG254\nX10. Y5. Z20. A30. C0.\nG91 G28 Z0.\nG90 X10. Y5.\nT1 M6",
+        &expect![[r#"
+            G0 G90 G54 X0. Y0. A0. C0. | X0 Y0 Z? A0 C0 | X-100 Y-50 Z? A0 C0
+            G43 H1 Z50. | X0 Y0 Z50 A0 C0 | X-100 Y-50 Z-70 A0 C0
+            G254 | X0 Y0 Z50 A0 C0 | X-100 Y-50 Z-70 A0 C0
+            X10. Y5. Z20. A30. C0. | X10 Y5 Z20 A30 C0 | X-90 Y-70 Z-106.6987 A30 C0
+            G91 G28 Z0. | X10 Y5 Z126.6987 A30 C0 | X-90 Y-70 Z0 A30 C0
+            G90 X10. Y5. | X10 Y5 Z126.6987 A30 C0 | X-90 Y-70 Z0 A30 C0
+            T1 M6 | X10 Y5 Z126.6987 A30 C0 | X-90 Y-70 Z0 A30 C0"#]],
+    );
+}
+
+/// A machine without B: what the control could have more does not turn anything.
+#[test]
+fn axes_that_the_machine_does_not_have_are_not_turned() {
+    let expected = expect![[r#"
+        G0 G90 G54 X0. Y0. Z0. A0. C0. | X0 Y0 Z0 | X-100 Y-50 Z-200
+        G43.4 H1 Z50. | X0 Y0 Z50 | X-100 Y-50 Z-70"#]];
+    let axes = Some(vec![Axis::X, Axis::Y, Axis::Z, Axis::A, Axis::C]);
+    for described in [
+        Machine { axes, ..Machine::default() },
+        rotary(Arrangement::TableTable, [RotaryAxis::A, RotaryAxis::C]),
+    ] {
+        check_on(described, "fanuc-mill", "XYZ", "G0 G90 G54 X0. Y0. Z0. A0. C0.\nG43.4 H1 Z50.", &expected);
+    }
 }
 
 // ---- polar interpolation ----
@@ -358,6 +422,65 @@ fn a_trunnion_turns_a_tilted_plane_up() {
             X5. Y0. Z10. | X5 Y0 Z10 A-90 C0 | X-95 Y0 Z-160 A-90 C0
             G69 | X5 Y50 Z-40 A-90 C0 | X-95 Y0 Z-160 A-90 C0
             G53 Z0. | X5 Y50 Z120 A-90 C0 | X-95 Y0 Z0 A-90 C0"#]],
+    );
+}
+
+/// The axes stand still while another work offset, or a shift, is put under the plane.
+#[test]
+fn offsets_that_change_under_a_tilted_plane() {
+    check_on(
+        rotary(Arrangement::TableTable, [RotaryAxis::A, RotaryAxis::C]),
+        "fanuc-mill",
+        "XYZAC",
+        "G0 G90 G54 X0. Y0. Z0. A0 C0\nG68.2 X0 Y0 Z0 I0. J30. K0.\nG53.1\nX10. Y5. Z20.\nG52 X0. Y0. Z10.\nX10.",
+        &expect![[r#"
+            G0 G90 G54 X0. Y0. Z0. A0 C0 | X0 Y0 Z0 A0 C0 | X-100 Y-50 Z-200 A0 C0
+            G68.2 X0 Y0 Z0 I0. J30. K0. | X0 Y0 Z0 A0 C0 | X-100 Y-50 Z-200 A0 C0
+            G53.1 | X0 Y-25 Z6.6987 A-30 C0 | X-100 Y-50 Z-200 A-30 C0
+            X10. Y5. Z20. | X10 Y5 Z20 A-30 C0 | X-90 Y-20 Z-186.6987 A-30 C0
+            G52 X0. Y0. Z10. | X10 Y0 Z11.3397 A-30 C0 | X-90 Y-20 Z-186.6987 A-30 C0
+            X10. | X10 Y0 Z11.3397 A-30 C0 | X-90 Y-20 Z-186.6987 A-30 C0"#]],
+    );
+}
+
+/// Of the ways the machine can take those within the travels of its axes, whole turns counted; here that is one or none.
+#[test]
+fn ways_to_a_tilted_plane() {
+    let machine = |a: (f64, f64), c: (f64, f64)| Machine {
+        travel: [(Axis::A, a), (Axis::C, c)].into(),
+        ..rotary(Arrangement::TableTable, [RotaryAxis::A, RotaryAxis::C])
+    };
+    let to_x = "G68.2 X0 Y0 Z0 I90. J90. K0.\nG53.1";
+    // The travel of C begins at 0, so that it goes to 270 and not to -90.
+    check_on(
+        machine((-120.0, 30.0), (0.0, 360.0)),
+        "fanuc-mill",
+        "AC",
+        &format!("G0 G90 G54 X0. Y0. Z0. A0. C0.\n{to_x}"),
+        &expect![[r#"
+            G0 G90 G54 X0. Y0. Z0. A0. C0. | A0 C0 | A0 C0
+            G68.2 X0 Y0 Z0 I90. J90. K0. | A0 C0 | A0 C0
+            G53.1 | A-90 C270 | A-90 C270"#]],
+    );
+    check_on(
+        machine((-120.0, 30.0), (0.0, 350.0)),
+        "fanuc-mill",
+        "AC",
+        &format!("G0 G90 G54 X0. Y0. Z0.\n{to_x}"),
+        &expect![[r#"
+            G0 G90 G54 X0. Y0. Z0. | A? C? | A? C?
+            G68.2 X0 Y0 Z0 I90. J90. K0. | A? C? | A? C?
+            G53.1 | A-90 C270 | A-90 C270"#]],
+    );
+    check_on(
+        machine((0.0, 30.0), (0.0, 360.0)),
+        "fanuc-mill",
+        "AC",
+        &format!("G0 G90 G54 X0. Y0. Z0. A0. C0.\n{to_x}"),
+        &expect![[r#"
+            G0 G90 G54 X0. Y0. Z0. A0. C0. | A0 C0 | A0 C0
+            G68.2 X0 Y0 Z0 I90. J90. K0. | A0 C0 | A0 C0
+            G53.1 | A? C? | A? C?"#]],
     );
 }
 

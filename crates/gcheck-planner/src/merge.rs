@@ -38,7 +38,10 @@ impl<T: Copy> Merge<T> {
     pub(crate) fn halves(item: &Move<T>, tolerance: f64) -> Option<[Move<T>; 2]> {
         let arc = item.arc.filter(|arc| item.drive == Drive::Feed && arc.plane() == Plane::Xy)?;
         let bulge = arc.radius().0 * (1.0 - (arc.sweep() / 2.0).cos());
-        if bulge >= tolerance || beyond_xyz(&(item.to - item.from)) {
+        if arc.sweep().abs() > std::f64::consts::PI
+            || bulge >= tolerance
+            || beyond_xyz(&(item.to - item.from))
+        {
             return None;
         }
         let mut middle = item.from;

@@ -170,6 +170,19 @@ fn nearly_straight_moves_become_one() {
     assert!(seconds(&machine, &items(merged, &moves)) < seconds(&machine, &items(within(0.01), &moves)));
 }
 
+/// The chord of an even number of half turns is short, and the way is not.
+#[test]
+fn whole_turns_are_not_straight() {
+    let merged = Meeting::Rounded { tolerance: Some(Mm(0.01)), merge: Mm(0.01) };
+    for turns in 1..=4_u32 {
+        let sweep = std::f64::consts::TAU * f64::from(turns);
+        let item = arc(at(0.0, 0.0, 0.0), (-10.0, 0.0), sweep, 1.0, 10.0);
+        let found = seconds(&machine(rounded(), 1000.0), &items(merged, &[item]));
+        // At 10 mm/s, a turn of 10 mm radius takes as many seconds as its angle.
+        assert!(found >= sweep, "{turns} turns in {found} s");
+    }
+}
+
 #[test]
 fn blocks_that_come_too_fast_are_waited_for() {
     let mut machine = machine(rounded(), 1000.0);

@@ -337,9 +337,24 @@ fn moved<T: Copy>(
         Way::Thread => Drive::Thread(rpm),
         Way::Tap(scale) => Drive::Tap(Rpm(rpm.0 * scale)),
     };
-    if step.swings && [&motion.machine_from, &motion.machine].into_iter().all(is_known) {
+    if let Some(frame) = step.swung
+        && [&motion.machine_from, &motion.machine].into_iter().all(is_known)
+    {
         let [from, to] = [&motion.machine_from, &motion.machine].map(point);
-        return each(Item::Move(Move { drive, from, to, arc: None, asked, tag }));
+        let whole = Move { drive, from, to, arc: None, asked, tag };
+        let Some(arc) = motion.arc.filter(|arc| arc.is_known() && arc.rise().is_known()) else {
+            return each(Item::Move(whole));
+        };
+        // Where the rotary axes turn on the way, the frame of its end is right there alone.
+        let off = (motion.machine_from - motion.from.with_xyz(frame.apply(motion.from.xyz()))).xyz();
+        let place = |point: [Mm; 3], done: f64| {
+            let mut stands = frame.apply(point);
+            for (axis, off) in stands.iter_mut().zip(off) {
+                axis.0 += off.0 * (1.0 - done);
+            }
+            stands
+        };
+        return by_chords(&arc, whole, place, each);
     }
     let upright = tracker.is_upright();
     let turned = |position: &Position| if upright { *position } else { tracker.turned(position) };
@@ -359,13 +374,25 @@ fn moved<T: Copy>(
         return each(Item::Move(Move { arc: Some(arc), ..whole }));
     }
     // An arc in a plane other than the main ones.
+    let place = |point: [Mm; 3], _: f64| turned(&motion.to.with_xyz(point)).xyz();
+    by_chords(&arc, whole, place, each);
+}
+
+/// Straight moves in place of an arc; `place` says where the axes are for a point of it and the share of its way.
+fn by_chords<T: Copy>(
+    arc: &Arc,
+    whole: Move<T>,
+    place: impl Fn([Mm; 3], f64) -> [Mm; 3],
+    each: &mut impl FnMut(Item<T>),
+) {
+    let Move { from, to, asked, .. } = whole;
     #[expect(clippy::cast_sign_loss, reason = "the angle is not negative and the count small")]
     let count = (arc.sweep().abs() / CHORD).ceil().clamp(1.0, 10_000.0) as u32;
     let mut begin = from;
     for (index, end) in (1..=count).zip(arc.chords(count)) {
         let done = f64::from(index) / f64::from(count);
         let mut next = from + (to - from) * done;
-        for (slot, value) in next.iter_mut().zip(turned(&motion.to.with_xyz(end)).xyz()) {
+        for (slot, value) in next.iter_mut().zip(place(end, done)) {
             *slot = value.0;
         }
         each(Item::Move(Move { from: begin, to: next, asked: asked / f64::from(count), ..whole }));

@@ -454,7 +454,7 @@ impl Statistics {
         let Some(first) = sections.next() else {
             let event = Event::End;
             let nowhere = Step {
-                swings: false,
+                swung: None,
                 event: &event,
                 n: None,
                 line: 0,

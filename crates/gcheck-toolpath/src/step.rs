@@ -6,7 +6,7 @@ use gcheck_engine::{
     Axis, CallLine, Concrete, ConcreteValue, Domain as _, Event, FeedMode, Machine, Model, Position, Spindle,
     State, Transform, Truth, Units,
 };
-use gcheck_geometry::Mm;
+use gcheck_geometry::{Frame, Mm};
 
 /// One event with its place and the state in which it happens.
 #[derive(Debug, Clone, Copy)]
@@ -28,8 +28,9 @@ pub struct Step<'a> {
     pub rpm: f64,
     /// Machine coordinates after the event; NaN unknown.
     pub machine: Position,
-    /// The linear axes follow the rotary ones: the machine coordinates of a move lie elsewhere than its points in the part.
-    pub swings: bool,
+    /// Where the linear axes follow the rotary ones: the machine coordinates of points in the part, with the rotary axes where
+    /// the event ends.
+    pub swung: Option<Frame>,
     /// The tool in the spindle; `None` unknown.
     pub tool: Option<u32>,
     /// Where a move would end without compensation for the tool's size and length; NaN unknown.
@@ -77,7 +78,7 @@ impl<'a> Step<'a> {
             feed: number(state.feed()),
             rpm: turns(state),
             machine: stands,
-            swings: machine.kinematics.is_some() && state.follows_rotary(&stands, model),
+            swung: swung(state, model, machine, event, &stands),
             tool: tool(state.tool()),
             aim: aim(state, event),
             h: tool(state.h()),
@@ -125,6 +126,22 @@ fn stands(state: &State<Concrete>, model: &Model<'_>, machine: &Machine, event: 
         Event::Curve(curve) => state.to_machine(&curve.to, model, machine),
         _ => state.machine(model, machine),
     }
+}
+
+fn swung(
+    state: &State<Concrete>,
+    model: &Model<'_>,
+    machine: &Machine,
+    event: &Event,
+    stands: &Position,
+) -> Option<Frame> {
+    let to = match event {
+        Event::Travel(travel) => &travel.to,
+        Event::Arc(arc) => &arc.to,
+        _ => return None,
+    };
+    let swings = machine.kinematics.is_some() && state.follows_rotary(stands, model, machine);
+    swings.then(|| state.linear_axes(to, model, machine)).flatten()
 }
 
 /// Why the axes are elsewhere than the programmed point says.

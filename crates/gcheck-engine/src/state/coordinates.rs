@@ -5,7 +5,7 @@
 
 use gcheck_controls::Effect;
 use gcheck_geometry::{Arrangement, Degrees, Frame, Kinematics, Mm, Plane};
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 
 use super::State;
 use crate::lattice::Perhaps;
@@ -128,7 +128,7 @@ impl<D: Domain> State<D> {
         // Under a tilted plane the tool is where it belongs on the part, as under tool centre point control.
         let tip = is_tilted || self.may_be(Role::Length, Effect::ToolCentrePoint, model);
         let origin = self.may_be(Role::DynamicOffset, Effect::DynamicOffsetOn, model);
-        if !tip && !origin || is_upright(placed, model) {
+        if !tip && !origin || is_upright(placed, model, machine) {
             return Following::Offsets;
         }
         let Some(kinematics) = machine.kinematics else { return Following::Unknown };
@@ -153,13 +153,54 @@ impl<D: Domain> State<D> {
         }
     }
 
-    /// Do modes leave it to the rotary axes where the linear axes are? `machine` tells where the rotary axes stand.
-    pub fn follows_rotary(&self, machine: &Position, model: &Model<'_>) -> bool {
+    /// Do modes leave it to the rotary axes where the linear axes are? `stands` tells where the rotary axes stand.
+    pub fn follows_rotary(&self, stands: &Position, model: &Model<'_>, machine: &Machine) -> bool {
         let may_be = |role: Role, effect: Effect| self.may_be(role, effect, model);
         may_be(Role::TiltedPlane, Effect::TiltedPlaneOn)
             || (may_be(Role::Length, Effect::ToolCentrePoint)
                 || may_be(Role::DynamicOffset, Effect::DynamicOffsetOn))
-                && !is_upright(machine, model)
+                && !is_upright(stands, model, machine)
+    }
+
+    /// X, Y and Z of the machine for those of the program, with the rotary axes where `work` has them; `None` where a part of
+    /// that is not known, or X, Y and Z of the machine do not depend on those of the program alone.
+    pub fn linear_axes(&self, work: &Position, model: &Model<'_>, machine: &Machine) -> Option<Frame> {
+        let at = |xyz: [f64; 3]| {
+            let stands = self.to_machine(&work.with_xyz(xyz.map(Mm)), model, machine).xyz();
+            stands.iter().all(|axis| axis.is_known()).then(|| Vector3::from(stands.map(|axis| axis.0)))
+        };
+        let origin = at([0.0; 3])?;
+        let [x, y, z] = [at([1.0, 0.0, 0.0])?, at([0.0, 1.0, 0.0])?, at([0.0, 0.0, 1.0])?];
+        let linear = Matrix3::from_columns(&[x - origin, y - origin, z - origin]);
+        Some(Frame::from_parts(linear, [Mm(origin.x), Mm(origin.y), Mm(origin.z)]))
+    }
+
+    /// In work coordinates: where the axes are after a block takes those that are `named` to `machine`. The others stay as in
+    /// `from`, known or not, unless coordinates are turned so that one axis of the machine moves several of the program.
+    pub(crate) fn at_machine(
+        &self,
+        machine: &Position,
+        from: &Position,
+        named: impl Fn(Axis) -> bool,
+        model: &Model<'_>,
+        at: &Machine,
+    ) -> Position {
+        let target = self.from_machine(machine, model, at);
+        let follows = self.follows_rotary(machine, model, at)
+            || self.follows_rotary(&self.machine(model, at), model, at);
+        let is_rotated = self.work_offset().rotation != 0.0;
+        let mut to = *from;
+        for axis in Axis::ALL {
+            let moves_along = match axis {
+                Axis::X | Axis::Y => is_rotated || follows,
+                Axis::Z => follows,
+                _ => false,
+            };
+            if named(axis) || moves_along {
+                to.set(axis, target.raw(axis));
+            }
+        }
+        to
     }
 
     /// May a code with the effect be in force? Of programs that are not here we take it that they leave it off.
@@ -180,9 +221,16 @@ impl<D: Domain> State<D> {
     }
 }
 
-/// Are all rotary axes at zero?
-fn is_upright(placed: &Position, model: &Model<'_>) -> bool {
-    model.axes.iter().all(|axis| !axis.is_rotary() || placed.raw(*axis) == 0.0)
+/// Are the rotary axes that the machine has all at zero?
+fn is_upright(placed: &Position, model: &Model<'_>, machine: &Machine) -> bool {
+    const TURNING: [Axis; 3] = [Axis::A, Axis::B, Axis::C];
+    let is_there = |axis: &Axis| match (&machine.axes, &machine.kinematics) {
+        (Some(axes), _) => axes.contains(axis),
+        (None, Some(kinematics)) => kinematics.order.iter().any(|own| TURNING.get(own.index()) == Some(axis)),
+        (None, None) => true,
+    };
+    let turning = model.axes.iter().filter(|axis| axis.is_rotary() && is_there(axis));
+    turning.into_iter().all(|axis| placed.raw(*axis) == 0.0)
 }
 
 /// The way of an origin that the table took along, in X, Y and Z.

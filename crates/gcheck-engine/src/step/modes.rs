@@ -20,6 +20,8 @@ use crate::position::{Axis, Position};
 use crate::state::{Blending, CoolantState, ModalCalls, State, TiltedPlane};
 use crate::value::{Domain, Truth};
 
+const TURNING: [Axis; 3] = [Axis::A, Axis::B, Axis::C];
+
 impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// Carries out one code of the block.
     pub(super) fn code(&mut self, ix: CodeIx, place: &Place, words: &[Word], state: &mut State<D>) -> Step {
@@ -39,7 +41,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let turns_frame = matches!(code.role, Some(Role::Length | Role::DynamicOffset | Role::TiltedPlane));
         let before = turns_frame.then(|| {
             let machine = state.machine(self.model, self.machine);
-            (machine, state.follows_rotary(&machine, self.model))
+            (machine, state.follows_rotary(&machine, self.model, self.machine))
         });
         if let Some(role) = code.role {
             self.guard_frozen(role, ix, state)?;
@@ -50,7 +52,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         }
         self.effect(code.effect, ix, place, words, state)?;
         if let Some((machine, followed)) = before
-            && (followed || state.follows_rotary(&machine, self.model))
+            && (followed || state.follows_rotary(&machine, self.model, self.machine))
         {
             self.reread(&machine, state);
         }
@@ -58,7 +60,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     }
 
     /// The axes stand where they did, and the program's X, Y and Z for that are other ones.
-    fn reread(&self, machine: &Position, state: &mut State<D>) {
+    pub(super) fn reread(&self, machine: &Position, state: &mut State<D>) {
         let read = state.from_machine(machine, self.model, self.machine);
         state.points.actual = state.actual().with_xyz(read.xyz());
         state.points.position = self.programmed_of(state.actual(), state);
@@ -608,29 +610,37 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     /// The rotary axes turn to where the tool is square to the plane in effect; the linear axes stand still.
     fn turn_square(&mut self, ix: CodeIx, state: &mut State<D>) {
-        const TURNING: [Axis; 3] = [Axis::A, Axis::B, Axis::C];
         let mut machine = state.machine(self.model, self.machine);
         let from = machine.abc();
         let ways = self.machine.kinematics.zip(state.upward());
         // `P` chooses between two ways by rules that no page at hand gives.
         let ways = ways.filter(|_| !self.words.has(Letter::of('P')));
         let ways = ways.map_or_else(Vec::new, |(kinematics, upward)| kinematics.square_to(upward, from));
-        let within = |way: &[Degrees; 3]| {
-            TURNING.into_iter().zip(way).all(|(axis, angle)| {
-                self.machine.travel.get(&axis).is_none_or(|(low, high)| (*low..=*high).contains(&angle.0))
-            })
-        };
+        let ways = ways.into_iter().flat_map(|way| self.within_travel(way, from));
         let far = |way: &[Degrees; 3]| {
-            way.iter().zip(from).map(|(to, from)| (to.0 - from.0).abs()).fold(0.0, f64::max)
+            let turns = way.iter().zip(from).map(|(to, from)| (to.0 - from.0).abs());
+            turns.fold(0.0, |far, turn| if turn.is_nan() { far } else { turn.max(far) })
         };
-        let nearest = ways.into_iter().filter(within).min_by(|one, other| far(one).total_cmp(&far(other)));
-        if nearest.is_none() {
+        let mut ways: Vec<(f64, [Degrees; 3])> = ways.map(|way| (far(&way), way)).collect();
+        ways.sort_by(|(one, _), (other, _)| one.total_cmp(other));
+        let nearest = ways.first().map(|(_, way)| *way);
+        // Which of two ways that are as far the control takes is not known, nor which is nearer from an unknown angle.
+        let starts_known = self.machine.kinematics.is_some_and(|kinematics| {
+            kinematics.order.iter().all(|axis| from.get(axis.index()).is_some_and(|from| !from.0.is_nan()))
+        });
+        let is_certain = match ways.as_slice() {
+            [] => false,
+            [_] => true,
+            [(near, _), (next, _), ..] => starts_known && *next > near + 1e-6,
+        };
+        if !is_certain {
             self.assumptions.insert(Assumption::Code(ix));
         }
         for (index, axis) in TURNING.into_iter().enumerate() {
             if self.model.axes.contains(&axis) {
-                let angle = nearest.and_then(|way| way.get(index).copied());
-                machine.set(axis, angle.map_or(f64::NAN, |angle| angle.0));
+                let angle = nearest.and_then(|way| way.get(index).copied()).map(|angle| D::number(angle.0));
+                let angle = angle.map(|angle| if is_certain { angle } else { D::assumed(angle) });
+                machine.set(axis, angle.and_then(|angle| D::known(&angle)).unwrap_or(f64::NAN));
             }
         }
         let to = state.from_machine(&machine, self.model, self.machine);
@@ -640,6 +650,44 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         state.points.actual = to;
         state.points.position = self.programmed_of(&to, state);
         self.emit(state, event);
+    }
+
+    /// The ways to the same angles by whole turns that lie within the travel of the axes. An axis without travel goes the shorter
+    /// way, and may go the other way where it is not known from where it turns.
+    fn within_travel(&self, way: [Degrees; 3], from: [Degrees; 3]) -> Vec<[Degrees; 3]> {
+        let own = self.machine.kinematics.map_or(Vec::new(), |kinematics| kinematics.order.to_vec());
+        let mut ways = vec![way];
+        for axis in own {
+            let index = axis.index();
+            let travel = TURNING.get(index).and_then(|axis| self.machine.travel.get(axis));
+            let is_open = from.get(index).is_none_or(|angle| angle.0.is_nan());
+            let turns: &[f64] = if travel.is_some() {
+                &[0.0, -360.0, 360.0]
+            } else if is_open {
+                &[0.0, 360.0]
+            } else {
+                &[0.0]
+            };
+            let is_within = |angle: f64| travel.is_none_or(|(low, high)| (*low..=*high).contains(&angle));
+            let mut turned = Vec::new();
+            for way in ways {
+                for turn in turns {
+                    let mut other = way;
+                    let Some(angle) = other.get_mut(index) else { continue };
+                    // The tool lies along the axis: it stays where it is, known or not.
+                    if angle.0.is_nan() {
+                        turned.push(other);
+                        break;
+                    }
+                    angle.0 += turn;
+                    if is_within(angle.0) {
+                        turned.push(other);
+                    }
+                }
+            }
+            ways = turned;
+        }
+        ways
     }
 
     /// Work done by the machine that gcheck does not follow: the axes end nobody knows where.

@@ -461,20 +461,15 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             let value = if axis.is_rotary() { value } else { value * unit };
             machine.set(axis, if axis == Axis::X && diameter { value / 2.0 } else { value });
         }
-        let target = state.from_machine(&machine, self.model, self.machine);
         let checked = self.held(if kind == TravelKind::Feed { self.check_feed(state) } else { Ok(()) })?;
-        // Axes that the block does not name stay where they are, known or not; after compensation they go to their place.
-        let mut to = *state.actual();
+        let mut from = *state.actual();
+        // Axes that the block does not name go to their place after compensation.
         if !state.compensation.left.is_no() && self.refuses_incomplete() {
             self.leave_compensation(false, state)?;
-            to = self.axes_of(state.position(), state);
+            from = self.axes_of(state.position(), state);
         }
-        for axis in Axis::ALL {
-            let rotated = matches!(axis, Axis::X | Axis::Y) && state.work_offset().rotation != 0.0;
-            if named.contains(axis.letter()) || rotated {
-                to.set(axis, target.raw(axis));
-            }
-        }
+        let is_named = |axis: Axis| named.contains(axis.letter());
+        let mut to = state.at_machine(&machine, &from, is_named, self.model, self.machine);
         self.moved_off_drawing(named, &mut to, state);
         self.travel_to(kind, &to, &to, false, state);
         state.points.position = self.programmed_of(&to, state);

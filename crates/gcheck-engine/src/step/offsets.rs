@@ -24,6 +24,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     fn reframe(&mut self, state: &mut State<D>, change: impl FnOnce(&mut State<D>)) {
         let before = Placement::of(state);
         let old = *state.actual();
+        let machine = state.machine(self.model, self.machine);
         change(state);
         let after = Placement::of(state);
         if before.same(&after) {
@@ -31,6 +32,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         }
         let here = before.moved(&old, &after);
         state.points.actual = here;
+        if state.follows_rotary(&machine, self.model, self.machine) {
+            self.reread(&machine, state);
+            return;
+        }
         if let Some(cylinder) = state.mapping.wrapped.yes_mut() {
             // The axis that is wrapped stands still as all the others do.
             let linear = cylinder.linear;

@@ -52,7 +52,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if !goes_straight || !feeds {
             return None;
         }
-        let is_there = |axis: &Axis| self.machine.axes.as_ref().is_none_or(|axes| axes.contains(axis));
+        let goes_as_written = |axis: &Axis| {
+            self.machine.axes.as_ref().is_none_or(|axes| axes.contains(axis))
+                && !self.machine.shorter_way.contains(axis)
+        };
         Some(PlainMoves {
             kind,
             unit: state.units(self.model).map(Units::in_mm)?,
@@ -62,7 +65,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 .model
                 .axes
                 .iter()
-                .filter(|axis| is_there(axis))
+                .filter(|axis| goes_as_written(axis))
                 .map(|axis| axis.letter())
                 .collect::<LetterSet>()
                 .without(self.watched_letters()),

@@ -38,11 +38,12 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             state.points.passed.set(*axis, through.raw(*axis));
         }
         // The axes that return are given in machine coordinates; the others stay where they are.
-        let target = state.from_machine(&reference, self.model, self.machine);
-        let mut to = *state.actual();
+        let mut machine = state.machine(self.model, self.machine);
         for axis in &axes {
-            to.set(*axis, target.raw(*axis));
+            machine.set(*axis, reference.raw(*axis));
         }
+        let is_named = |axis| axes.contains(&axis);
+        let mut to = state.at_machine(&machine, state.actual(), is_named, self.model, self.machine);
         let returned: LetterSet = axes.iter().map(|axis| axis.letter()).collect();
         self.moved_off_drawing(returned, &mut to, state);
         let programmed = self.programmed_of(&to, state);

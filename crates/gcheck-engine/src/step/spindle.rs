@@ -244,10 +244,14 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         };
         let mut machine = state.machine(self.model, self.machine);
         machine.set(axis, 0.0);
-        let at = state.from_machine(&machine, self.model, self.machine).raw(axis);
-        state.points.actual.set(axis, at);
-        let programmed = self.programmed_of(state.actual(), state);
-        state.points.position.set(axis, programmed.raw(axis));
+        let from = *state.actual();
+        let to = state.at_machine(&machine, &from, |named| named == axis, self.model, self.machine);
+        state.points.actual = to;
+        let programmed = self.programmed_of(&to, state);
+        let goes = |other: &Axis| *other == axis || to.raw(*other).to_bits() != from.raw(*other).to_bits();
+        for axis in Axis::ALL.into_iter().filter(goes) {
+            state.points.position.set(axis, programmed.raw(axis));
+        }
     }
 
     fn put_tool(&mut self, number: Option<u32>, state: &mut State<D>) {

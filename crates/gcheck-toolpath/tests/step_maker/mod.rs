@@ -147,7 +147,7 @@ impl Run {
     pub(crate) fn each(&self, mut each: impl FnMut(&Step<'_>)) {
         for step in &self.steps {
             each(&Step {
-                swings: false,
+                swung: None,
                 event: &step.event,
                 n: step.n,
                 line: step.line,
