@@ -31,6 +31,8 @@ const STEP: f64 = 6.0;
 const WIDTH: f64 = 6.0;
 /// A bore does not leave less of the part than this: millimetres.
 const THIN: f64 = 3.0;
+/// A facing cut goes past the centre by less: millimetres, of the radius.
+const PAST_CENTRE: f64 = 2.0;
 
 /// What was cut so far, as far as it is known throughout.
 #[derive(Default, Clone, PartialEq)]
@@ -137,10 +139,18 @@ impl SharedMemory for Turned {
         }
     }
 
-    fn changed(&mut self, _: &PathCx<'_>, event: &Event) {
-        if is_other_part(event) {
+    fn changed(&mut self, cx: &PathCx<'_>, event: &Event) {
+        if self.is_other(cx, event) {
             self.forget();
         }
+    }
+}
+
+/// After this, the part is another one, or elsewhere in the chuck; for rules that share [`Turned`].
+pub(crate) fn is_other_part(cx: &PathCx<'_>, event: &Event) -> bool {
+    match cx.shared::<Turned>() {
+        Some(turned) => turned.is_other(cx, event),
+        None => Turned::default().is_other(cx, event),
     }
 }
 
@@ -178,13 +188,26 @@ impl Turned {
         }
     }
 
+    /// After this, is the part another one, or elsewhere in the chuck? Programs name the work offset in effect again for each tool.
+    fn is_other(&self, cx: &PathCx<'_>, event: &Event) -> bool {
+        match event {
+            Event::Chuck(_) | Event::BarFeed(_) | Event::BarPush(_) => true,
+            Event::WorkOffset { number, .. } => {
+                let is_named = cx.has_effect(|effect| matches!(effect, Effect::WorkOffset(_)));
+                let is_same = self.frame.is_some_and(|(own, _)| own == *number);
+                !(is_named && is_same)
+            }
+            _ => false,
+        }
+    }
+
     /// Another part, or the same one elsewhere in the chuck.
     fn forget(&mut self) {
         *self = Self { blind: self.blind, frame: self.frame, ..Self::default() };
     }
 
     fn rapid(&mut self, from: Spot, to: Spot) {
-        self.close(Some(to[0] - from[0]).filter(|_| is_level(from, to)));
+        self.mark(Some(to[0] - from[0]).filter(|_| is_level(from, to)));
         let is_beside = is_level(from, to) && to[1] > -SLACK;
         let is_along = (from[0] - to[0]).abs() < SLACK;
         let approach = if is_beside && !is_along {
@@ -203,12 +226,19 @@ impl Turned {
         }
         // A tool that is fed to its diameter before the face comes there as one that goes there at rapid.
         let is_empty = self.chain.as_ref().is_none_or(|chain| chain.first == self.cuts.len());
-        if is_empty && !is_expanded && is_level(from, to) && to[1] > SLACK {
+        let is_before_face = is_level(from, to) && to[1] > SLACK;
+        // One that is fed up to the face cuts nothing that is left when the part is faced.
+        let is_up_to_face = (from[0] - to[0]).abs() < SLACK && from[1] > SLACK && to[1] > -SLACK;
+        if is_empty && !is_expanded && (is_before_face || is_up_to_face) {
             self.rapid(from, to);
             return;
         }
         let side = self.side_of(cx, [from, to], is_expanded);
         self.cuts.push(Cut { ends: [from, to], bytes: cx.range(), side, tool: self.tool });
+        // Fed out of the part past all that it cut, the tool has cut the outside.
+        if !is_expanded && to[0] > from[0] + SLACK {
+            self.mark(None);
+        }
     }
 
     /// On which side of the part is a cut, before it is made?
@@ -285,8 +315,8 @@ impl Turned {
         }
     }
 
-    /// A rapid move ends a chain of cuts; `out` is its way in X, if it is a move in X alone.
-    fn close(&mut self, out: Option<f64>) {
+    /// The sides of a chain of cuts, by how the tool leaves them; `out` is its way in X, if it leaves in X alone.
+    fn mark(&mut self, out: Option<f64>) {
         let leaves = self.leaves(out);
         let Some(chain) = &self.chain else { return };
         let Some(cuts) = self.cuts.get_mut(chain.first..) else { return };
@@ -415,10 +445,37 @@ impl Turned {
         let [[_, z0], [r1, z1]] = [from, to];
         let face = self.face()?;
         let [radius, level] = [face.ends[0][0].max(face.ends[1][0]), face.ends[0][1]];
-        let is_into = z0 > level - SLACK && z1 < level - UNDER && r1 < radius - UNDER && r1 > -SLACK;
+        // A facing tool may stand past the centre.
+        let is_into = z0 > level - SLACK && z1 < level - UNDER && r1 < radius - UNDER && r1 > -PAST_CENTRE;
         // Other faces open nothing below this one.
         let is_open = self.cuts.iter().any(|cut| !cut.is_face_to_centre() && cut.opens(to));
         (is_into && !is_open && !self.has_hole(z1)).then_some(face)
+    }
+
+    /// The shoulder that a way along Z runs into from the front: outside of what is turned before it, or so near the outside that
+    /// no bore leaves as little.
+    pub(crate) fn shoulder_crossed(&self, from: Spot, to: Spot) -> Option<&Cut> {
+        let [[r0, z0], [r1, z1]] = [from, to];
+        if (r0 - r1).abs() > SLACK
+            || z1 > z0 - UNDER
+            || z1 > -UNDER
+            || self.is_cut_to(to)
+            || self.has_hole(z1)
+        {
+            return None;
+        }
+        let is_beside = |cut: &Cut| {
+            let [front, back] = [cut.ends[0][1].max(cut.ends[1][1]), cut.ends[0][1].min(cut.ends[1][1])];
+            let radius = cut.ends[0][0].max(cut.ends[1][0]);
+            cut.side == Side::Outside && front < z0 + SLACK && back > z1 + UNDER && radius < r1 - SLACK
+        };
+        let from_outside = self.cuts.iter().any(is_beside);
+        self.cuts.iter().rev().find(|cut| {
+            let radius = cut.ends[0][0].max(cut.ends[1][0]);
+            let front = cut.ends[0][1].max(cut.ends[1][1]).min(0.0);
+            let is_wall = radius > r1 + UNDER && (from_outside || radius - r1 < THIN);
+            cut.side == Side::Outside && cut.spans(z1) && z0 > front - SLACK && is_wall
+        })
     }
 
     /// The outside that a slanting way out of the part may meet: axes that leave together need not arrive together.
@@ -508,11 +565,6 @@ pub(crate) fn end(cx: &PathCx<'_>, travel: &Travel) -> Spot {
 /// Does the block go to a place of the machine?
 pub(crate) fn goes_home(cx: &PathCx<'_>) -> bool {
     cx.has_effect(|effect| matches!(effect, Effect::MachineCoordinates | Effect::ReturnReference(_)))
-}
-
-/// After this, the part is another one, or elsewhere in the chuck.
-pub(crate) fn is_other_part(event: &Event) -> bool {
-    matches!(event, Event::Chuck(_) | Event::BarFeed(_) | Event::BarPush(_) | Event::WorkOffset { .. })
 }
 
 /// A move in X alone.

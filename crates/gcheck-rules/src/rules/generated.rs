@@ -428,6 +428,7 @@ pub(crate) mod syntax {
 
 pub(crate) mod tool {
     pub(crate) mod coolant_forgotten;
+    pub(crate) mod lathe_tool_without_offset;
     pub(crate) mod length_cancelled_before_cut;
     pub(crate) mod length_cancelled_before_move;
     pub(crate) mod length_offset_of_another_tool;
@@ -860,6 +861,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &syntax::while_without_do::RULE,
     &syntax::zero_for_letter_o::RULE,
     &tool::coolant_forgotten::RULE,
+    &tool::lathe_tool_without_offset::RULE,
     &tool::length_cancelled_before_cut::RULE,
     &tool::length_cancelled_before_move::RULE,
     &tool::length_offset_of_another_tool::RULE,

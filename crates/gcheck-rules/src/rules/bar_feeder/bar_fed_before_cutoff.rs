@@ -52,6 +52,29 @@ declare_rule! {
     /// G105 I2. J1.375 K0.5
     /// M99
     /// ```
+    /// A bushing is off where the blade comes into its hole.
+    /// ```nc,quiet,haas-lathe
+    /// O1
+    /// G20 G99
+    /// T101
+    /// G97 S800 M3
+    /// G0 X0.94 Z0.1
+    /// G1 Z-0.76 F0.01
+    /// X1.02
+    /// G0 X4. Z4.
+    /// T404
+    /// G0 X0. Z0.2
+    /// G1 Z-0.95 F0.006
+    /// G0 Z4.
+    /// T808
+    /// G0 X1.1 Z-0.875
+    /// G1 X0.45 F0.004
+    /// G0 X4.
+    /// Z4.
+    /// M5
+    /// G105 I2. J1. K0.5
+    /// M99
+    /// ```
     rule "bar-fed-before-cutoff" in "bar_feeder" {
         summary: "bar fed while the turned part is still on it",
         severity: Warning,
@@ -68,6 +91,8 @@ declare_rule! {
 struct BarFedBeforeCutoff {
     /// The deepest cut along the part since it was cut off.
     cut: Option<DeepestCut>,
+    /// How deep the hole along the centre is: work coordinate, millimetres.
+    hole: f64,
 }
 
 remembers!(BarFedBeforeCutoff: cut);
@@ -102,8 +127,10 @@ impl PathRule for BarFedBeforeCutoff {
             return;
         }
         let deepest = self.cut.as_ref().map_or(0.0, |cut| cut.z);
-        if goes_in(travel) && z <= deepest + SLACK {
-            // Nearer to the chuck than all that was turned: a tube is cut off before the centre.
+        if is_at_centre(travel) {
+            self.hole = self.hole.min(z);
+        } else if goes_in(travel) && (z <= deepest + SLACK || z > self.hole && goes_deep(travel)) {
+            // Nearer to the chuck than all that was turned, or deep into a part with a hole: a tube is cut off before the centre.
             self.cut = None;
         } else if z < deepest {
             self.cut = Some(DeepestCut { z, bytes: cx.range() });
@@ -113,8 +140,9 @@ impl PathRule for BarFedBeforeCutoff {
     fn changed(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
         match event {
             // The part may be taken away, or held elsewhere.
-            Event::Chuck(_) | Event::BarLoad | Event::BarUnload(_) => self.cut = None,
+            Event::Chuck(_) | Event::BarLoad | Event::BarUnload(_) => *self = Self::default(),
             Event::BarFeed(_) => {
+                self.hole = 0.0;
                 let Some(cut) = self.cut.take() else { return };
                 if bar_feeder(cx).is_none() || !cx.is_on_every_path() || cx.is_after_unknown_program() {
                     return;
@@ -129,6 +157,16 @@ impl PathRule for BarFedBeforeCutoff {
             _ => {}
         }
     }
+}
+
+/// Does it come nearer to the centre than any groove?
+fn goes_deep(travel: &Travel) -> bool {
+    travel.to.raw(Axis::X) < travel.from.raw(Axis::X) / 2.0
+}
+
+/// Does a drill cut, along the centre?
+fn is_at_centre(travel: &Travel) -> bool {
+    [&travel.from, &travel.to].into_iter().all(|position| position.raw(Axis::X).abs() < SLACK)
 }
 
 /// A straight cut in X alone, toward the centre.

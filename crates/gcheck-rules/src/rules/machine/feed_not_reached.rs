@@ -262,12 +262,17 @@ mod tests {
 
     #[test]
     fn near_the_pole_the_tip_asks_for_more_than_the_table_turns() {
+        let mut world = world_with_a_table();
+        world.machine.engine.axes = Some(vec![Axis::X, Axis::Y, Axis::Z, Axis::B, Axis::C]);
         check_rule_in(
             &RULE,
             "haas-mill",
             "G21 G90 G94\nG234 H1 X0. Y0. Z10. B1. C0.\nG1 X1. B0.05 C0. F1000.\nX1.5 B.02 C45.\nM30\n",
-            &world_with_a_table(),
-            &expect![[""]],
+            &world,
+            &expect![[r#"
+                4 | X1.5 B.02 C45.
+                  | ^^^^^^^^^^^^^^ hint[feed-not-reached] the feed asks C for 90000 deg/min, and C turns 3600 deg/min at most
+            "#]],
         );
     }
 

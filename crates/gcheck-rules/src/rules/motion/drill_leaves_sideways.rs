@@ -93,8 +93,8 @@ impl PathRule for DrillLeavesSideways {
         is_turned(program)
     }
 
-    fn changed(&mut self, _: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
-        if is_other_part(event) {
+    fn changed(&mut self, cx: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
+        if is_other_part(cx, event) {
             self.hole = None;
         }
     }

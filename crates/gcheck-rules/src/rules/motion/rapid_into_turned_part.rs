@@ -137,6 +137,20 @@ impl RapidIntoTurnedPart {
                     .assuming("the part is not hollow there before the program starts")
                     .help("check the sign of Z, or make the move at feed (`G1`)"),
             );
+        } else if let Some(cut) = turned.shoulder_crossed(from, to) {
+            self.told = Some(cx.origin().at);
+            let radius = cut.ends[0][0].max(cut.ends[1][0]);
+            report.add(
+                cx.finding(&META, cx.range(), "rapid move along Z into the part, through a shoulder")
+                    .label(format!(
+                        "at X {} to Z {}, where nothing was cut",
+                        shown(cx, to[0]),
+                        cx.shown(Mm(to[1]))
+                    ))
+                    .also(cut.bytes.clone(), format!("the outside is turned to X {} here", shown(cx, radius)))
+                    .assuming("the part is not hollow there before the program starts")
+                    .help("check X and Z of the move, or make it at feed (`G1`)"),
+            );
         } else if let Some(cut) = turned.outside_beside(from, to) {
             self.told = Some(cx.origin().at);
             let radius = cut.ends[0][0].max(cut.ends[1][0]);
@@ -183,7 +197,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::testing::{Called, World, check_rule, check_rule_in};
+    use crate::testing::{Called, World, check_rule, check_rule_in, findings, only};
 
     fn program(comment: &str, moves: &str) -> String {
         format!("G21 G99 G40\nT0101 {comment}\nG97 S900 M3\n{moves}\nG0 X150. Z100.\nM30\n")
@@ -202,6 +216,40 @@ mod tests {
                   | ^^^ warning[rapid-into-turned-part] rapid move into the part, through a surface that was turned
             "#]],
         );
+    }
+
+    /// A stepped shaft that is turned in one way out; what the second tool does runs into the shoulder.
+    fn shaft(after: &str) -> String {
+        format!(
+            "G20 G18 G99\nT101\nG97 S1000 M3\nG54 G0 X2.1 Z.1\nX1.\nG1 Z-1. F.01\nX1.5\nZ-2.\nX2.1\n{after}G53 G0 X0\nG53 Z0\nM30\n"
+        )
+    }
+
+    #[test]
+    fn shoulders() {
+        // Beside the first step and into the second one; into the face so near the outside that no bore is there.
+        for (after, line) in [
+            ("G0 X3.\nG53 X0\nG53 Z0\nT303\nG97 S800 M3\nG54 G0 X1.2 Z.1\nZ-1.5\nG1 X.9 F.004\n", "Z-1.5"),
+            ("G0 Z.1\nX.8\nZ-.5\n", "Z-.5"),
+            ("G0 X.5 Z-.5\n", "G0 X.5 Z-.5"),
+            ("G0 X1.02 Z-1.5\n", "G0 X1.02 Z-1.5"),
+        ] {
+            for control in ["haas-lathe", "fanuc-lathe"] {
+                let program = shaft(after);
+                let found = findings(&only(&RULE), control, &program, &World::default());
+                let [finding] = found.as_slice() else { panic!("{control} {after}: {found:?}") };
+                let place = finding.range.start as usize..finding.range.end as usize;
+                assert_eq!(program[place].trim_end(), line, "{control} {after}");
+            }
+        }
+        for after in [
+            "G0 X3.\nG53 X0\nG53 Z0\nT303\nG97 S800 M3\nG54 G0 X1.2 Z.1\nZ-.9\nG1 X.9 F.004\n",
+            "G0 Z.1\nX.6\nZ-.5\n",
+            "G0 X3.\nG55 X1.2 Z.1\nZ-1.5\n",
+            "G0 X3. Z.1\nT303 (DRILL)\nG0 X0\nG1 Z-2.5 F.005\nG0 Z.1\nX1.2\nZ-1.5\n",
+        ] {
+            check_rule(&RULE, "haas-lathe", &shaft(after), &expect![[""]]);
+        }
     }
 
     #[test]

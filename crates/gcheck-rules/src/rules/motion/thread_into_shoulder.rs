@@ -161,6 +161,17 @@ mod tests {
         );
     }
 
+    /// In front of the face, where the tool is fed to it, there is no part.
+    #[test]
+    fn the_way_to_the_face_is_not_a_shoulder() {
+        check_rule(
+            &RULE,
+            "fanuc-lathe",
+            "G21 G18 G99\nT0101\nG97 S800 M3\nG0 X45. Z5.\nG1 Z0. F.2\nX-1.6\nG0 Z2.\nX30.\nG1 Z-30. F.2\nX45.\nG0 X100. Z50.\nT0303\nG97 S600 M3\nG0 X34. Z5.\nG76 P010060 Q50 R20\nG76 X27.5 Z-25. P1200 Q300 F2.\nG0 X100. Z50.\nM30\n",
+            &expect![[""]],
+        );
+    }
+
     #[test]
     fn below_the_pass_is_no_crest() {
         let bore = "T0202\nG0 X18. Z2.\nG1 Z-22.\nX17.\nG0 Z50.\n";

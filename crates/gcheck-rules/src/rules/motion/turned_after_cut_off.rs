@@ -9,9 +9,9 @@ use crate::facts::live_tool::builders_since;
 use crate::facts::parting::{Along, Parting};
 use crate::facts::second_spindle::has_second_spindle;
 use crate::facts::tool_words::ToolWords;
-use crate::facts::turned::{Spot, end, is_other_part, spot};
+use crate::facts::turned::{Spot, Turned, end, is_other_part, spot};
 use crate::facts::turning::{is_turned, turns_the_part};
-use crate::{PathCx, PathRule, Remembers, Report, Run, Uses, Watch, remembers};
+use crate::{MakeShared, PathCx, PathRule, Remembers, Report, Run, Uses, Watch, remembers};
 
 declare_rule! {
     /// A tool of a lathe turns a part that the program has turned and then cut off, with nothing between: no bar feed, no stop, no
@@ -89,6 +89,10 @@ impl PathRule for TurnedAfterCutOff {
         Remembers::All(self)
     }
 
+    fn shares(&self) -> Option<MakeShared> {
+        Some(Turned::shared)
+    }
+
     fn concerns(&self, program: &Uses<'_>) -> bool {
         is_turned(program) && !has_second_spindle(program)
     }
@@ -105,7 +109,7 @@ impl PathRule for TurnedAfterCutOff {
         }
     }
 
-    fn changed(&mut self, _: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
+    fn changed(&mut self, cx: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
         let is_between = matches!(
             event,
             Event::Stop(_)
@@ -116,7 +120,7 @@ impl PathRule for TurnedAfterCutOff {
                 | Event::PalletChange
                 | Event::Shift(_)
         );
-        if is_between || is_other_part(event) {
+        if is_between || is_other_part(cx, event) {
             self.forget();
         }
     }
