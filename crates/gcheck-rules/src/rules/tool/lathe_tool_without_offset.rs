@@ -64,6 +64,8 @@ declare_rule! {
 struct LatheToolWithoutOffset {
     /// The call of the tool that was reported.
     told: Option<At>,
+    /// Another tool has cut with an offset. A program without any is reported once.
+    uses_offsets: bool,
 }
 
 remembers!(LatheToolWithoutOffset: told);
@@ -82,8 +84,14 @@ impl PathRule for LatheToolWithoutOffset {
         let Some(tool) = Abstract::known(cx.state().tool()).and_then(whole).filter(|tool| *tool > 0) else {
             return;
         };
-        let called = cx.definitions().set_by(Fact::Tool).filter(|at| at.file == 0 && self.told != Some(*at));
-        let Some(called) = called.filter(|_| Abstract::known(cx.state().h()) == Some(0.0)) else { return };
+        let Some(offset) = Abstract::known(cx.state().h()) else { return };
+        if offset > 0.0 {
+            self.uses_offsets = true;
+            return;
+        }
+        let is_new = |at: &At| at.file == 0 && self.told != Some(*at);
+        let called = cx.definitions().set_by(Fact::Tool).filter(is_new);
+        let Some(called) = called.filter(|_| self.told.is_none() || self.uses_offsets) else { return };
         let Some(call) = cx.find_word(called, |word| word.letter == Letter::of('T')) else { return };
         self.told = Some(called);
         if ToolWords::of(cx).needs_no_spindle() {
@@ -105,16 +113,17 @@ mod tests {
     use crate::testing::check_rule;
 
     #[test]
-    fn each_call_is_told_once() {
+    fn each_call_is_told_once_where_others_have_offsets() {
+        let cut = "G97 S900 M3\nG0 X48. Z2.\nG1 Z-30. F.2\nG1 X50.\nM8\nG1 Z-32.\nG0 X99. Z9.\n";
         check_rule(
             &RULE,
             "fanuc-lathe",
-            "G21 G99\nT0100\nG97 S900 M3\nG0 X48. Z2.\nG1 Z-30. F.2\nG1 X50.\nM8\nG1 Z-32.\nG0 X99. Z9.\nT0300\nG0 X20. Z2.\nG1 Z-3.\nM30\n",
+            &format!("G21 G99\nT0100\n{cut}T0300\n{cut}T0404\n{cut}T0500\n{cut}M30\n"),
             &expect![[r#"
                 5 | G1 Z-30. F.2
                   | ^^^^^^^^^^^^ warning[lathe-tool-without-offset] tool 1 cuts without its offset
-                12 | G1 Z-3.
-                   | ^^^^^^^ warning[lathe-tool-without-offset] tool 3 cuts without its offset
+                29 | G1 Z-30. F.2
+                   | ^^^^^^^^^^^^ warning[lathe-tool-without-offset] tool 5 cuts without its offset
             "#]],
         );
     }
