@@ -5,9 +5,9 @@
 use std::ops::Range;
 
 use gcheck_db::{Cancelled, Snapshot};
-use gcheck_engine::{Axis, Event, Fault, Machine, Model, TravelKind, Units};
+use gcheck_engine::{Axis, Fault, Machine, Model, Units};
 use gcheck_geometry::Bounds;
-use gcheck_toolpath::{Beside, Section, Statistics, Step, Timing, Values, View};
+use gcheck_toolpath::{Section, Statistics, Timing, Values, View};
 
 use crate::caller::Caller;
 use crate::number_text::{clock, coordinate, plain, unit};
@@ -69,14 +69,11 @@ pub fn run_statistics(
     let view = view(snapshot, &model);
     let begin = |machine: &Machine| {
         let timing = Timing::of_machine(&model, machine);
-        (Statistics::new(view, timing, model.work_at_power_on()), Passed::default(), Tips::default())
+        (Statistics::new(view, timing, model.work_at_power_on()), Passed::default())
     };
-    let Pictured { shown: (statistics, passed, tips), ran: Ran { stopped, .. }, .. } =
-        picture(snapshot, caller, fuel, stop, begin, |(statistics, passed, tips), shown| match shown {
-            Shown::Event(seen) => {
-                statistics.add(seen);
-                tips.look(seen, statistics.sections().len());
-            }
+    let Pictured { shown: (statistics, passed), ran: Ran { stopped, .. }, .. } =
+        picture(snapshot, caller, fuel, stop, begin, |(statistics, passed), shown| match shown {
+            Shown::Event(seen) => statistics.add(seen),
             Shown::Alarm { file, line, fault, .. } => passed.alarm(file, *line, fault),
             Shown::Assumed { assumption, .. } => passed.is_less |= assumption.leaves_moves_out(),
         })?;
@@ -84,65 +81,22 @@ pub fn run_statistics(
     let total = statistics.total();
     let unaccounted = total.unaccounted;
     // Sections that began in a called program belong to lines of other files.
-    let all = statistics.sections().iter().enumerate();
-    let own = all.filter(|(_, section)| section.file.is_empty() && section.line > 0);
+    let own = statistics.sections().iter().filter(|section| section.file.is_empty() && section.line > 0);
     Ok(RunStatistics {
         sections: own
-            .map(|(ix, section)| SectionStatistics {
+            .map(|section| SectionStatistics {
                 line: section.line - 1,
                 tool: section.tool,
                 seconds: section.times.total().0,
-                extents: extents(
-                    tips.of.get(ix).filter(|of| !of.is_empty()).unwrap_or(&section.cut),
-                    view,
-                    units,
-                ),
+                extents: extents(&section.tip, view, units),
                 details: details(section, units),
             })
             .collect(),
         seconds: total.times.total().0,
-        extents: extents(tips.all().as_ref().unwrap_or(&total.cut), view, units),
+        extents: extents(&total.tip, view, units),
         is_less: passed.is_less || stopped.is_some() || unaccounted.feeds + unaccounted.speeds > 0,
         remark: passed.first.or(stopped),
     })
-}
-
-/// Where the tip of a tool that tilts went while it cut, by tool section: as far as it is known, else where the program was
-/// posted, as pictures show it.
-#[derive(Debug, Default)]
-struct Tips {
-    of: Vec<Bounds>,
-}
-
-impl Tips {
-    fn look(&mut self, step: &Step<'_>, sections: usize) {
-        let (Some(Beside::AlongTool { tip }), Event::Travel(travel)) = (step.beside, step.event) else {
-            return;
-        };
-        if travel.kind != TravelKind::Feed {
-            return;
-        }
-        self.of.resize(sections.max(self.of.len()), Bounds::EMPTY);
-        if let Some(of) = self.of.last_mut() {
-            for (axis, value) in tip.unwrap_or_else(|| step.aim.xyz()).into_iter().enumerate() {
-                if value.is_known() {
-                    of.include_on(axis, value.0);
-                }
-            }
-        }
-    }
-
-    /// Of all sections; `None` where no tool tilted.
-    fn all(&self) -> Option<Bounds> {
-        let mut all = Bounds::EMPTY;
-        for (of, axis) in self.of.iter().flat_map(|of| (0..3).map(move |axis| (of, axis))) {
-            if let Some((low, high)) = of.range(axis) {
-                all.include_on(axis, low);
-                all.include_on(axis, high);
-            }
-        }
-        (!all.is_empty()).then_some(all)
-    }
 }
 
 /// What a run went past.
@@ -344,6 +298,14 @@ mod tests {
         let snapshot = Fixture::new("haas-mill", text).snapshot();
         let figures = run_statistics(&snapshot, None, 100_000, &|| false).unwrap();
         assert_eq!(figures.sections[0].extents, "X 1.25 to 1.5, Y 0, Z 2 inch");
+    }
+
+    #[test]
+    fn what_a_tool_cuts_before_it_tilts_and_after_is_in_its_extents() {
+        let text = "O1\nG20 G90 G54 T1 M6\nG0 X0. Y0. Z3. A0. B0.\nG1 X-9. Z1. F20.\nG143 H1 X1. Y0. Z3. A-15. B8.\nG1 X1.25 Z2. F20.\nG49\nG0 Z5. A0. B0.\nG1 X5. Z4.5\nM30\n";
+        let snapshot = Fixture::new("haas-mill", text).snapshot();
+        let figures = run_statistics(&snapshot, None, 100_000, &|| false).unwrap();
+        assert_eq!(figures.sections[0].extents, "X -9 to 5, Y 0, Z 1 to 5 inch");
     }
 
     #[test]
