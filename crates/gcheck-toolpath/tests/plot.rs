@@ -104,7 +104,7 @@ fn moves_that_lead_nobody_knows_where_are_counted_and_named() {
     let note = notes.iter().find(|note| note.line.is_some()).unwrap();
     assert!(
         note.words.starts_with(
-            "2 moves are not drawn, since where they lead is not known: Y in "
+            "2 moves are not drawn, since a coordinate of their start or end is not known: Y in "
         ),
         "{note:?}"
     );

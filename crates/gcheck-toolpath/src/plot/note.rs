@@ -121,8 +121,12 @@ impl Missing {
         let (file, line, _) = *self.places.first()?;
         let name = |file: usize| files.get(file).map_or("", String::as_str);
         let mut words = match self.moves {
-            1 => "1 move is not drawn, since where it leads is not known: ".to_owned(),
-            count => format!("{count} moves are not drawn, since where they lead is not known: "),
+            1 => "1 move is not drawn, since a coordinate of its start or end is not known: ".to_owned(),
+            count => {
+                format!(
+                    "{count} moves are not drawn, since a coordinate of their start or end is not known: "
+                )
+            }
         };
         for (ix, (file, line, lacks)) in self.places.iter().take(MOST_PLACES).enumerate() {
             let axes: Vec<&str> = ["X", "Y", "Z"]
