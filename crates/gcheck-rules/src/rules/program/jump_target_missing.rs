@@ -163,19 +163,19 @@ mod tests {
         assert_eq!(titles("O1\nN19\nM30\nO2\nGOTO 20\nN5\nM99\nO3\nN21 M99\n"), ["jump to `N5`"], "below");
     }
 
-    /// What takes a step for each pair of a jump and a label takes minutes.
+    /// What takes a step for each pair of a jump and a label takes a minute.
     #[test]
     fn every_one_of_very_many_jumps_is_offered_its_nearest_label() {
         let mut text = "O1\n".to_owned();
-        for number in 0..8_000 {
-            writeln!(text, "IF [#1 EQ {number}] GOTO {}", number * 8 + 1).unwrap();
-            for label in 2..8 {
-                writeln!(text, "N{}", number * 8 + label).unwrap();
+        for number in 0..9_900 {
+            writeln!(text, "IF [#1 EQ {number}] GOTO {}", number * 10 + 1).unwrap();
+            for label in 2..10 {
+                writeln!(text, "N{}", number * 10 + label).unwrap();
             }
         }
         text.push_str("M30\n");
         let found = findings(&only(&RULE), "fanuc-mill", &text, &World::default());
-        assert_eq!(found.iter().flat_map(|finding| &finding.fixes).count(), 8_000);
+        assert_eq!(found.iter().flat_map(|finding| &finding.fixes).count(), 9_900);
     }
 
     #[test]
