@@ -2,6 +2,8 @@
 //!
 //! Knows: kinds of assumptions, typed. Must not know: their wording, or the keys of a configuration that would settle them.
 
+use std::collections::BTreeSet;
+
 use gcheck_controls::CodeIx;
 
 use crate::model::Role;
@@ -93,5 +95,42 @@ impl Assumption {
     /// Is something that the machine does in no move of the run: passes of a cycle, a program that is not there, a code?
     pub const fn leaves_moves_out(&self) -> bool {
         matches!(self, Self::Passes(_) | Self::MissingProgram(_) | Self::MissingSubroutine(_) | Self::Code(_))
+    }
+}
+
+/// What a run rests on so far, and which of it nobody was told of.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Assumptions {
+    all: BTreeSet<Assumption>,
+    /// Those that came since they were told last, each once, in the order in which they came.
+    untold: Vec<Assumption>,
+}
+
+impl Assumptions {
+    pub(crate) fn insert(&mut self, assumption: Assumption) {
+        if !self.all.contains(&assumption) {
+            self.untold.push(assumption.clone());
+            self.all.insert(assumption);
+        }
+    }
+
+    /// Those that came since the last time, in their own order.
+    pub(crate) fn take_untold(&mut self) -> Vec<Assumption> {
+        // A vector without elements takes no memory: most blocks rest on nothing new.
+        let mut untold = std::mem::take(&mut self.untold);
+        untold.sort_unstable();
+        untold
+    }
+
+    pub(crate) fn into_all(self) -> BTreeSet<Assumption> {
+        self.all
+    }
+}
+
+impl Extend<Assumption> for Assumptions {
+    fn extend<T: IntoIterator<Item = Assumption>>(&mut self, assumptions: T) {
+        for assumption in assumptions {
+            self.insert(assumption);
+        }
     }
 }

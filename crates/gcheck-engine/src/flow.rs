@@ -572,7 +572,7 @@ impl<'a, 'p, 'o, 'd, O: FlowObserver> Flow<'a, 'p, 'o, 'd, O> {
         let mut leg = std::mem::take(&mut self.leg);
         leg.work = self.work - self.leg_began;
         self.leg_began = self.work;
-        leg.assumptions = std::mem::take(&mut self.executor.assumptions);
+        leg.assumptions = std::mem::take(&mut self.executor.assumptions).into_all();
         leg.stopped = self.stopped;
         (leg.asked, leg.set) = definitions.notes();
         leg

@@ -96,14 +96,12 @@ pub fn run<O: Observer<Concrete>>(
     let mut blocks = 0;
     let mut feeds = 0;
     let mut ask_at = ASKED_EVERY;
-    let mut told = executor.assumptions.clone();
+    // What the start rests on belongs to no block.
+    executor.assumptions.take_untold();
     let stopped = loop {
-        if executor.assumptions.len() > told.len() {
+        for assumption in executor.assumptions.take_untold() {
             let origin = executor.origin();
-            for assumption in executor.assumptions.difference(&told) {
-                executor.observer.assumed(origin, assumption);
-            }
-            told.clone_from(&executor.assumptions);
+            executor.observer.assumed(origin, &assumption);
         }
         if blocks >= ask_at {
             if executor.observer.stops() {
@@ -169,7 +167,14 @@ pub fn run<O: Observer<Concrete>>(
     {
         executor.observer.fault(origin, &state, fault);
     }
-    RunResult { stopped, origin, state, blocks, assumptions: executor.assumptions, alarms: alarms.list }
+    RunResult {
+        stopped,
+        origin,
+        state,
+        blocks,
+        assumptions: executor.assumptions.into_all(),
+        alarms: alarms.list,
+    }
 }
 
 /// Alarms that a run went past.

@@ -2,11 +2,9 @@
 //!
 //! Knows: what is told of the machine, what the control's power-on gives, what stays unknown. Must not know: blocks.
 
-use std::collections::BTreeSet;
-
 use gcheck_controls::{CodeIx, Unset};
 
-use crate::assumption::Assumption;
+use crate::assumption::{Assumption, Assumptions};
 use crate::event::Units;
 use crate::lattice::Perhaps;
 use crate::machine::Machine;
@@ -23,7 +21,7 @@ use crate::value::{Domain, Truth};
 pub(crate) fn start_state<D: Domain>(
     model: &Model<'_>,
     machine: &Machine,
-    assumptions: &mut BTreeSet<Assumption>,
+    assumptions: &mut Assumptions,
 ) -> State<D> {
     let in_force = power_on_modes(model, machine, assumptions);
     if machine.start.is_none() {
@@ -60,7 +58,7 @@ pub(crate) fn start_state<D: Domain>(
     state
 }
 
-fn power_on_modes(model: &Model<'_>, machine: &Machine, assumptions: &mut BTreeSet<Assumption>) -> Modes {
+fn power_on_modes(model: &Model<'_>, machine: &Machine, assumptions: &mut Assumptions) -> Modes {
     let mut in_force = Modes::new(&[ModeSet::one(CodeIx::NONE); Role::COUNT]);
     for role in Role::ALL {
         if let Some(code) = model.defaults.get(role.index()) {

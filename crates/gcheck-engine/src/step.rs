@@ -30,7 +30,6 @@ mod system;
 mod tool_shift;
 mod transform;
 
-use std::collections::BTreeSet;
 use std::rc::Rc;
 
 use gcheck_controls::{Access, CodeIx, Effect, Letter, LetterSet, SystemValue, Unpointed, Unset, WordKind};
@@ -40,7 +39,7 @@ use gcheck_program::{
 };
 use rustc_hash::FxHashMap;
 
-use crate::assumption::{Assumption, Unsettled};
+use crate::assumption::{Assumption, Assumptions, Unsettled};
 use crate::cycles::Stroke;
 use crate::event::{Event, Units};
 use crate::fault::{Fault, ValueFault};
@@ -123,7 +122,7 @@ pub(crate) struct Executor<'a, 'p, D: Domain, O: Observer<D>> {
     pub(crate) machine: &'a Machine,
     pub(crate) options: Options,
     pub(crate) observer: O,
-    pub(crate) assumptions: BTreeSet<Assumption>,
+    pub(crate) assumptions: Assumptions,
     /// How a number without decimal point counts: settled once.
     unpointed: Unpointed,
     stack: Vec<D::Value>,
@@ -226,7 +225,7 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
         options: Options,
         observer: O,
     ) -> Self {
-        let mut assumptions = BTreeSet::new();
+        let mut assumptions = Assumptions::default();
         let unpointed = settle_unpointed(model, machine, &mut assumptions);
         Self {
             program,
@@ -1641,11 +1640,7 @@ pub fn owns_axes(effect: Effect) -> bool {
 }
 
 /// How numbers without decimal point count on this machine.
-fn settle_unpointed(
-    model: &Model<'_>,
-    machine: &Machine,
-    assumptions: &mut BTreeSet<Assumption>,
-) -> Unpointed {
+fn settle_unpointed(model: &Model<'_>, machine: &Machine, assumptions: &mut Assumptions) -> Unpointed {
     let numbers = model.control().numbers();
     let Some(setting) = &numbers.unpointed_setting else { return model.unpointed() };
     let number = setting.rsplit(' ').next().unwrap_or_default();

@@ -46,15 +46,19 @@ fn check_on(control: &str, program: &str, expected: &Expect) {
 }
 
 fn check_with(options: Options, control: &str, program: &str, expected: &Expect) {
+    expected.assert_eq(&ran_with(options, control, program, 1_000));
+}
+
+fn ran_with(options: Options, control: &str, program: &str, fuel: u64) -> String {
     let control = gcheck_controls::load(control).unwrap();
     let dialect = Dialect::new(&control);
     let model = Model::new(&control);
     let loaded = Loaded::new(program, &dialect, |_, _, _| {});
     let program = Program::new(loaded, &dialect, &NoLibrary);
     let mut moves = Moves::default();
-    let result = run(&program, &model, &Machine::default(), options, 1_000, &mut moves);
+    let result = run(&program, &model, &Machine::default(), options, fuel, &mut moves);
     writeln!(moves.0, "{:?}, {} alarms", result.stopped, result.alarms.len()).unwrap();
-    expected.assert_eq(&moves.0);
+    moves.0
 }
 
 fn check(program: &str, expected: &Expect) {
@@ -224,4 +228,19 @@ fn for_a_picture_a_probe_touches_at_its_target() {
         Ended(Program), 0 alarms
     "#]],
     );
+}
+
+/// What takes a step for each pair of them takes minutes.
+#[test]
+fn every_one_of_very_many_missing_programs_is_told_once() {
+    const MISSING: usize = 80_000;
+    let mut text = "O1\n".to_owned();
+    for number in 10_000..10_000 + MISSING {
+        writeln!(text, "G65 P{number}\nG65 P{number}").unwrap();
+    }
+    text.push_str("M30\n");
+    let moves = ran_with(Options { past_alarms: true, ..Options::NONE }, "fanuc-mill", &text, u64::MAX);
+    let told: Vec<&str> = moves.lines().filter(|line| line.contains("assumed")).collect();
+    assert_eq!(told.len(), MISSING);
+    assert_eq!(told.last(), Some(&"block 159999: assumed MissingProgram(89999)"));
 }

@@ -5,12 +5,12 @@
 use std::ops::Range;
 
 use gcheck_db::{Cancelled, Snapshot};
-use gcheck_engine::{Axis, Event, Fault, Machine, Model, TravelKind, Units};
+use gcheck_engine::{Axis, Fault, Machine, Model, Units};
 use gcheck_geometry::Bounds;
-use gcheck_toolpath::{Beside, Section, Statistics, Step, Timing, Values, View};
+use gcheck_toolpath::{Statistics, Timing, View};
 
 use crate::caller::Caller;
-use crate::number_text::{clock, coordinate, plain, unit};
+use crate::number_text::{clock, coordinate, unit};
 use crate::running::{LINEAR, Pictured, Ran, Shown, picture, view};
 use crate::sections::{ToolSection, sections};
 
@@ -21,8 +21,6 @@ pub struct RunStatistics {
     pub sections: Vec<SectionStatistics>,
     /// Time of the whole run in seconds, called programs included.
     pub seconds: f64,
-    /// Where cutting moves of the whole run went, as text; empty when nothing was cut.
-    pub extents: String,
     /// The machine does more, in more time: something of the program is not in the figures.
     pub is_less: bool,
     /// Where the control would stop first, which way is not known, or how the run ended, in a few words.
@@ -40,8 +38,6 @@ pub struct SectionStatistics {
     pub seconds: f64,
     /// Where cutting moves went, as text; empty when nothing was cut.
     pub extents: String,
-    /// More for a tooltip, one fact a line: ways, feeds, speeds.
-    pub details: String,
 }
 
 /// A line above a place.
@@ -51,8 +47,6 @@ pub struct CodeLens {
     pub range: Range<u32>,
     /// Its text.
     pub title: String,
-    /// More.
-    pub tooltip: String,
 }
 
 /// Runs the document for its figures, at most so many blocks; a macro with the arguments of a caller.
@@ -69,14 +63,11 @@ pub fn run_statistics(
     let view = view(snapshot, &model);
     let begin = |machine: &Machine| {
         let timing = Timing::of_machine(&model, machine);
-        (Statistics::new(view, timing, model.work_at_power_on()), Passed::default(), Tips::default())
+        (Statistics::new(view, timing, model.work_at_power_on()), Passed::default())
     };
-    let Pictured { shown: (statistics, passed, tips), ran: Ran { stopped, .. }, .. } =
-        picture(snapshot, caller, fuel, stop, begin, |(statistics, passed, tips), shown| match shown {
-            Shown::Event(seen) => {
-                statistics.add(seen);
-                tips.look(seen, statistics.sections().len());
-            }
+    let Pictured { shown: (statistics, passed), ran: Ran { stopped, .. }, .. } =
+        picture(snapshot, caller, fuel, stop, begin, |(statistics, passed), shown| match shown {
+            Shown::Event(seen) => statistics.add(seen),
             Shown::Alarm { file, line, fault, .. } => passed.alarm(file, *line, fault),
             Shown::Assumed { assumption, .. } => passed.is_less |= assumption.leaves_moves_out(),
         })?;
@@ -84,65 +75,20 @@ pub fn run_statistics(
     let total = statistics.total();
     let unaccounted = total.unaccounted;
     // Sections that began in a called program belong to lines of other files.
-    let all = statistics.sections().iter().enumerate();
-    let own = all.filter(|(_, section)| section.file.is_empty() && section.line > 0);
+    let own = statistics.sections().iter().filter(|section| section.file.is_empty() && section.line > 0);
     Ok(RunStatistics {
         sections: own
-            .map(|(ix, section)| SectionStatistics {
+            .map(|section| SectionStatistics {
                 line: section.line - 1,
                 tool: section.tool,
                 seconds: section.times.total().0,
-                extents: extents(
-                    tips.of.get(ix).filter(|of| !of.is_empty()).unwrap_or(&section.cut),
-                    view,
-                    units,
-                ),
-                details: details(section, units),
+                extents: extents(&section.tip, view, units),
             })
             .collect(),
         seconds: total.times.total().0,
-        extents: extents(tips.all().as_ref().unwrap_or(&total.cut), view, units),
         is_less: passed.is_less || stopped.is_some() || unaccounted.feeds + unaccounted.speeds > 0,
         remark: passed.first.or(stopped),
     })
-}
-
-/// Where the tip of a tool that tilts went while it cut, by tool section: as far as it is known, else where the program was
-/// posted, as pictures show it.
-#[derive(Debug, Default)]
-struct Tips {
-    of: Vec<Bounds>,
-}
-
-impl Tips {
-    fn look(&mut self, step: &Step<'_>, sections: usize) {
-        let (Some(Beside::AlongTool { tip }), Event::Travel(travel)) = (step.beside, step.event) else {
-            return;
-        };
-        if travel.kind != TravelKind::Feed {
-            return;
-        }
-        self.of.resize(sections.max(self.of.len()), Bounds::EMPTY);
-        if let Some(of) = self.of.last_mut() {
-            for (axis, value) in tip.unwrap_or_else(|| step.aim.xyz()).into_iter().enumerate() {
-                if value.is_known() {
-                    of.include_on(axis, value.0);
-                }
-            }
-        }
-    }
-
-    /// Of all sections; `None` where no tool tilted.
-    fn all(&self) -> Option<Bounds> {
-        let mut all = Bounds::EMPTY;
-        for (of, axis) in self.of.iter().flat_map(|of| (0..3).map(move |axis| (of, axis))) {
-            if let Some((low, high)) = of.range(axis) {
-                all.include_on(axis, low);
-                all.include_on(axis, high);
-            }
-        }
-        (!all.is_empty()).then_some(all)
-    }
 }
 
 /// What a run went past.
@@ -183,40 +129,6 @@ fn extents(bounds: &Bounds, view: View, units: Units) -> String {
     if texts.is_empty() { String::new() } else { format!("{} {}", texts.join(", "), unit(units)) }
 }
 
-fn details(section: &Section, units: Units) -> String {
-    let length = |mm: f64| format!("{} {}", plain(mm / units.in_mm(), 1), unit(units));
-    let mut lines = vec![
-        format!("cutting {} in {}", length(section.cutting.0), clock(section.times.cutting.0)),
-        format!("rapid {} in {}", length(section.rapid.0), clock(section.times.rapid.0)),
-    ];
-    if section.times.dwell.0 > 0.0 {
-        lines.push(format!("dwell {}", clock(section.times.dwell.0)));
-    }
-    if section.holes > 0 {
-        lines.push(format!("{} holes", section.holes));
-    }
-    let scale = 1.0 / units.in_mm();
-    let feeds = [
-        (&section.feeds.per_minute, scale, format!("{}/min", unit(units))),
-        (&section.feeds.per_revolution, scale, format!("{}/rev", unit(units))),
-        (&section.speeds, 1.0, "rpm".to_owned()),
-    ];
-    for (values, scale, unit) in feeds {
-        lines.extend(range(values, scale).map(|range| format!("{range} {unit}")));
-    }
-    let unaccounted = section.unaccounted;
-    if unaccounted.points + unaccounted.feeds + unaccounted.speeds > 0 {
-        lines.push("some moves are not in the time: their ends, feed or speed are not known".to_owned());
-    }
-    lines.join("\n")
-}
-
-fn range(values: &Values, scale: f64) -> Option<String> {
-    let (low, high) = values.range()?;
-    let (low, high) = (plain(low * scale, 4), plain(high * scale, 4));
-    Some(if low == high { low } else { format!("{low} to {high}") })
-}
-
 /// The lenses of a document whose run gave these figures: one above the first block, one above each tool section. A section
 /// that has moved since the run is found again by its tool.
 pub fn code_lenses(snapshot: &Snapshot, statistics: &RunStatistics) -> Vec<CodeLens> {
@@ -232,7 +144,7 @@ pub fn code_lenses(snapshot: &Snapshot, statistics: &RunStatistics) -> Vec<CodeL
     if let Some(remark) = &statistics.remark {
         title = format!("{title} ({remark})");
     }
-    lenses.push(CodeLens { range: line(first.start), title, tooltip: statistics.extents.clone() });
+    lenses.push(CodeLens { range: line(first.start), title });
     // A section is run again in a loop or by a call: its turns count together.
     let mut left: Vec<&SectionStatistics> = statistics.sections.iter().collect();
     for part in sections(snapshot).tools {
@@ -266,7 +178,7 @@ fn lens(part: &ToolSection, turns: &[&SectionStatistics], range: Range<u32>) -> 
     if turns.len() > 1 {
         title = format!("{title} · {} times", turns.len());
     }
-    Some(CodeLens { range, title, tooltip: first.details.clone() })
+    Some(CodeLens { range, title })
 }
 
 #[cfg(test)]
@@ -280,14 +192,7 @@ mod tests {
         let snapshot = Fixture::new(control, text).snapshot();
         let lenses =
             code_lenses(&snapshot, &run_statistics(&snapshot, None, 100_000, &|| false).unwrap()).into_iter();
-        let lines = lenses.map(|lens| {
-            format!(
-                "{}\n  {}\n  {}\n",
-                shown(&snapshot, &lens.range),
-                lens.title,
-                lens.tooltip.replace('\n', " | ")
-            )
-        });
+        let lines = lenses.map(|lens| format!("{}\n  {}\n", shown(&snapshot, &lens.range), lens.title));
         expected.assert_eq(&lines.collect::<String>());
     }
 
@@ -300,13 +205,10 @@ mod tests {
             &expect![[r#"
             2: O1
               0:42 in all, 2 tool sections
-              X 0 to 50, Y 0, Z -1 to 2 mm
             4: T1 M6 (END MILL)
               T1 · END MILL · 0:37 · X 0 to 50, Y 0, Z -1 to 2 mm
-              cutting 53 mm in 0:32 | rapid 51 mm in 0:00 | 100 mm/min | 1000 rpm | some moves are not in the time: their ends, feed or speed are not known
             11: T2 M6
               T2 · 0:05
-              cutting 0 mm in 0:00 | rapid 40.3 mm in 0:00
         "#]],
         );
     }
@@ -319,10 +221,8 @@ mod tests {
             &expect![[r#"
                 1: O1
                   at least 0:24 in all (the control would stop in line 6)
-                  X 1 to 2, Z -1 to 0.1 inch
                 2: G20 G54 T0101 (ROUGH)
                   T1 · ROUGH · 0:24 · X 1 to 2, Z -1 to 0.1 inch
-                  cutting 1.6 inch in 0:19 | rapid 0 inch in 0:00 | 0.01 inch/rev | 500 rpm | some moves are not in the time: their ends, feed or speed are not known
             "#]],
         );
     }
@@ -344,6 +244,14 @@ mod tests {
         let snapshot = Fixture::new("haas-mill", text).snapshot();
         let figures = run_statistics(&snapshot, None, 100_000, &|| false).unwrap();
         assert_eq!(figures.sections[0].extents, "X 1.25 to 1.5, Y 0, Z 2 inch");
+    }
+
+    #[test]
+    fn what_a_tool_cuts_before_it_tilts_and_after_is_in_its_extents() {
+        let text = "O1\nG20 G90 G54 T1 M6\nG0 X0. Y0. Z3. A0. B0.\nG1 X-9. Z1. F20.\nG143 H1 X1. Y0. Z3. A-15. B8.\nG1 X1.25 Z2. F20.\nG49\nG0 Z5. A0. B0.\nG1 X5. Z4.5\nM30\n";
+        let snapshot = Fixture::new("haas-mill", text).snapshot();
+        let figures = run_statistics(&snapshot, None, 100_000, &|| false).unwrap();
+        assert_eq!(figures.sections[0].extents, "X -9 to 5, Y 0, Z 1 to 5 inch");
     }
 
     #[test]

@@ -363,6 +363,23 @@ mod tests {
     }
 
     #[test]
+    fn a_tip_that_nobody_knows_is_not_told() {
+        let tip = |text: &str| {
+            let mut fixture = Fixture::new("haas-mill", text);
+            let view = state_at(&mut fixture.database, fixture.document, fixture.offset, &|| false);
+            let side = view.unwrap().unwrap().before;
+            (side.work.get(&'Z').copied(), side.programmed.get(&'Z').copied(), side.tip.get(&'Z').copied())
+        };
+        let other = "O1\nG21 G90 G54 G0 X1. Y2.\nT3 M6\nG43 H4 Z5.\n$0G1 Z-1. F100.\nM30\n";
+        assert_eq!(tip(other), (Some(Some(5.0)), Some(Some(5.0)), Some(None)), "the length of another tool");
+        let nobody = "O1\nG21 G90 G54 G0 X1. Y2.\nG43 H4 Z5.\n$0G1 Z-1. F100.\nM30\n";
+        assert_eq!(tip(nobody).2, Some(None), "any tool");
+        let tilted = "O1\nG20 G90 G54 T1 M6\nG0 X1. Y0. Z3. A0. B0.\nG143 H1 X1. Y0. Z3. A-15. B8.\n$0G1 X1.25 Z2. F20.\nM30\n";
+        let (_, programmed, tip) = tip(tilted);
+        assert_eq!((programmed, tip), (Some(Some(3.0)), Some(None)), "a posted length that nobody told");
+    }
+
+    #[test]
     #[expect(clippy::too_many_lines, reason = "a view has many parts")]
     fn modes_places_and_variables() {
         check(

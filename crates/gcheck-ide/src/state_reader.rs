@@ -269,16 +269,15 @@ impl<'a> StateReader<'a> {
             let machine = &self.snapshot.settings().machine.engine;
             #[expect(clippy::cast_sign_loss, reason = "not negative")]
             let tip = h.and_then(|h| gcheck_toolpath::tip_of_posted(machine, h as u32, state.position()));
-            // Where the program was posted is all that is known of the tip then, and what pictures show.
-            return tip.map_or(*state.position(), |tip| state.position().with_xyz(tip));
+            return tip.map_or(Position::UNKNOWN, |tip| state.position().with_xyz(tip));
         }
-        // A tool that tilts, or is shifted along itself, has its tip elsewhere.
-        let tilts = state.tool_shift().along_tool().is_some() || state.tool_shift().along_vectors().is_some();
+        // A tool that is shifted along a vector has its tip elsewhere, and so has one that is tilted.
+        let shifted = state.tool_shift().along_vectors().is_some();
         let turned = self.snapshot.settings().machine.engine.kinematics.is_some()
             && self.axes().iter().any(|axis| axis.is_rotary() && state.actual().raw(*axis) != 0.0);
         #[expect(clippy::cast_sign_loss, reason = "tool numbers are not negative")]
         let tool = Abstract::known(state.tool()).filter(|tool| *tool > 0.0).map(|tool| tool as u32);
-        if tilts || turned {
+        if shifted || turned {
             return Position::UNKNOWN;
         }
         let entry = tool.and_then(|tool| state.tables().tool(tool));
@@ -286,8 +285,9 @@ impl<'a> StateReader<'a> {
         if tip.xyz().iter().all(|value| value.is_known()) {
             return tip;
         }
-        // However long the tool is: with its own length in effect the program says where the tip goes.
-        let is_own = Abstract::known(state.h()).is_some_and(|h| h > 0.0);
+        // However long the tool is: with its own length in effect the program says where the tip goes. Another tool's number is
+        // nearly always another tool's length.
+        let is_own = tool.is_some_and(|tool| Abstract::known(state.h()) == Some(f64::from(tool)));
         let adds = state.effect(Role::Length, self.model).is_some_and(|effect| effect == Effect::LengthPlus);
         if adds && is_own { work } else { tip }
     }

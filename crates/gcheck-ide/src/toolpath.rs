@@ -228,7 +228,7 @@ mod tests {
         let words: Vec<_> = path.notes.iter().map(|note| note.words.as_str()).collect();
         assert!(
             words.contains(
-                &"2 moves are not drawn, since where they lead is not known: X in line 3, X in line 4"
+                &"2 moves are not drawn, since a coordinate of their start or end is not known: X in line 3, X in line 4"
             ),
             "{words:?}"
         );

@@ -86,6 +86,7 @@ struct Basis {
     codes: Vec<CodeNumber>,
     letters: LetterSet,
     has_computed_codes: bool,
+    has_speed_in_cuts: bool,
     block_deletes: u16,
     has_first_block: bool,
     /// Codes that rely on words which no block before them gives, wherever they stand.
@@ -102,6 +103,7 @@ impl Basis {
             codes,
             letters: file_index.letters,
             has_computed_codes: file_index.has_computed_codes,
+            has_speed_in_cuts: file_index.has_speed_in_cuts,
             block_deletes: file_index.block_deletes,
             has_first_block: file_index.first_block.is_some(),
             never_given: file_index

@@ -6,7 +6,7 @@ use std::collections::HashSet;
 use std::ops::Range;
 use std::sync::OnceLock;
 
-use gcheck_controls::{CodeIx, CodeNumber, Ends, Letter, LetterSet, WordKind};
+use gcheck_controls::{CodeIx, CodeNumber, Effect, Ends, Letter, LetterSet, WordKind};
 
 use crate::block::{Block, BlockFlags, BlockIx, BlockTable, Value, Word};
 use crate::lower::Dialect;
@@ -230,6 +230,9 @@ pub struct FileIndex {
     pub has_mistakes: bool,
     /// A block has a code whose number is computed (`G#1`).
     pub has_computed_codes: bool,
+    /// A block that names axes gives a speed above zero (`G1 X10. S500`), and neither moves at rapid nor starts the spindle:
+    /// lasers are switched so.
+    pub has_speed_in_cuts: bool,
     /// Codes that rely on an earlier value which no block before them gives, in text order.
     pub never_given: Vec<NeverGiven>,
     /// Levels of block delete that are used: bit 0 for a plain `/`.
@@ -336,6 +339,7 @@ impl FileIndex {
                 self.add_block(table, ix, block, base, dialect);
             }
             self.letters = self.letters.or(block.letters);
+            self.has_speed_in_cuts = self.has_speed_in_cuts || gives_speed_in_cut(table, block, dialect);
         }
     }
 
@@ -396,6 +400,7 @@ impl FileIndex {
         self.pointed += chunk.pointed;
         self.has_mistakes |= chunk.has_mistakes;
         self.has_computed_codes |= chunk.has_computed_codes;
+        self.has_speed_in_cuts |= chunk.has_speed_in_cuts;
         self.block_deletes |= chunk.block_deletes;
         self.blocks += chunk.blocks;
     }
@@ -406,6 +411,8 @@ impl FileIndex {
         self.blocks += table.len();
         self.pointed += table.blocks.iter().filter(|block| block.letters.intersects(axes)).count();
         self.letters = table.blocks.iter().fold(self.letters, |all, block| all.or(block.letters));
+        self.has_speed_in_cuts = self.has_speed_in_cuts
+            || table.blocks.iter().any(|block| gives_speed_in_cut(table, block, dialect));
         let mut with_words = table.blocks.iter().filter(|block| !block.letters.is_empty());
         if let Some(first) = with_words.next() {
             let last = with_words.next_back().unwrap_or(first);
@@ -589,6 +596,30 @@ impl<'t> References<'t> {
 fn whole(value: f64) -> Option<u32> {
     #[expect(clippy::cast_sign_loss, reason = "the range is checked")]
     ((0.0..=f64::from(u32::MAX)).contains(&value) && value.fract() == 0.0).then_some(value as u32)
+}
+
+/// See [`FileIndex::has_speed_in_cuts`].
+fn gives_speed_in_cut(table: &BlockTable, block: &Block, dialect: &Dialect<'_>) -> bool {
+    let speed = Letter::of('S');
+    if !block.letters.contains(speed) || !block.letters.intersects(dialect.control().axes()) {
+        return false;
+    }
+    let words = table.words(block);
+    let is_elsewhere = |word: &Word| {
+        let effect = dialect.control().code_at(word.code).map(gcheck_controls::Code::effect);
+        matches!(
+            effect,
+            Some(
+                Effect::Rapid
+                    | Effect::SpindleClockwise
+                    | Effect::SpindleCounterClockwise
+                    | Effect::SpindleClockwiseWithCoolant
+                    | Effect::SpindleCounterClockwiseWithCoolant
+            )
+        )
+    };
+    words.iter().any(|word| word.letter == speed && word.number().is_some_and(|number| number > 0.0))
+        && !words.iter().any(is_elsewhere)
 }
 
 fn shift(range: &Range<u32>, base: u32) -> Range<u32> {

@@ -29,7 +29,7 @@ use crate::step::{Beside, Step, View};
 use crate::time::{Clock, Timing};
 use drawing::{Alarm, Kind, Point};
 use drive::{Drive, Drives, four_digits};
-use note::LeftOut;
+use note::{Assumed, LeftOut};
 use surroundings::Surroundings;
 
 /// Points kept of a run for the page, when the caller does not say otherwise. More are thinned.
@@ -86,7 +86,7 @@ pub struct Plot {
     on_contour: u64,
     left_out: LeftOut,
     /// What the run took for granted, and the moves rest on.
-    assumed: Vec<Note>,
+    assumed: Assumed,
     surroundings: Surroundings,
 }
 
@@ -135,7 +135,7 @@ impl Plot {
             posted: 0,
             on_contour: 0,
             left_out: LeftOut::default(),
-            assumed: Vec::new(),
+            assumed: Assumed::default(),
             surroundings: Surroundings::default(),
         }
     }
@@ -157,7 +157,7 @@ impl Plot {
 
     /// From a block on the path rests on something that nobody knows.
     pub fn assumed(&mut self, file: &str, line: u32, words: &str) {
-        self.assumed.push(Note::of_block(file, line, words));
+        self.assumed.add(file, line, words);
     }
 
     /// Drawn as the work of a lathe: ZX, with X up.

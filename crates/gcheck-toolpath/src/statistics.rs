@@ -15,7 +15,7 @@ use crate::estimate::{Estimate, Kind as TimeOf, Tag};
 use crate::motion::{Cover, Motion, Way, cover};
 use crate::plan::Plan;
 use crate::slowest::Place as SlowPlace;
-use crate::step::{Step, View};
+use crate::step::{Beside, Step, View};
 use crate::time::{Clock, Timing, Untimed, length};
 use crate::values::Values;
 
@@ -162,6 +162,9 @@ pub struct Section {
     pub tool_changes: u64,
     /// Where moves at feed went, in work coordinates; probing left out.
     pub cut: Bounds,
+    /// The same, with the place of the tip where a length is added along a tilting tool: as far as it is known, else where the
+    /// program was posted, as pictures show it.
+    pub tip: Bounds,
     /// Where all moves went, in machine coordinates.
     pub machine: Bounds,
     /// Feeds of moves that cut.
@@ -201,6 +204,7 @@ impl Section {
             holes: 0,
             tool_changes: 0,
             cut: Bounds::EMPTY,
+            tip: Bounds::EMPTY,
             machine: Bounds::EMPTY,
             feeds: Feeds::default(),
             speeds: Values::default(),
@@ -226,6 +230,7 @@ impl Section {
         self.holes += other.holes;
         self.tool_changes += other.tool_changes;
         self.cut.include_bounds(&other.cut);
+        self.tip.include_bounds(&other.tip);
         self.machine.include_bounds(&other.machine);
         self.feeds.per_minute.merge(&other.feeds.per_minute);
         self.feeds.per_revolution.merge(&other.feeds.per_revolution);
@@ -620,6 +625,7 @@ impl Statistics {
         }
         section.offset(work).include_bounds(&extents);
         section.cut.include_bounds(&extents);
+        section.tip.include_bounds(&extents);
         let time = self.clock.still(step);
         self.pause(step, TimeOf::Pocket, time);
     }
@@ -703,6 +709,7 @@ impl Statistics {
         section.offset(work).include_bounds(&extents);
         if cuts {
             section.cut.include_bounds(&extents);
+            section.tip.include_bounds(&tilted_tip(step).unwrap_or(extents));
         }
         include(&mut section.machine, &motion.machine_from, false);
         include(&mut section.machine, &motion.machine, true);
@@ -773,6 +780,18 @@ fn include(bounds: &mut Bounds, position: &Position, unknown: bool) {
             bounds.include_on(axis, *value);
         }
     }
+}
+
+/// Where a move leads the tip of a tool that tilts: where nobody knows the tip, the posted point. `None` for any other tool.
+fn tilted_tip(step: &Step<'_>) -> Option<Bounds> {
+    let Some(Beside::AlongTool { tip }) = step.beside else { return None };
+    let mut bounds = Bounds::EMPTY;
+    for (axis, value) in tip.unwrap_or_else(|| step.aim.xyz()).into_iter().enumerate() {
+        if value.is_known() {
+            bounds.include_on(axis, value.0);
+        }
+    }
+    Some(bounds)
 }
 
 fn turns(motion: &Motion) -> bool {

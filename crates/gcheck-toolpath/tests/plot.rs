@@ -103,10 +103,29 @@ fn moves_that_lead_nobody_knows_where_are_counted_and_named() {
     let notes = draw(&run, 1_000).notes();
     let note = notes.iter().find(|note| note.line.is_some()).unwrap();
     assert!(
-        note.words.starts_with("2 moves are not drawn, since where they lead is not known: Y in "),
+        note.words.starts_with(
+            "2 moves are not drawn, since a coordinate of their start or end is not known: Y in "
+        ),
         "{note:?}"
     );
     assert_eq!(note.line, Some(2));
+}
+
+#[test]
+fn no_more_is_said_of_what_a_run_takes_for_granted_than_people_read() {
+    let words = |count: u32| {
+        let mut plot = Plot::new(xyz(), timing(), WorkCoordinates::UNKNOWN, 1_000);
+        for line in 1..=count {
+            plot.assumed("", line, "program 9000 was not found");
+        }
+        words(&plot.finish()).lines().map(str::to_owned).collect::<Vec<_>>()
+    };
+    let few = words(20);
+    assert!(few.iter().any(|line| line == "line 20: program 9000 was not found"), "{few:?}");
+    assert!(!few.iter().any(|line| line.contains("more note")), "{few:?}");
+    let many = words(4_000);
+    assert_eq!(many.len(), few.len() + 1, "{many:?}");
+    assert!(many.iter().any(|line| line == "and 3980 more notes of this kind"), "{many:?}");
 }
 
 #[test]

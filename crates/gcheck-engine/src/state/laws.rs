@@ -5,7 +5,6 @@
 mod alterations;
 mod choices;
 
-use std::collections::BTreeSet;
 use std::fmt::Debug;
 
 use gcheck_controls::LetterSet;
@@ -15,6 +14,7 @@ use proptest::test_runner::{Config, TestCaseError, TestRng, TestRunner};
 use self::alterations::alterations;
 use self::choices::{Choices, Made};
 use super::*;
+use crate::assumption::Assumptions;
 use crate::lattice::{Flat, May};
 use crate::machine::{BarFeeder, Machine};
 use crate::position::Axis;
@@ -177,7 +177,7 @@ fn known_state() -> State<Abstract> {
         bar: BarFeeder { new_bar: Some(Mm(1000.0)), bars: Some(3), starts_new: true },
         ..Machine::default()
     };
-    let mut state = start_state(&model, &machine, &mut BTreeSet::new());
+    let mut state = start_state(&model, &machine, &mut Assumptions::default());
     state.points.passed = Position::ZERO;
     state.bar.clamped = Truth::True;
     state
@@ -211,7 +211,7 @@ fn the_state_of_a_run_is_one_of_the_analysis() {
     let control = gcheck_controls::load("linuxcnc").unwrap();
     let model = Model::new(&control);
     let machine = Machine { fresh: true, ..Machine::default() };
-    let run = start_state::<Concrete>(&model, &machine, &mut BTreeSet::new());
-    let all = start_state::<Abstract>(&model, &machine, &mut BTreeSet::new());
+    let run = start_state::<Concrete>(&model, &machine, &mut Assumptions::default());
+    let all = start_state::<Abstract>(&model, &machine, &mut Assumptions::default());
     assert!(all.same(&run.as_abstract()));
 }

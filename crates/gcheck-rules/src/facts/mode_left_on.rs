@@ -9,6 +9,7 @@ use crate::{Finding, RuleMeta};
 use crate::{PathCx, PathRule, Remembers, Report, Uses, remembers};
 use gcheck_controls::Effect;
 use gcheck_engine::{At, Ending, Event, Fact, Role};
+use gcheck_program::Word;
 
 use crate::facts::boundary::{Boundary, boundary, ends_at_tape_mark, is_before, with_tool_change};
 use crate::facts::modes::left_at_end;
@@ -52,11 +53,13 @@ struct Carried {
     first_cut: Option<At>,
     /// The block that switched on the mode with which something was cut last.
     cut_with: Option<At>,
+    /// The last block that switched the mode off.
+    switched_off: Option<At>,
     /// A cut was reported: later cuts and the end of the program are not.
     is_reported: bool,
 }
 
-remembers!(Carried: first_tool, over, own, after_call, first_cut, cut_with);
+remembers!(Carried: first_tool, over, own, after_call, first_cut, cut_with, switched_off);
 
 impl ModeLeftOn {
     pub(crate) fn new(mode: &'static Mode) -> Self {
@@ -97,6 +100,28 @@ impl ModeLeftOn {
         }
     }
 
+    /// What switches the mode off, with the words with which the program did so before: `G64 P0.05`, and not the `G64` of a
+    /// path that nobody bounds.
+    fn as_before(&self, cx: &PathCx<'_>, name: String) -> String {
+        let words = || {
+            let at = self.carried.switched_off?;
+            let (file, place) = (cx.program.file(at.file)?, cx.place_of(at)?);
+            let words = place.table.words(place.block());
+            let is_off = |word: &&Word| word.code.is_some() && cx.model.effect(word.code) == self.mode.off;
+            let code = words.iter().find(is_off)?.code;
+            let reads = cx.code_of(code)?.reads();
+            let mut text = cx.name_of(code);
+            for word in words.iter().filter(|word| reads.contains(word.letter)) {
+                let range =
+                    (place.base + word.range().start) as usize..(place.base + word.range().end) as usize;
+                text.push(' ');
+                text.push_str(file.loaded.text().get(range)?);
+            }
+            Some(text)
+        };
+        words().unwrap_or(name)
+    }
+
     fn check_end(&self, cx: &PathCx<'_>, report: &mut Report<'_>) {
         let Mode { rule, role, on, off, at_end, switched, .. } = *self.mode;
         if self.carried.is_reported {
@@ -105,7 +130,7 @@ impl ModeLeftOn {
         if self.mode.is_usual_from_head && self.is_usual(cx) {
             return;
         }
-        let Some(cancel) = cx.name_of_effect(off) else { return };
+        let Some(cancel) = cx.name_of_effect(off).map(|name| self.as_before(cx, name)) else { return };
         let Some(finding) = left_at_end(cx, rule, role, |effect| effect == on, at_end) else { return };
         let set = cx.definitions().set_by(Fact::Mode(role));
         let after_call = self.carried.after_call.clone().filter(|(at, _)| Some(*at) == set);
@@ -133,8 +158,13 @@ impl PathRule for ModeLeftOn {
 
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
         let role = self.mode.role;
-        if cx.depth() == 1 && cx.code_of_role(role).is_some() {
-            self.carried.own = Some(cx.origin().at);
+        if let Some(code) = cx.code_of_role(role) {
+            if cx.depth() == 1 {
+                self.carried.own = Some(cx.origin().at);
+            }
+            if cx.model.effect(code) == self.mode.off {
+                self.carried.switched_off = Some(cx.origin().at);
+            }
         }
         if boundary(cx) == Some(Boundary::ToolChange) {
             if self.carried.first_tool.is_none() {

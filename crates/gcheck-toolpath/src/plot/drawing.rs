@@ -8,7 +8,7 @@ use gcheck_engine::Units;
 use gcheck_geometry::Mm;
 
 use super::drive::Drive;
-use super::note::{Missing, Note};
+use super::note::{Assumed, Missing, Note};
 use super::palette;
 use crate::step::View;
 
@@ -132,7 +132,7 @@ pub struct Drawing {
     /// Moves that are not drawn.
     pub(super) left_out: Missing,
     /// What the run took for granted, and the moves rest on.
-    pub(super) assumed: Vec<Note>,
+    pub(super) assumed: Assumed,
     /// The work coordinate systems in which something moved, with the places of their zeros that are known, millimetres.
     pub(super) zeros: Vec<(u16, [f64; 3])>,
     /// How far the machine goes in X and Y, millimetres, where that is known.
@@ -177,7 +177,7 @@ impl Drawing {
 
     /// What a reader of the picture has to know.
     pub fn notes(&self) -> Vec<Note> {
-        let mut notes = self.assumed.clone();
+        let mut notes = self.assumed.notes();
         if self.points.is_empty() {
             notes.push(if self.moves == 0 {
                 "the program moves nothing".into()

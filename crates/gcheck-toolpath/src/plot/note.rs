@@ -36,6 +36,38 @@ pub(super) fn place_words(file: &str, line: u32) -> String {
     if file.is_empty() { format!("line {line}") } else { format!("{file}, line {line}") }
 }
 
+/// Notes of what a run takes for granted, as many as people read.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Assumed {
+    first: Vec<Note>,
+    /// Those beyond the first.
+    further: u64,
+}
+
+/// Notes of what a run takes for granted that are shown; the others are counted.
+const MOST_ASSUMED: usize = 20;
+
+impl Assumed {
+    /// From a block on the path rests on something that nobody knows.
+    pub(super) fn add(&mut self, file: &str, line: u32, words: &str) {
+        if self.first.len() < MOST_ASSUMED {
+            self.first.push(Note::of_block(file, line, words));
+        } else {
+            self.further += 1;
+        }
+    }
+
+    pub(super) fn notes(&self) -> Vec<Note> {
+        let mut notes = self.first.clone();
+        match self.further {
+            0 => {}
+            1 => notes.push("and 1 more note of this kind".into()),
+            further => notes.push(format!("and {further} more notes of this kind").into()),
+        }
+        notes
+    }
+}
+
 /// Sets of the axes X, Y and Z, as bits.
 const SETS: usize = 8;
 /// Places of moves that are named.
@@ -89,8 +121,12 @@ impl Missing {
         let (file, line, _) = *self.places.first()?;
         let name = |file: usize| files.get(file).map_or("", String::as_str);
         let mut words = match self.moves {
-            1 => "1 move is not drawn, since where it leads is not known: ".to_owned(),
-            count => format!("{count} moves are not drawn, since where they lead is not known: "),
+            1 => "1 move is not drawn, since a coordinate of its start or end is not known: ".to_owned(),
+            count => {
+                format!(
+                    "{count} moves are not drawn, since a coordinate of their start or end is not known: "
+                )
+            }
         };
         for (ix, (file, line, lacks)) in self.places.iter().take(MOST_PLACES).enumerate() {
             let axes: Vec<&str> = ["X", "Y", "Z"]

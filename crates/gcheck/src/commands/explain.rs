@@ -46,8 +46,8 @@ fn without_letter(subject: &str) -> Problem {
     let is_known = |name: &String| {
         CodeNumber::parse(name).is_some_and(|number| all_controls().any(|c| c.code(number).is_some()))
     };
-    let codes: Vec<String> = ["G", "M"].map(|letter| format!("{letter}{subject}")).into_iter().collect();
-    let codes: Vec<String> = codes.into_iter().filter(is_known).map(|name| format!("`{name}`")).collect();
+    let names = ["G", "M"].into_iter().map(|letter| format!("{letter}{subject}"));
+    let codes: Vec<String> = names.filter(is_known).map(|name| format!("`{name}`")).collect();
     let near =
         if codes.is_empty() { String::new() } else { format!("; did you mean {}?", codes.join(" or ")) };
     Problem::new(format!("`{subject}` is neither a rule nor a code{near}"))

@@ -94,35 +94,8 @@ impl<'t> Checked<'t> {
         }
     }
 
-    /// `is_whole`: nothing beside the table says anything about these machines.
-    pub(super) fn machine(&self, table: &MachineTable, is_whole: bool) -> Result<MachineTable, Problem> {
-        let lists = [&table.axes, &table.rotary_order].into_iter().flatten().flatten();
-        for axis in lists.chain(table.travel.keys()).chain(table.rotary_sign.keys()) {
-            self.axis(axis)?;
-        }
-        let axes = table.axes.iter().flatten();
-        for (ix, axis) in axes.clone().enumerate() {
-            if axes.clone().take(ix).any(|other| other.value.eq_ignore_ascii_case(&axis.value)) {
-                return Err(self.text.problem(axis, format!("`{}` is listed twice", axis.value)));
-            }
-        }
-        self.each_axis_once(table.travel.keys())?;
-        self.each_axis_once(table.rotary_sign.keys())?;
-        self.listed_axes(table)?;
-        if let Some(bars) = table.bars.as_ref().filter(|bars| bars.value == 0) {
-            return Err(self.text.problem(bars, "at least one bar is in the chuck: write 1 or more"));
-        }
-        for (axis, travel) in &table.travel {
-            let [low, high] = travel.value;
-            if !(low.is_finite() && high.is_finite()) {
-                let message = format!("travel of {} must have two finite ends", axis.value);
-                return Err(self.text.problem(travel, message).help("leave out an axis without an end"));
-            }
-            if low >= high {
-                let message = format!("travel of {} must go from the lower end to the upper", axis.value);
-                return Err(self.text.problem(travel, message));
-            }
-        }
+    /// How the rotary axes are built.
+    fn rotary(&self, table: &MachineTable) -> Result<(), Problem> {
         if let Some(order) = &table.rotary_order {
             let axes: Vec<Option<RotaryAxis>> = order.iter().map(|name| rotary_axis(&name.value)).collect();
             if let Some((name, _)) = order.iter().zip(&axes).find(|(_, axis)| axis.is_none()) {
@@ -142,12 +115,42 @@ impl<'t> Checked<'t> {
                 return Err(self.text.problem(sign, "a sense of rotation is 1 or -1"));
             }
         }
-        self.rotary_centre(table)?;
         for name in table.rotary_shorter_way.iter().flatten() {
             if rotary_axis(&name.value).is_none() {
                 return Err(self.text.problem(name, format!("`{}` is not a rotary axis", name.value)));
             }
         }
+        Ok(())
+    }
+
+    /// `is_whole`: nothing beside the table says anything about these machines.
+    pub(super) fn machine(&self, table: &MachineTable, is_whole: bool) -> Result<MachineTable, Problem> {
+        let lists = [&table.axes, &table.rotary_order, &table.rotary_shorter_way];
+        let lists = lists.into_iter().flatten().flatten();
+        for axis in lists.chain(table.travel.keys()).chain(table.rotary_sign.keys()) {
+            self.axis(axis)?;
+        }
+        self.each_axis_once(table.axes.iter().flatten())?;
+        self.each_axis_once(table.travel.keys())?;
+        self.each_axis_once(table.rotary_sign.keys())?;
+        self.each_axis_once(table.rotary_shorter_way.iter().flatten())?;
+        self.listed_axes(table)?;
+        if let Some(bars) = table.bars.as_ref().filter(|bars| bars.value == 0) {
+            return Err(self.text.problem(bars, "at least one bar is in the chuck: write 1 or more"));
+        }
+        for (axis, travel) in &table.travel {
+            let [low, high] = travel.value;
+            if !(low.is_finite() && high.is_finite()) {
+                let message = format!("travel of {} must have two finite ends", axis.value);
+                return Err(self.text.problem(travel, message).help("leave out an axis without an end"));
+            }
+            if low >= high {
+                let message = format!("travel of {} must go from the lower end to the upper", axis.value);
+                return Err(self.text.problem(travel, message));
+            }
+        }
+        self.rotary(table)?;
+        self.rotary_centre(table)?;
         let positive = [
             &table.max_rpm,
             &table.max_feed,
@@ -203,8 +206,8 @@ impl<'t> Checked<'t> {
         }
         let shown = || axes.iter().map(|axis| axis.value.to_ascii_uppercase()).collect::<Vec<_>>().join(", ");
         // Rates of axes that are not listed stay: an import that narrows `axes` keeps what it does not know.
-        let named =
-            table.travel.keys().chain(table.rotary_sign.keys()).chain(table.rotary_order.iter().flatten());
+        let lists = [&table.rotary_order, &table.rotary_shorter_way].into_iter().flatten().flatten();
+        let named = table.travel.keys().chain(table.rotary_sign.keys()).chain(lists);
         for name in named {
             if !axes.iter().any(|axis| axis.value.eq_ignore_ascii_case(&name.value)) {
                 let message = format!("`{}` is not among the machine's `axes`: {}", name.value, shown());

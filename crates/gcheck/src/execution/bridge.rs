@@ -66,10 +66,10 @@ impl<'s, S: Steps> Bridge<'s, S> {
 }
 
 impl<S: Steps> Observer<Concrete> for Bridge<'_, S> {
-    fn before(&mut self, origin: Origin, _: &State<Concrete>) {
+    fn before(&mut self, origin: Origin, state: &State<Concrete>) {
         self.executing = origin.n;
         self.executing_at = origin.at;
-        self.steps.block(origin);
+        self.steps.block(origin, state);
         self.cycle = outline_cycle(self.session.program, self.session.model, origin);
     }
 

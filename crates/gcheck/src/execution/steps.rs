@@ -4,7 +4,7 @@
 
 use std::io;
 
-use gcheck_engine::{Fault, Origin};
+use gcheck_engine::{Concrete, Fault, Origin, State};
 use gcheck_toolpath::Step;
 
 /// Takes the steps of a run.
@@ -13,9 +13,9 @@ pub(crate) trait Steps {
     /// compensation may be later than the block that a move belongs to, and an optional stop is one whatever the switch says.
     const AS_INTERPRETED: bool = false;
 
-    /// A block is about to be executed.
-    fn block(&mut self, origin: Origin) {
-        let _ = origin;
+    /// A block is about to be executed in this state.
+    fn block(&mut self, origin: Origin, state: &State<Concrete>) {
+        let _ = (origin, state);
     }
 
     /// One event.

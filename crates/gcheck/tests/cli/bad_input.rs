@@ -782,6 +782,25 @@ fn figures_and_axes_that_no_machine_has() {
     "#]].assert_eq(&messages);
 }
 
+#[test]
+fn a_list_of_axes_names_each_once_and_those_of_the_machine() {
+    for (list, message) in [
+        ("axes = [\"X\", \"Y\", \"x\"]", "3:19: the axis X is listed twice"),
+        ("rotary_shorter_way = [\"C\", \"c\"]", "3:28: the axis C is listed twice"),
+        ("rotary_shorter_way = [\"X\"]", "3:23: `X` is not a rotary axis"),
+        (
+            "axes = [\"X\", \"Z\", \"A\"]\nrotary_shorter_way = [\"A\", \"C\"]",
+            "4:28: `C` is not among the machine's `axes`: X, Z, A",
+        ),
+    ] {
+        let config = format!("control = \"haas-mill\"\n[machine]\n{list}\n");
+        let shop = Shop::with(&[("part.nc", GOOD), ("gcheck.toml", &config)]);
+        let run = shop.gcheck("check part.nc");
+        let first = run.stderr.lines().next().unwrap_or_default();
+        assert_eq!((run.code, first), (2, format!("error: gcheck.toml:{message}").as_str()), "{list}");
+    }
+}
+
 /// What one machine has and another lacks, and figures that shops write.
 #[test]
 fn figures_of_real_machines_are_taken() {

@@ -284,6 +284,25 @@ fn what_a_loop_or_a_subprogram_executes_counts_as_often_as_it_does() {
 }
 
 #[test]
+fn computed_words_of_commands_count_with_the_values_of_the_run() {
+    let cut = "G1 X10. F100.";
+    same(&format!("#100=1.\nM170 P#100\n{cut}"), &format!("{cut}\n#100=3.\n#100=#100-2.\nM170 P#100"));
+    same(&format!("#100=1.\nM170 P#100\n{cut}"), &format!("M170 P1\n{cut}"));
+    same(&format!("#100=51\nM#100\n{cut}"), &format!("M51\n{cut}"));
+    let verdict = |a: &str, b: &str| {
+        let run = diff(&program(&format!("{a}\n{cut}")), &program(&format!("{b}\n{cut}")), "--strict");
+        format!("{} {}", run.code, run.stdout.lines().last().unwrap_or_default())
+    };
+    assert_eq!(
+        verdict("#100=1.\nM170 P#100", "#100=2.\nM170 P#100"),
+        "1 not compared: M170 (a.nc:9, b.nc:9)"
+    );
+    assert_eq!(verdict("#100=51\nM#100", "#100=10\nM#100"), "1 not compared: M10 (b.nc:9), M51 (a.nc:9)");
+    // What an earlier program left in a variable is not known.
+    assert_eq!(verdict("M170 P#500", "M170 P#500"), "1 not compared: M170 (a.nc:8, b.nc:8)");
+}
+
+#[test]
 fn the_help_of_diff_says_what_the_verdict_is_about() {
     let run = Shop::new().gcheck("diff --help");
     assert!(

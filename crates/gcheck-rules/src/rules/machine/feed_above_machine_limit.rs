@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use gcheck_controls::Letter;
 use gcheck_engine::{Abstract, At, Axis, Domain, Event, Fact, FeedMode, TravelKind};
 use gcheck_geometry::Mm;
 
@@ -81,7 +82,7 @@ impl PathRule for FeedAboveMachineLimit {
         let range = cx.letter_range('F');
         let letters = cx.origin().letters;
         let names = |rotary: bool| {
-            Axis::ALL.into_iter().any(|axis| axis.is_rotary() == rotary && letters.contains(axis.letter()))
+            letters.iter().filter_map(|letter| moved_by(cx, letter)).any(|axis| axis.is_rotary() == rotary)
         };
         if names(true) && !names(false) && !reach::is_on_the_face(cx) {
             self.turning = Some((cx.origin().at, range));
@@ -115,6 +116,13 @@ impl PathRule for FeedAboveMachineLimit {
             );
         }
     }
+}
+
+/// The axis that an address moves: on lathes `H` moves C by an increment.
+fn moved_by(cx: &PathCx<'_>, letter: Letter) -> Option<Axis> {
+    let increments = &cx.model.semantics().increments;
+    let of_increment = increments.get(&letter.to_string()).and_then(|axis| Letter::parse(axis));
+    Axis::of(of_increment.unwrap_or(letter))
 }
 
 fn finding(cx: &PathCx<'_>, range: Range<u32>, feed: f64, highest: f64) -> Finding {
@@ -162,6 +170,20 @@ mod tests {
             &expect![[r#"
                 2 | G1 A90. F12000.
                   |         ^^^^^^^ warning[feed-above-machine-limit] feed of 12000 mm/min is above the machine's 10000 mm/min (`F`)
+            "#]],
+        );
+    }
+
+    #[test]
+    fn an_increment_of_a_rotary_axis_counts_degrees_too() {
+        check_rule_in(
+            &RULE,
+            "fanuc-lathe",
+            "G21 G98 G0 X10. Z0. C0.\nG1 H90. F12000.\nC0. F13000.\nW-1. F14000.\nM30\n",
+            &World::of_examples(&META),
+            &expect![[r#"
+                4 | W-1. F14000.
+                  |      ^^^^^^^ warning[feed-above-machine-limit] feed of 14000 mm/min is above the machine's 10000 mm/min (`F`)
             "#]],
         );
     }

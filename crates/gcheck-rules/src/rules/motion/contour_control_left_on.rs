@@ -98,8 +98,13 @@ impl PathRule for ContourControlLeftOn {
             self.first_tool = Some(cx.origin().at);
             return;
         };
+        // A program that nobody has may have switched it off.
+        let is_certain = cx.state().contour_control().is_some_and(|level| !level.is_nan());
         let Some(on) = self.on.filter(|on| is_before(first, *on)) else { return };
         self.on = None;
+        if !is_certain {
+            return;
+        }
         let (effect, switch) =
             if self.is_look_ahead { (Effect::LookAheadControl, 'P') } else { (Effect::ContourControl, 'Q') };
         let Some(name) = cx.name_of_effect(effect) else { return };
@@ -138,6 +143,15 @@ mod tests {
                   |    ^^ info[contour-control-left-on] contour control is still on at the tool change (`G5.1 Q1`)
             "#]],
         );
+    }
+
+    #[test]
+    fn what_a_program_that_is_not_here_does_to_it_is_not_known() {
+        let program = |call: &str| {
+            format!("T1 M6\nG90 G54 G0 X0. Y0.\nG5.1 Q1\nG1 X10. F1000.\n{call}\nT2 M6\nG0 X0.\nM30\n")
+        };
+        check_rule(&RULE, "fanuc-mill", &program("G65 P9010"), &expect![[""]]);
+        check_rule(&RULE, "fanuc-mill", &program("M98 P4711"), &expect![[""]]);
     }
 
     #[test]

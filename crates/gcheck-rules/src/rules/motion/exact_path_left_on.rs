@@ -78,7 +78,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::testing::check_rule;
+    use crate::testing::{World, check_rule, findings, only};
 
     #[test]
     fn the_next_tool_cuts_with_it() {
@@ -91,6 +91,21 @@ mod tests {
                   | ^^^^^^ info[exact-path-left-on] the tool cuts with the exact path of the tool before (`G61`)
             "#]],
         );
+    }
+
+    #[test]
+    fn the_way_back_has_the_words_with_which_the_program_blends() {
+        let fix = |blending: &str| {
+            let text = format!("{blending}\nG0 X0\nG1 X10 F100\nG61\nY10\nM2\n");
+            let found = findings(&only(&RULE), "linuxcnc", &text, &World::default());
+            let [finding] = found.as_slice() else { panic!("{found:?}") };
+            (finding.help.clone(), finding.fixes[0].edits[0].text.clone())
+        };
+        let help =
+            |cancel: &str| Some(format!("switch exact path off with `{cancel}` before the program ends"));
+        assert_eq!(fix("G21 G90 G94 G64 P0.05"), (help("G64 P0.05"), "G64 P0.05\n".to_owned()));
+        assert_eq!(fix("G64 P1\nG21 G64 Q0.02 p.5"), (help("G64 Q0.02 p.5"), "G64 Q0.02 p.5\n".to_owned()));
+        assert_eq!(fix("G21 G90 G64"), (help("G64"), "G64\n".to_owned()));
     }
 
     #[test]

@@ -1,5 +1,7 @@
 //! A jump to a sequence number that the program does not have.
 
+use std::cmp::Ordering;
+
 use gcheck_controls::{Code, WordEntry, WordKind};
 use gcheck_program::{Jump, Label};
 
@@ -54,35 +56,42 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
         return;
     }
     let index = label_index(cx);
+    let mut numbers = None;
     for jump in &cx.file_index.jumps {
         let Some(target) = jump.target else { continue };
         let word = target_word(cx, jump.code, WordKind::Label, cx.slice(jump.range.clone()));
         let is_elsewhere = word.is_some_and(|(_, word)| word.elsewhere);
         if !is_elsewhere && index.within(target, &program_around(cx, jump.range.start)).is_empty() {
+            let numbers = numbers.get_or_insert_with(|| numbers_by_program(cx));
             let finding = finding(jump, target, word, index.all(target).first().copied())
-                .fix_if(to_nearest(cx, jump, target));
+                .fix_if(to_nearest(cx, numbers, jump, target));
             report.add(cx.if_run(finding, std::slice::from_ref(&jump.range)));
         }
     }
 }
 
-/// Jumps to the label of the program whose number is nearest, if one is nearer than all others.
-fn to_nearest(cx: &FileCx<'_>, jump: &Jump, target: u32) -> Option<Fix> {
-    let program = program_around(cx, jump.range.start);
-    let mut numbers: Vec<u32> = cx
-        .file_index
-        .labels
-        .iter()
-        .filter(|label| program.contains(&label.range.start))
-        .map(|label| label.number)
-        .collect();
+/// The numbers of the file's labels with the first byte of their program, in order, each once.
+fn numbers_by_program(cx: &FileCx<'_>) -> Vec<(u32, u32)> {
+    let labels = cx.file_index.labels.iter();
+    let mut numbers: Vec<(u32, u32)> =
+        labels.map(|label| (program_around(cx, label.range.start).start, label.number)).collect();
     numbers.sort_unstable();
     numbers.dedup();
-    numbers.sort_by_key(|number| number.abs_diff(target));
-    let nearest = match *numbers.as_slice() {
-        [only] => only,
-        [nearest, next, ..] if nearest.abs_diff(target) < next.abs_diff(target) => nearest,
-        _ => return None,
+    numbers
+}
+
+/// Jumps to the label of the program whose number is nearest, if one is nearer than all others.
+fn to_nearest(cx: &FileCx<'_>, numbers: &[(u32, u32)], jump: &Jump, target: u32) -> Option<Fix> {
+    let program = program_around(cx, jump.range.start).start;
+    let above = numbers.partition_point(|known| *known < (program, target));
+    let of_program = |at: usize| numbers.get(at).filter(|(of, _)| *of == program).map(|(_, number)| *number);
+    let nearest = match (above.checked_sub(1).and_then(of_program), of_program(above)) {
+        (Some(below), Some(above)) => match (target - below).cmp(&(above - target)) {
+            Ordering::Less => below,
+            Ordering::Equal => return None,
+            Ordering::Greater => above,
+        },
+        (only, None) | (None, only) => only?,
     };
     // The number is the last thing in the word or statement.
     let text = cx.slice(jump.range.clone());
@@ -123,6 +132,8 @@ fn finding(
 
 #[cfg(test)]
 mod tests {
+    use std::fmt::Write as _;
+
     use expect_test::expect;
 
     use super::RULE;
@@ -143,6 +154,28 @@ mod tests {
         );
         assert_eq!(offered("O1\nGOTO 20\nN10 G0 X1.\nN30 M30\n"), [], "two are as near");
         assert_eq!(offered("O1\nGOTO 20\nM30\nO2\nN21 M99\n"), [], "of another program");
+        let titles = |text: &str| offered(text).into_iter().map(|(title, ..)| title).collect::<Vec<_>>();
+        assert_eq!(
+            titles("O1\nN5\nM30\nO2\nGOTO 20\nN90\nN90 M99\nO3\nN21 M99\n"),
+            ["jump to `N90`"],
+            "above"
+        );
+        assert_eq!(titles("O1\nN19\nM30\nO2\nGOTO 20\nN5\nM99\nO3\nN21 M99\n"), ["jump to `N5`"], "below");
+    }
+
+    /// What takes a step for each pair of a jump and a label takes a minute.
+    #[test]
+    fn every_one_of_very_many_jumps_is_offered_its_nearest_label() {
+        let mut text = "O1\n".to_owned();
+        for number in 0..9_900 {
+            writeln!(text, "IF [#1 EQ {number}] GOTO {}", number * 10 + 1).unwrap();
+            for label in 2..10 {
+                writeln!(text, "N{}", number * 10 + label).unwrap();
+            }
+        }
+        text.push_str("M30\n");
+        let found = findings(&only(&RULE), "fanuc-mill", &text, &World::default());
+        assert_eq!(found.iter().flat_map(|finding| &finding.fixes).count(), 9_900);
     }
 
     #[test]

@@ -31,6 +31,14 @@ declare_rule! {
     /// G1 X2. F10.
     /// M30
     /// ```
+    /// Where cuts give speeds, they are the power of a laser.
+    /// ```nc,quiet,linuxcnc
+    /// T1 M6
+    /// M4 S0
+    /// G1 X10 F1000 S500
+    /// G1 X20 S0
+    /// M2
+    /// ```
     rule "speed-missing" in "spindle" {
         summary: "spindle started without a speed",
         severity: Warning,
@@ -63,6 +71,10 @@ impl PathRule for SpeedMissing {
         let started_by = cx.definitions().set_by(Fact::Spindle);
         let has_any = cx.file_index.letters.contains(Letter::of('S'));
         if started_by.is_none() || self.told == started_by || !has_any && self.told.is_some() {
+            return;
+        }
+        // The power of a laser, which changes from cut to cut and is zero between them.
+        if cx.file_index.has_speed_in_cuts {
             return;
         }
         let set_by = cx.definitions().set_by(Fact::Speed);
@@ -179,6 +191,25 @@ mod tests {
     #[test]
     fn a_laser_is_off_at_speed_zero() {
         check_rule(&RULE, "grbl", "M4\nG1 X-2 F6000 S0\nG1 X-10 S300\nG1 X-2 S0\nM5\nM2\n", &expect![[""]]);
+    }
+
+    #[test]
+    fn a_speed_that_cuts_change_is_the_power_of_a_laser() {
+        let cuts = "G0 X0 Y0\nG1 X10 F1000 S500\nG1 X20 S0\nG1 X30 S500\nS0\nM5\nM2\n";
+        for start in ["T1 M6\nM4 S0", "M4 S0\nG1 X-1 F1000", "T1 M6\nM3", "M3\nG1 X-1 F1000"] {
+            check_rule(&RULE, "linuxcnc", &format!("G21 G90\n{start}\n{cuts}"), &expect![[""]]);
+        }
+        // The speed of a mill may be in the block that brings the tool.
+        let mill = "G21 G90\nT1 M6\nG0 X0 Y0 S500 M3\nG1 X10 F1000\nT2 M6\nG0 X0 S0 M3\nG1 X20\nM2\n";
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            mill,
+            &expect![[r#"
+                7 | G1 X20
+                  | ^^^^^^ warning[speed-missing] the spindle turns with speed zero (`S0`, `M3`)
+            "#]],
+        );
     }
 
     #[test]

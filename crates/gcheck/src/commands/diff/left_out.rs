@@ -1,13 +1,13 @@
 //! Codes that a comparison leaves out, and which of them one of two runs has and the other one has not.
 //!
-//! Knows: which codes leave nothing in the acts of a run, how often a run executes them. Must not know: how differences are worded.
+//! Knows: which codes leave nothing in the acts of a run, how often and with which values a run executes them. Must not know: how differences are worded.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::sync::Arc;
 
-use gcheck_controls::{Effect, Letter, LetterSet};
-use gcheck_engine::Origin;
+use gcheck_controls::{CodeIx, CodeNumber, Control, Effect, Letter, LetterSet};
+use gcheck_engine::{Abstract, AbstractValue, At, Concrete, Domain as _, Look, Origin, ProgramFile, State};
 use gcheck_program::{BlockFlags, Word};
 use gcheck_toolpath::Place;
 
@@ -38,42 +38,84 @@ fn is_left_out(effect: Effect, kind: Option<f64>) -> bool {
 const COMPARED_OFFSETS: [f64; 4] = [2.0, 20.0, 10.0, 11.0];
 
 /// How often a run executes each of its blocks with codes.
-#[derive(Debug, Default)]
-pub(super) struct Executions(Vec<Vec<u32>>);
+pub(super) struct Executions<'s> {
+    session: &'s Session<'s>,
+    look: Look<'s, 's>,
+    /// By file and block.
+    blocks: Vec<Vec<Executed>>,
+    /// Commands with computed words: the values are those of each execution.
+    computed: LeftOut,
+}
 
-impl Executions {
-    /// A block is executed.
-    pub(super) fn count(&mut self, origin: Origin) {
+/// Of one block.
+#[derive(Debug, Default, Clone, Copy)]
+struct Executed {
+    count: u32,
+    /// Has it a computed word that may belong to a command that is not compared? `None` before somebody has looked.
+    is_computed: Option<bool>,
+}
+
+impl<'s> Executions<'s> {
+    pub(super) fn new(session: &'s Session<'s>) -> Self {
+        let look = Look::new(session.program, session.model, &session.prepared.equipment.machine);
+        Self { session, look, blocks: Vec::new(), computed: LeftOut::default() }
+    }
+
+    /// A block is executed in this state.
+    pub(super) fn count(&mut self, origin: Origin, state: &State<Concrete>) {
         if !origin.flags.contains(BlockFlags::CODE) {
             return;
         }
         let (file, block) = (origin.at.file as usize, origin.at.block as usize);
-        if self.0.len() <= file {
-            self.0.resize_with(file + 1, Vec::new);
+        if self.blocks.len() <= file {
+            self.blocks.resize_with(file + 1, Vec::new);
         }
-        let Some(blocks) = self.0.get_mut(file) else { return };
+        let Some(blocks) = self.blocks.get_mut(file) else { return };
         if blocks.len() <= block {
-            blocks.resize(block + 1, 0);
+            blocks.resize(block + 1, Executed::default());
         }
-        if let Some(count) = blocks.get_mut(block) {
-            *count = count.saturating_add(1);
+        let Some(executed) = blocks.get_mut(block) else { return };
+        executed.count = executed.count.saturating_add(1);
+        if origin.flags.contains(BlockFlags::EXPRESSION) && executed.is_computed != Some(false) {
+            let is_computed = self.compute(origin.at, state);
+            // The two are of one block: its list is still there.
+            if let Some(executed) = self.blocks.get_mut(file).and_then(|blocks| blocks.get_mut(block)) {
+                executed.is_computed = Some(is_computed);
+            }
         }
     }
 
+    /// Notes the commands of a block with the values that its words have in this state, if it has any.
+    fn compute(&mut self, at: At, state: &State<Concrete>) -> bool {
+        let session = self.session;
+        let Some(file) = session.program.file(at.file) else { return false };
+        let Some(block) = file.loaded.place(at.block, session.program.dialect()) else { return false };
+        let words = block.table.words(block.block());
+        let has_computed_code = words.iter().any(|word| CODES.contains(word.letter) && word.is_computed());
+        if !has_computed_code && commands(words, &[], session).is_empty() {
+            return false;
+        }
+        let values = self.look.words(&block, at, &state.as_abstract());
+        for (name, words) in commands(words, &values, session) {
+            let words = words.filter(|_| self.computed.0.len() < MOST_COMPUTED);
+            self.computed.add(name, words, 1, || place(session, &file, block.range().start));
+        }
+        true
+    }
+
     /// What these blocks say that is not compared.
-    pub(super) fn left_out(&self, session: &Session<'_>) -> LeftOut {
-        let mut found = LeftOut::default();
-        for (file_index, blocks) in (0..).zip(&self.0) {
+    pub(super) fn left_out(self) -> LeftOut {
+        let session = self.session;
+        let mut found = self.computed;
+        for (file_index, blocks) in (0..).zip(&self.blocks) {
             let Some(file) = session.program.file(file_index) else { continue };
-            let name = if file.name.is_empty() { session.prepared.shown.as_str() } else { &file.name };
-            let name: Arc<str> = Arc::from(name);
-            for (block, count) in (0..).zip(blocks).filter(|(_, count)| **count > 0) {
+            let said = |executed: &Executed| executed.count > 0 && executed.is_computed != Some(true);
+            for (block, executed) in (0..).zip(blocks).filter(|(_, executed)| said(executed)) {
                 let Some(block) = file.loaded.place(block, session.program.dialect()) else { continue };
-                let place =
-                    || Place { file: Arc::clone(&name), line: file.loaded.line_number(block.range().start) };
+                let place = || place(session, &file, block.range().start);
                 let words = block.table.words(block.block());
-                for (name, words) in commands(words, session) {
-                    found.add(name, words, u64::from(*count), place);
+                for (name, words) in commands(words, &[], session) {
+                    found.add(name, words, u64::from(executed.count), place);
                 }
             }
         }
@@ -81,8 +123,48 @@ impl Executions {
     }
 }
 
-/// The commands of a block that are not compared: the name of each, and its other words.
-fn commands(words: &[Word], session: &Session<'_>) -> Vec<(String, String)> {
+/// Commands with computed words whose values are told apart; the values of further ones count as unknown.
+const MOST_COMPUTED: usize = 100_000;
+
+/// Where a block is that begins at this byte of a file.
+fn place(session: &Session<'_>, file: &ProgramFile<'_>, start: u32) -> Place {
+    let name = if file.name.is_empty() { session.prepared.shown.as_str() } else { &file.name };
+    Place { file: Arc::from(name), line: file.loaded.line_number(start) }
+}
+
+/// What a word says.
+enum Said {
+    Number(f64),
+    /// A letter alone.
+    Letter,
+    /// An empty variable is beside the letter: the word is not there.
+    Nothing,
+    Unknown,
+}
+
+fn said(word: &Word, values: &[(Word, AbstractValue)]) -> Said {
+    if let Some(number) = word.number() {
+        return Said::Number(number);
+    }
+    if !word.is_computed() {
+        return Said::Letter;
+    }
+    match values.iter().find(|(computed, _)| computed == word) {
+        Some((_, AbstractValue::Vacant)) => Said::Nothing,
+        // Without the noise of computing.
+        Some((_, value)) => Abstract::known(value)
+            .map_or(Said::Unknown, |number| Said::Number((number * 1e9).round() / 1e9 + 0.0)),
+        None => Said::Unknown,
+    }
+}
+
+/// The commands of a block that are not compared, with the values of its computed words: the name of each, and its other words,
+/// `None` where the value of one is not known.
+fn commands(
+    words: &[Word],
+    values: &[(Word, AbstractValue)],
+    session: &Session<'_>,
+) -> Vec<(String, Option<String>)> {
     let control = session.model.control();
     let codes = || words.iter().filter(|word| CODES.contains(word.letter));
     let effect = |word: &Word| control.code_at(word.code).map(gcheck_controls::Code::effect);
@@ -90,22 +172,26 @@ fn commands(words: &[Word], session: &Session<'_>) -> Vec<(String, String)> {
     if codes().any(|word| matches!(effect(word), Some(Effect::MacroCall | Effect::MacroModal))) {
         return Vec::new();
     }
-    let number = |letter: Letter| words.iter().find(|word| word.letter == letter).and_then(Word::number);
+    let number = |word: &Word| match said(word, values) {
+        Said::Number(number) => Some(number),
+        Said::Letter | Said::Nothing | Said::Unknown => None,
+    };
     let mut found = Vec::new();
-    for word in codes().filter(|word| !word.is_computed()) {
-        let code = control.code_at(word.code);
+    for word in codes() {
+        let Some(value) = number(word) else { continue };
+        let ix = if word.is_computed() { computed_code(word.letter, value, control) } else { word.code };
+        let code = control.code_at(ix);
         if code.is_some_and(|code| code.alias().is_some()) {
             continue;
         }
-        let kind = number(Letter::of('L'));
+        let kind = words.iter().find(|word| word.letter == Letter::of('L')).and_then(number);
         let effect = code.map_or(Effect::None, gcheck_controls::Code::effect);
         if !is_left_out(effect, kind) {
             continue;
         }
-        let mut name = match (code, word.number()) {
-            (Some(code), _) => code.number().to_string(),
-            (None, Some(number)) => format!("{}{number}", word.letter),
-            (None, None) => continue,
+        let mut name = match code {
+            Some(code) => code.number().to_string(),
+            None => format!("{}{value}", word.letter),
         };
         let mut reads = code.map_or(COMMON, gcheck_controls::Code::reads);
         if let Some(kind) = kind.filter(|_| effect == Effect::WriteOffsets) {
@@ -116,16 +202,21 @@ fn commands(words: &[Word], session: &Session<'_>) -> Vec<(String, String)> {
         let mut own: Vec<&Word> =
             words.iter().filter(|word| !CODES.contains(word.letter) && reads.contains(word.letter)).collect();
         own.sort_by_key(|word| word.letter.index());
-        let mut said = String::new();
-        for word in own {
-            let _ = match word.number() {
-                Some(number) => write!(said, "{}{number} ", word.letter),
-                None => write!(said, "{} ", word.letter),
-            };
-        }
-        found.push((name, said));
+        let text = own.into_iter().map(|word| match said(word, values) {
+            Said::Number(number) => Some(format!("{}{number} ", word.letter)),
+            Said::Letter => Some(format!("{} ", word.letter)),
+            Said::Nothing => Some(String::new()),
+            Said::Unknown => None,
+        });
+        found.push((name, text.collect()));
     }
     found
+}
+
+/// The code that a computed number is.
+fn computed_code(letter: Letter, value: f64, control: &Control) -> CodeIx {
+    let number = letter.to_string().bytes().next().and_then(|letter| CodeNumber::from_value(letter, value));
+    number.map_or(CodeIx::NONE, |number| control.code_ix(number))
 }
 
 /// Addresses of codes.
@@ -135,21 +226,21 @@ const COMMON: LetterSet = LetterSet::of("PQRLE");
 
 /// The commands of a run that are not compared.
 #[derive(Debug, Default)]
-pub(super) struct LeftOut(BTreeMap<Command, Executed>);
+pub(super) struct LeftOut(BTreeMap<Command, Commanded>);
 
-/// A command: its name, and its words with their values.
-type Command = (String, String);
+/// A command: its name, and its words with their values, `None` where the value of one is not known.
+type Command = (String, Option<String>);
 
 #[derive(Debug)]
-struct Executed {
+struct Commanded {
     count: u64,
     place: Place,
 }
 
 impl LeftOut {
     /// A command was executed so many times. `name` is what people call it (`M51`, `G10 L12`), `words` is what else it says.
-    fn add(&mut self, name: String, words: String, count: u64, place: impl FnOnce() -> Place) {
-        self.0.entry((name, words)).or_insert_with(|| Executed { count: 0, place: place() }).count += count;
+    fn add(&mut self, name: String, words: Option<String>, count: u64, place: impl FnOnce() -> Place) {
+        self.0.entry((name, words)).or_insert_with(|| Commanded { count: 0, place: place() }).count += count;
     }
 }
 
@@ -168,7 +259,10 @@ pub(super) fn not_compared(runs: &[LeftOut; 2]) -> Vec<NotCompared> {
     let mut found: BTreeMap<&str, NotCompared> = BTreeMap::new();
     for (side, of, other) in [(0, a, b), (1, b, a)] {
         for (command, executed) in &of.0 {
-            let of_other = other.0.get(command).map_or(0, |executed| executed.count);
+            // What nobody knows may be something else in the other run.
+            let known = Some(command).filter(|(_, words)| words.is_some());
+            let of_other =
+                known.and_then(|command| other.0.get(command)).map_or(0, |executed| executed.count);
             let more = executed.count.saturating_sub(of_other);
             if more == 0 {
                 continue;
@@ -209,10 +303,8 @@ mod tests {
     fn run(commands: &[(&str, &str, u32)]) -> LeftOut {
         let mut run = LeftOut::default();
         for (name, words, line) in commands {
-            run.add((*name).to_owned(), (*words).to_owned(), 1, || Place {
-                file: "a.nc".into(),
-                line: *line,
-            });
+            let words = (*words != "P?").then(|| (*words).to_owned());
+            run.add((*name).to_owned(), words, 1, || Place { file: "a.nc".into(), line: *line });
         }
         run
     }
@@ -239,6 +331,11 @@ mod tests {
             ),
             ["G10 L12 1@2 -", "M51 - 1@3", "M131 1@7 -"]
         );
+    }
+
+    #[test]
+    fn a_command_with_words_that_nobody_knows_is_like_no_other() {
+        assert_eq!(found(&[("M170", "P?", 3)], &[("M170", "P?", 3)]), ["M170 1@3 1@3"]);
     }
 
     #[test]

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::{mem, thread};
 
-use gcheck_engine::{Origin, Units};
+use gcheck_engine::{Concrete, Origin, State, Units};
 use gcheck_toolpath::{Act, Differences, Rest, Step, Trail, WorkCoordinates, compare};
 
 use super::left_out::{self, Executions, LeftOut, NotCompared};
@@ -169,7 +169,7 @@ fn run_one(prepared: &Prepared, to: SyncSender<Vec<Act>>) -> Ran {
             to,
             inch: 0,
             mm: 0,
-            executions: Executions::default(),
+            executions: Executions::new(session),
         };
         let control = execution::control_line(session);
         let units = prepared.equipment.units;
@@ -186,7 +186,7 @@ fn run_one(prepared: &Prepared, to: SyncSender<Vec<Act>>) -> Ran {
                     let problem = execution::problem_of(&fault);
                     Stopped { message: fault.words.message, problem }
                 });
-                Ran { control, fault, units, left_out: sender.executions.left_out(session) }
+                Ran { control, fault, units, left_out: sender.executions.left_out() }
             }
             Err(_) => Ran { control, fault: None, units, left_out: LeftOut::default() },
         }
@@ -194,25 +194,25 @@ fn run_one(prepared: &Prepared, to: SyncSender<Vec<Act>>) -> Ran {
 }
 
 /// Hands the acts of a run to who compares them.
-struct Sender {
+struct Sender<'s> {
     trail: Trail,
     batch: Vec<Act>,
     to: SyncSender<Vec<Act>>,
     inch: u64,
     mm: u64,
-    executions: Executions,
+    executions: Executions<'s>,
 }
 
-impl Sender {
+impl Sender<'_> {
     fn hand_over(&mut self) -> io::Result<()> {
         let batch = mem::replace(&mut self.batch, Vec::with_capacity(BATCH));
         self.to.send(batch).map_err(|_| io::ErrorKind::BrokenPipe.into())
     }
 }
 
-impl Steps for Sender {
-    fn block(&mut self, origin: Origin) {
-        self.executions.count(origin);
+impl Steps for Sender<'_> {
+    fn block(&mut self, origin: Origin, state: &State<Concrete>) {
+        self.executions.count(origin, state);
     }
 
     fn step(&mut self, step: &Step<'_>) -> io::Result<()> {
