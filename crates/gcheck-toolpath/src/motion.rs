@@ -288,8 +288,9 @@ pub(crate) fn cover(motion: &Motion) -> (Cover, bool) {
         for axis in axes {
             let (from, to) = (motion.from.raw(axis), motion.to.raw(axis));
             match (from.is_nan(), to.is_nan()) {
-                // Nobody ever said where the axis is: most likely it is not used.
-                (true, true) => partial = true,
+                // Nobody ever said where the axis is: most likely it is not used. Where the program says so, the axis is beside it by
+                // as much as nobody knows.
+                (true, true) if motion.programmed.raw(axis).is_nan() => partial = true,
                 (false, false) => {
                     known = true;
                     sum += (to - from) * (to - from);

@@ -1,7 +1,5 @@
 //! Times while the linear axes follow the rotary ones.
 
-#![expect(clippy::unwrap_used, reason = "a test that meets the unexpected is to fail")]
-
 mod runner;
 
 use gcheck_engine::{Axis, Dynamics, Machine, Position, Units, WorkOffset};

@@ -157,7 +157,7 @@ pub fn grooving(
         if way >= width {
             break;
         }
-        way = way + step;
+        way += step;
         if way > width - NEAR {
             way = width;
         }

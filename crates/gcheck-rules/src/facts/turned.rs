@@ -445,7 +445,7 @@ impl Turned {
         let [[_, z0], [r1, z1]] = [from, to];
         let face = self.face()?;
         let [radius, level] = [face.ends[0][0].max(face.ends[1][0]), face.ends[0][1]];
-        // A facing tool may stand past the centre.
+        // A facing tool may have gone past the centre.
         let is_into = z0 > level - SLACK && z1 < level - UNDER && r1 < radius - UNDER && r1 > -PAST_CENTRE;
         // Other faces open nothing below this one.
         let is_open = self.cuts.iter().any(|cut| !cut.is_face_to_centre() && cut.opens(to));

@@ -37,7 +37,7 @@ fn the_tour_shows_its_mistakes() {
         fixtures/tour/impeller.nc:20:4: warning[five-axis-length-left-on] 5-axis length compensation is still on at the tool change (`G143`)
         fixtures/tour/impeller.nc:25:19: error[cutter-vector-not-unit] direction is not a unit vector: I² + J² + K² is 0.82, not 1 (`G141`)
         fixtures/tour/impeller.nc:27:1: warning[cutter-vector-incomplete] move without a direction under 3D cutter compensation (`G141`)
-        fixtures/tour/manifold.nc:10:1: info[checked-past-alarm] note on this block's alarm: the check goes on after it
+        fixtures/tour/manifold.nc:10:1: info[checked-past-alarm] the rest is checked past the alarm of this block
         fixtures/tour/manifold.nc:10:1: error[loop-end-missing] loop `DO1` has no `END1`
         fixtures/tour/manifold.nc:15:1: warning[arc-without-centre] arc without centre or radius: `G3`
         fixtures/tour/manifold.nc:16:8: warning[two-codes-of-one-group] `G0` and `G1` belong to one modal group

@@ -1,7 +1,7 @@
 //! A tilted working plane that nothing has turned the tool to.
 
-use gcheck_controls::{Code, Effect, LetterSet, Motion};
-use gcheck_engine::{At, Event, Fact, Role};
+use gcheck_controls::{Code, Effect, Letter, LetterSet, Motion};
+use gcheck_engine::{At, Axis, Event, Fact, Role};
 
 use crate::declare::declare_rule;
 use crate::facts::feed::goes_by_feed;
@@ -106,13 +106,18 @@ fn orients(cx: &PathCx<'_>, code: Code<'_>) -> bool {
         })
 }
 
-/// May something before the cut have turned the tool or the table?
+/// May something before the cut have turned the tool or the table? Axes that are known to be at zero are not turned.
 fn may_be_turned(cx: &PathCx<'_>) -> bool {
     let here = cx.origin().at;
+    let turning = [(Axis::A, 'A'), (Axis::B, 'B'), (Axis::C, 'C')];
+    let is_at_zero = |axis: Axis| cx.state().actual().get(axis) == Some(0.0);
+    let moved = turning.into_iter().filter(|(axis, _)| !is_at_zero(*axis));
+    let letters: LetterSet =
+        moved.map(|(_, letter)| Letter::of(letter)).chain("UVW".chars().map(Letter::of)).collect();
     let turns = |block: u32| {
         cx.place_of(At { block, ..here }).is_none_or(|place| {
             let words = place.table.words(place.block());
-            place.block().letters.intersects(LetterSet::of("ABCUVW"))
+            place.block().letters.intersects(letters)
                 || words.iter().filter_map(|word| cx.code_of(word.code)).any(|code| orients(cx, code))
         })
     };
@@ -157,9 +162,24 @@ mod tests {
               | ^^^^^^^^^^^^^^^^^^ warning[tilt-without-orientation] cut in a tilted plane without `G53.1` (`G68.2`)
         "#]],
         );
-        for (before, after) in
-            [("", "G53.1\n"), ("G0 B45.\n", ""), ("", "G0 A45.\n"), ("M245\n", ""), ("G65 P9077\n", "")]
-        {
+        // Known to be at zero, the axes are not turned.
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            &program("G0 A0. C0.\n", ""),
+            &expect![[r#"
+            5 | G81 Z-5. R2. F100.
+              | ^^^^^^^^^^^^^^^^^^ warning[tilt-without-orientation] cut in a tilted plane without `G53.1` (`G68.2`)
+        "#]],
+        );
+        for (before, after) in [
+            ("", "G53.1\n"),
+            ("G0 B0. C0.\nG91 G28 B0.\nG90\n", ""),
+            ("G0 B45.\n", ""),
+            ("", "G0 A45.\n"),
+            ("M245\n", ""),
+            ("G65 P9077\n", ""),
+        ] {
             check_rule(&RULE, "fanuc-mill", &program(before, after), &expect![[""]]);
         }
         // Turned about the normal alone, or given by points.

@@ -76,7 +76,7 @@ impl PathRule for CheckedPastAlarm {
         }
         self.told = true;
         let finding =
-            crate::Finding::new(&META, cx.range(), "note on this block's alarm: the check goes on after it")
+            crate::Finding::new(&META, cx.range(), "the rest is checked past the alarm of this block")
                 .label(match fault {
                     Fault::NoSuchProgram => "the control stops here if it does not have the program",
                     Fault::NoSuchLabel(_) | Fault::JumpTarget(_) => {
@@ -84,7 +84,7 @@ impl PathRule for CheckedPastAlarm {
                     }
                     _ => "the control stops here",
                 })
-                .note("the rest is checked as if this block were corrected")
+                .note("as if the block were corrected")
                 .help("correct this block first");
         report.add(finding);
     }
@@ -105,7 +105,7 @@ mod tests {
             "O1\nG0 X1.\nGOTO 20\nG0 X2.\nGOTO 30\nM30\n",
             &expect![[r#"
             3 | GOTO 20
-              | ^^^^^^^ info[checked-past-alarm] note on this block's alarm: the check goes on after it
+              | ^^^^^^^ info[checked-past-alarm] the rest is checked past the alarm of this block
         "#]],
         );
     }
@@ -118,7 +118,7 @@ mod tests {
             "O1\n#1=0\nWHILE [#1 LT 3] DO1\nM98 P2\n#1=#1+1\nEND1\nM30\nO2\nGOTO 9\nG0 X1.\nM99\n",
             &expect![[r#"
                 9 | GOTO 9
-                  | ^^^^^^ info[checked-past-alarm] note on this block's alarm: the check goes on after it
+                  | ^^^^^^ info[checked-past-alarm] the rest is checked past the alarm of this block
             "#]],
         );
     }
@@ -131,7 +131,7 @@ mod tests {
             "G0 X1\no1 call\nG0 X2\nM2\n",
             &expect![[r#"
             2 | o1 call
-              | ^^^^^^^ info[checked-past-alarm] note on this block's alarm: the check goes on after it
+              | ^^^^^^^ info[checked-past-alarm] the rest is checked past the alarm of this block
         "#]],
         );
     }

@@ -83,12 +83,17 @@ fn finding(cx: &FileCx<'_>, best: &Score, other: &Control, unknown: &[&(CodeNumb
         format!("program looks written for `{name}`, not for `{}`", cx.control().name()),
     )
     .label(format!("checked for: {}", cx.control().title()))
-    .note(format!("for `{}`: {}", best.guess.because, other.title()))
+    .note(format!("{} points to: {}", shown(&best.guess.because), other.title()))
     .help(format!("choose the control with `--control {name}`, or `control = \"{name}\"` in `gcheck.toml`"));
     for (number, range) in unknown.iter().take(3) {
         finding = finding.also(range.clone(), format!("only the other control has `{number}`"));
     }
     finding
+}
+
+/// A code as programs write it is in backticks, words are not.
+fn shown(because: &str) -> String {
+    if because.contains([' ', '`']) { because.to_owned() } else { format!("`{because}`") }
 }
 
 #[cfg(test)]
@@ -128,7 +133,7 @@ mod tests {
               here: checked for: Haas mill (classic control and NGC)
               there: only the other control has `G241`
               there: only the other control has `G105`
-              note: for `G105`: Haas lathe (ST, DS, SL, TL; NGC and classic)
+              note: `G105` points to: Haas lathe (ST, DS, SL, TL; NGC and classic)
               help: choose the control with `--control haas-lathe`, or `control = "haas-lathe"` in `gcheck.toml`
         "#]].assert_eq(&found.first().map(words).unwrap_or_default());
     }
