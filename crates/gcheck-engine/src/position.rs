@@ -29,6 +29,8 @@ impl Axis {
     /// All axes, in the order of [`Position`].
     pub const ALL: [Self; 9] =
         [Self::X, Self::Y, Self::Z, Self::A, Self::B, Self::C, Self::U, Self::V, Self::W];
+    /// The rotary axes, in the same order.
+    pub const ABC: [Self; 3] = [Self::A, Self::B, Self::C];
 
     /// Place in [`Position`].
     pub const fn index(self) -> usize {

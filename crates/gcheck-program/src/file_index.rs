@@ -230,8 +230,8 @@ pub struct FileIndex {
     pub has_mistakes: bool,
     /// A block has a code whose number is computed (`G#1`).
     pub has_computed_codes: bool,
-    /// A block that names axes gives a speed above zero (`G1 X10. S500`), and neither moves at rapid nor starts the spindle:
-    /// lasers are switched so.
+    /// A block with the code of a cut gives a speed above zero (`G1 X10. S500`), and does not start the spindle: lasers are
+    /// switched so.
     pub has_speed_in_cuts: bool,
     /// Codes that rely on an earlier value which no block before them gives, in text order.
     pub never_given: Vec<NeverGiven>,
@@ -605,21 +605,26 @@ fn gives_speed_in_cut(table: &BlockTable, block: &Block, dialect: &Dialect<'_>) 
         return false;
     }
     let words = table.words(block);
-    let is_elsewhere = |word: &Word| {
-        let effect = dialect.control().code_at(word.code).map(gcheck_controls::Code::effect);
+    let effects = || {
+        words
+            .iter()
+            .filter_map(|word| dialect.control().code_at(word.code))
+            .map(gcheck_controls::Code::effect)
+    };
+    let is_cut =
+        |effect| matches!(effect, Effect::Linear | Effect::ArcClockwise | Effect::ArcCounterClockwise);
+    let starts = |effect| {
         matches!(
             effect,
-            Some(
-                Effect::Rapid
-                    | Effect::SpindleClockwise
-                    | Effect::SpindleCounterClockwise
-                    | Effect::SpindleClockwiseWithCoolant
-                    | Effect::SpindleCounterClockwiseWithCoolant
-            )
+            Effect::SpindleClockwise
+                | Effect::SpindleCounterClockwise
+                | Effect::SpindleClockwiseWithCoolant
+                | Effect::SpindleCounterClockwiseWithCoolant
         )
     };
     words.iter().any(|word| word.letter == speed && word.number().is_some_and(|number| number > 0.0))
-        && !words.iter().any(is_elsewhere)
+        && effects().any(is_cut)
+        && !effects().any(starts)
 }
 
 fn shift(range: &Range<u32>, base: u32) -> Range<u32> {

@@ -175,28 +175,22 @@ impl<D: Domain> State<D> {
         Some(Frame::from_parts(linear, [Mm(origin.x), Mm(origin.y), Mm(origin.z)]))
     }
 
-    /// In work coordinates: where the axes are after a block takes those that are `named` to `machine`. The others stay as in
-    /// `from`, known or not, unless coordinates are turned so that one axis of the machine moves several of the program.
+    /// In work coordinates: where the axes are after a block takes those that `moves` accepts to `machine`. The others stay as in
+    /// `from`, known or not, unless the linear axes follow rotary ones, so that one axis of the machine moves several of the program.
     pub(crate) fn at_machine(
         &self,
         machine: &Position,
         from: &Position,
-        named: impl Fn(Axis) -> bool,
+        moves: impl Fn(Axis) -> bool,
         model: &Model<'_>,
         at: &Machine,
     ) -> Position {
         let target = self.from_machine(machine, model, at);
         let follows = self.follows_rotary(machine, model, at)
             || self.follows_rotary(&self.machine(model, at), model, at);
-        let is_rotated = self.work_offset().rotation != 0.0;
         let mut to = *from;
         for axis in Axis::ALL {
-            let moves_along = match axis {
-                Axis::X | Axis::Y => is_rotated || follows,
-                Axis::Z => follows,
-                _ => false,
-            };
-            if named(axis) || moves_along {
+            if moves(axis) || follows && matches!(axis, Axis::X | Axis::Y | Axis::Z) {
                 to.set(axis, target.raw(axis));
             }
         }
@@ -223,14 +217,14 @@ impl<D: Domain> State<D> {
 
 /// Are the rotary axes that the machine has all at zero?
 fn is_upright(placed: &Position, model: &Model<'_>, machine: &Machine) -> bool {
-    const TURNING: [Axis; 3] = [Axis::A, Axis::B, Axis::C];
     let is_there = |axis: &Axis| match (&machine.axes, &machine.kinematics) {
         (Some(axes), _) => axes.contains(axis),
-        (None, Some(kinematics)) => kinematics.order.iter().any(|own| TURNING.get(own.index()) == Some(axis)),
+        (None, Some(kinematics)) => {
+            kinematics.order.iter().any(|own| Axis::ABC.get(own.index()) == Some(axis))
+        }
         (None, None) => true,
     };
-    let turning = model.axes.iter().filter(|axis| axis.is_rotary() && is_there(axis));
-    turning.into_iter().all(|axis| placed.raw(*axis) == 0.0)
+    model.axes.iter().filter(|axis| axis.is_rotary() && is_there(axis)).all(|axis| placed.raw(*axis) == 0.0)
 }
 
 /// The way of an origin that the table took along, in X, Y and Z.

@@ -20,8 +20,6 @@ use crate::position::{Axis, Position};
 use crate::state::{Blending, CoolantState, ModalCalls, State, TiltedPlane};
 use crate::value::{Domain, Truth};
 
-const TURNING: [Axis; 3] = [Axis::A, Axis::B, Axis::C];
-
 impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// Carries out one code of the block.
     pub(super) fn code(&mut self, ix: CodeIx, place: &Place, words: &[Word], state: &mut State<D>) -> Step {
@@ -636,7 +634,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if !is_certain {
             self.assumptions.insert(Assumption::Code(ix));
         }
-        for (index, axis) in TURNING.into_iter().enumerate() {
+        for (index, axis) in Axis::ABC.into_iter().enumerate() {
             if self.model.axes.contains(&axis) {
                 let angle = nearest.and_then(|way| way.get(index).copied()).map(|angle| D::number(angle.0));
                 let angle = angle.map(|angle| if is_certain { angle } else { D::assumed(angle) });
@@ -659,7 +657,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let mut ways = vec![way];
         for axis in own {
             let index = axis.index();
-            let travel = TURNING.get(index).and_then(|axis| self.machine.travel.get(axis));
+            let travel = Axis::ABC.get(index).and_then(|axis| self.machine.travel.get(axis));
             let is_open = from.get(index).is_none_or(|angle| angle.0.is_nan());
             let turns: &[f64] = if travel.is_some() {
                 &[0.0, -360.0, 360.0]

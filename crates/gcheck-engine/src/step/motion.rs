@@ -468,8 +468,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             self.leave_compensation(false, state)?;
             from = self.axes_of(state.position(), state);
         }
-        let is_named = |axis: Axis| named.contains(axis.letter());
-        let mut to = state.at_machine(&machine, &from, is_named, self.model, self.machine);
+        let is_rotated = state.work_offset().rotation != 0.0;
+        let moves =
+            |axis: Axis| named.contains(axis.letter()) || is_rotated && matches!(axis, Axis::X | Axis::Y);
+        let mut to = state.at_machine(&machine, &from, moves, self.model, self.machine);
         self.moved_off_drawing(named, &mut to, state);
         self.travel_to(kind, &to, &to, false, state);
         state.points.position = self.programmed_of(&to, state);

@@ -39,8 +39,13 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         }
         // The axes that return are given in machine coordinates; the others stay where they are.
         let mut machine = state.machine(self.model, self.machine);
-        for axis in &axes {
-            machine.set(*axis, reference.raw(*axis));
+        if state.follows_rotary(&machine, self.model, self.machine) {
+            for axis in &axes {
+                machine.set(*axis, reference.raw(*axis));
+            }
+        } else {
+            // Each axis goes to its coordinate of the whole position, in turned coordinates too.
+            machine = reference;
         }
         let is_named = |axis| axes.contains(&axis);
         let mut to = state.at_machine(&machine, state.actual(), is_named, self.model, self.machine);

@@ -20,6 +20,12 @@ pub(crate) fn is_on(effect: Effect) -> bool {
     )
 }
 
+/// Is compensation known to be on?
+pub(crate) fn is_compensated(cx: &PathCx<'_>) -> bool {
+    let on = cx.state().effect(Role::Compensation, cx.model);
+    on.is_some_and(|effect| effect != Effect::CompensationOff)
+}
+
 /// Is the cutter left of the path? `None` while compensation is off, or not known, or along vectors.
 pub(crate) fn is_left(cx: &PathCx<'_>) -> Option<bool> {
     match cx.state().effect(Role::Compensation, cx.model)? {

@@ -5,6 +5,7 @@
 use gcheck_controls::Effect;
 use gcheck_engine::{Abstract, Axis, Domain, Event, Position, TravelKind};
 
+use crate::facts::compensation::is_compensated;
 use crate::facts::cycles::is_round_pocket;
 use crate::facts::shared_list::SharedList;
 use crate::{PathCx, SharedMemory, remembers};
@@ -51,6 +52,10 @@ pub(crate) struct Cuts {
     frame: Option<Frame>,
     /// Where the last move ended.
     last: Option<[f64; 3]>,
+    /// Where it ended as it is programmed.
+    programmed: Option<[f64; 3]>,
+    /// It ended beside that, by a distance that is unknown.
+    is_beside: bool,
     /// Something unknown was moved, so that no later question has an answer.
     blind: bool,
 }
@@ -70,12 +75,16 @@ struct Cut {
     to: [f64; 2],
     /// The lower end.
     z: f64,
+    /// How far beside it the tool may have cut: a path beside the programmed one, by a size that is not known.
+    beside: f64,
 }
 
 /// Cuts that differ in depth by more are two, and points that are nearer to a cut are on it: millimetres.
 const SHALLOWER: f64 = 0.1;
 /// So far from its ends a cut is in the part: millimetres. A face mill starts and ends beside the part by less.
 const INNER: f64 = 50.0;
+/// No cutter runs farther beside its programmed path: millimetres.
+const MOST_BESIDE: f64 = 25.4;
 /// Cuts that are kept. Programs with more of them come from a system that plans its rapid moves.
 const MAX_CUTS: usize = 20_000;
 
@@ -89,7 +98,7 @@ impl SharedMemory for Cuts {
         match frame(cx) {
             Some(frame) if self.knows(cx, event) => {
                 self.frame = Some(frame);
-                self.add(event);
+                self.add(cx, event);
             }
             _ => self.give_up(),
         }
@@ -127,13 +136,21 @@ impl Cuts {
     }
 
     /// Keeps what a move cuts.
-    fn add(&mut self, event: &Event) {
+    fn add(&mut self, cx: &PathCx<'_>, event: &Event) {
         let (from, to, cuts) = match event {
             Event::Travel(travel) => (&travel.from, &travel.to, travel.kind != TravelKind::Rapid),
             Event::Arc(arc) => (&arc.from, &arc.to, true),
             _ => (&Position::UNKNOWN, &Position::UNKNOWN, true),
         };
         self.last = point(to);
+        let flat = |position: &Position| Some([position.get(Axis::X)?, position.get(Axis::Y)?]);
+        let programmed = match event {
+            Event::Travel(travel) => point(&travel.programmed),
+            Event::Arc(arc) => point(&arc.programmed),
+            _ => None,
+        };
+        let began = std::mem::replace(&mut self.programmed, programmed);
+        let was_beside = std::mem::take(&mut self.is_beside);
         if !cuts {
             return;
         }
@@ -144,21 +161,27 @@ impl Cuts {
             (None, b) => b,
             (Some(_), None) => None,
         };
-        let flat = |position: &Position| Some([position.get(Axis::X)?, position.get(Axis::Y)?]);
         let (Some(a), Some(b), Some(z)) = (flat(from), flat(to), z) else {
-            self.give_up();
+            match (began, programmed, bulge(cx, event)) {
+                (Some([x0, y0, z0]), Some([x1, y1, z1]), Some(bulge)) if was_beside || is_compensated(cx) => {
+                    self.is_beside = flat(to).is_none();
+                    let beside = MOST_BESIDE + bulge;
+                    self.list.push(Cut { from: [x0, y0], to: [x1, y1], z: z0.min(z1), beside });
+                }
+                _ => self.give_up(),
+            }
             return;
         };
         match event {
             Event::Arc(arc) => {
                 if arc.plane != gcheck_geometry::Plane::Xy || !arc.sweep.is_finite() {
                     self.blind = arc.plane == gcheck_geometry::Plane::Xy;
-                    self.list.push(Cut { from: a, to: b, z });
+                    self.list.push(Cut { from: a, to: b, z, beside: 0.0 });
                 } else {
                     self.add_arc([arc.centre.0.0, arc.centre.1.0], a, arc.sweep, z);
                 }
             }
-            _ => self.list.push(Cut { from: a, to: b, z }),
+            _ => self.list.push(Cut { from: a, to: b, z, beside: 0.0 }),
         }
         if self.list.len() > MAX_CUTS {
             self.give_up();
@@ -174,26 +197,26 @@ impl Cuts {
             [centre[0] + radius * cos, centre[1] + radius * sin]
         };
         for piece in 0..PIECES {
-            self.list.push(Cut { from: at(piece), to: at(piece + 1), z });
+            self.list.push(Cut { from: at(piece), to: at(piece + 1), z, beside: 0.0 });
         }
     }
 
     /// Did one of the first `count` cuts reach within `radius` of a point, at this depth or lower?
     pub(crate) fn reach(&self, count: usize, at: [f64; 2], z: f64, radius: f64) -> bool {
         let mut cuts = self.list.iter().take(count);
-        cuts.any(|cut| cut.z <= z + LEVEL && distance_to_line(at, cut.from, cut.to) <= radius)
+        cuts.any(|cut| cut.z <= z + LEVEL && distance_to_line(at, cut.from, cut.to) <= radius + cut.beside)
     }
 
     /// The same of the cuts that go sideways: no holes.
     pub(crate) fn reach_sideways(&self, at: [f64; 2], z: f64, radius: f64) -> bool {
-        let mut cuts = self.list.iter().filter(|cut| distance(cut.from, cut.to) > LEVEL);
-        cuts.any(|cut| cut.z <= z + LEVEL && distance_to_line(at, cut.from, cut.to) <= radius)
+        let mut cuts = self.list.iter().filter(|cut| distance(cut.from, cut.to) > LEVEL || cut.beside > 0.0);
+        cuts.any(|cut| cut.z <= z + LEVEL && distance_to_line(at, cut.from, cut.to) <= radius + cut.beside)
     }
 
     /// Does an earlier straight cut pass over a point, less deep than this level, and not near the ends of the cut? Near its
     /// ends the tool may be beside the part.
     pub(crate) fn passes_over(&self, at: [f64; 2], z: f64) -> bool {
-        let is_shallower = |cut: &Cut| cut.z > z + SHALLOWER && cut.z <= -SURFACE;
+        let is_shallower = |cut: &Cut| cut.z > z + SHALLOWER && cut.z <= -SURFACE && cut.beside <= 0.0;
         let is_inner = |cut: &Cut| distance(at, cut.from).min(distance(at, cut.to)) >= INNER;
         self.list.iter().any(|cut| {
             is_shallower(cut) && is_inner(cut) && distance_to_line(at, cut.from, cut.to) <= SHALLOWER
@@ -202,8 +225,15 @@ impl Cuts {
 
     /// Does one of the first `count` cuts lie within a rectangle?
     pub(crate) fn lies_within(&self, count: usize, low: [f64; 2], high: [f64; 2]) -> bool {
-        let is_inside = |at: [f64; 2]| at[0] > low[0] && at[1] > low[1] && at[0] < high[0] && at[1] < high[1];
-        self.list.iter().take(count).any(|cut| is_inside(cut.from) && is_inside(cut.to))
+        let is_inside = |at: [f64; 2], more: f64| {
+            let is_between = |index: usize| match (at.get(index), low.get(index), high.get(index)) {
+                (Some(at), Some(low), Some(high)) => *at > low - more && *at < high + more,
+                _ => false,
+            };
+            is_between(0) && is_between(1)
+        };
+        let is_cut = |cut: &Cut| is_inside(cut.from, cut.beside) && is_inside(cut.to, cut.beside);
+        self.list.iter().take(count).any(is_cut)
     }
 
     /// Is it unknown for good what was cut?
@@ -215,6 +245,22 @@ impl Cuts {
     pub(crate) fn len(&self) -> usize {
         self.list.len()
     }
+}
+
+/// How far an arc as it is written may bulge over the chord between its ends: its diameter. `None` where it is not written so.
+fn bulge(cx: &PathCx<'_>, event: &Event) -> Option<f64> {
+    if !matches!(event, Event::Arc(_)) {
+        return Some(0.0);
+    }
+    let unit = cx.state().units(cx.model)?.in_mm();
+    let number = |letter: char| cx.known_number(letter);
+    let radius = match (number('R'), number('I'), number('J')) {
+        (Some(radius), None, None) => radius.abs(),
+        (None, None, None) => return None,
+        (None, i, j) => i.unwrap_or(0.0).hypot(j.unwrap_or(0.0)),
+        _ => return None,
+    };
+    Some(2.0 * radius * unit)
 }
 
 /// X, Y and Z, if all are known.

@@ -8,7 +8,7 @@ use std::ops::Range;
 use crate::{Finding, RuleMeta};
 use crate::{PathCx, PathRule, Remembers, Report, Uses, remembers};
 use gcheck_controls::Effect;
-use gcheck_engine::{At, Ending, Event, Fact, Role};
+use gcheck_engine::{At, Ending, Event, Fact, Role, Units};
 use gcheck_program::Word;
 
 use crate::facts::boundary::{Boundary, boundary, ends_at_tape_mark, is_before, with_tool_change};
@@ -53,8 +53,10 @@ struct Carried {
     first_cut: Option<At>,
     /// The block that switched on the mode with which something was cut last.
     cut_with: Option<At>,
-    /// The last block that switched the mode off.
+    /// The last block of the main program itself that switched the mode off.
     switched_off: Option<At>,
+    /// The units of that block.
+    units: Option<Units>,
     /// A cut was reported: later cuts and the end of the program are not.
     is_reported: bool,
 }
@@ -101,10 +103,13 @@ impl ModeLeftOn {
     }
 
     /// What switches the mode off, with the words with which the program did so before: `G64 P0.05`, and not the `G64` of a
-    /// path that nobody bounds.
+    /// path that nobody bounds. Words of other units, and computed ones, say something else here.
     fn as_before(&self, cx: &PathCx<'_>, name: String) -> String {
         let words = || {
             let at = self.carried.switched_off?;
+            if self.mode.off != Effect::PathBlending || cx.state().units(cx.model) != self.carried.units {
+                return None;
+            }
             let (file, place) = (cx.program.file(at.file)?, cx.place_of(at)?);
             let words = place.table.words(place.block());
             let is_off = |word: &&Word| word.code.is_some() && cx.model.effect(word.code) == self.mode.off;
@@ -112,6 +117,7 @@ impl ModeLeftOn {
             let reads = cx.code_of(code)?.reads();
             let mut text = cx.name_of(code);
             for word in words.iter().filter(|word| reads.contains(word.letter)) {
+                word.number()?;
                 let range =
                     (place.base + word.range().start) as usize..(place.base + word.range().end) as usize;
                 text.push(' ');
@@ -162,8 +168,9 @@ impl PathRule for ModeLeftOn {
             if cx.depth() == 1 {
                 self.carried.own = Some(cx.origin().at);
             }
-            if cx.model.effect(code) == self.mode.off {
+            if cx.depth() == 1 && cx.model.effect(code) == self.mode.off {
                 self.carried.switched_off = Some(cx.origin().at);
+                self.carried.units = cx.state().units(cx.model);
             }
         }
         if boundary(cx) == Some(Boundary::ToolChange) {

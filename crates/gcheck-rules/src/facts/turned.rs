@@ -7,8 +7,9 @@
 use std::ops::Range;
 
 use gcheck_controls::Effect;
-use gcheck_engine::{At, Axis, Event, Fact, Position, Role, Travel, TravelKind};
+use gcheck_engine::{At, Axis, Event, Fact, Position, Role, Stop, Travel, TravelKind};
 
+use crate::facts::live_tool::builders_since;
 use crate::facts::parting::{Along, Parting};
 use crate::facts::second_spindle::swaps;
 use crate::facts::tool_words::ToolWords;
@@ -191,11 +192,16 @@ impl Turned {
     /// After this, is the part another one, or elsewhere in the chuck? Programs name the work offset in effect again for each tool.
     fn is_other(&self, cx: &PathCx<'_>, event: &Event) -> bool {
         match event {
-            Event::Chuck(_) | Event::BarFeed(_) | Event::BarPush(_) => true,
+            // While the program is stopped, the operator may turn the part round.
+            Event::Chuck(_)
+            | Event::BarFeed(_)
+            | Event::BarPush(_)
+            | Event::Stop(Stop::Program | Stop::Message(_)) => true,
             Event::WorkOffset { number, .. } => {
                 let is_named = cx.has_effect(|effect| matches!(effect, Effect::WorkOffset(_)));
                 let is_same = self.frame.is_some_and(|(own, _)| own == *number);
-                !(is_named && is_same)
+                let moved = self.block.map_or(0, |(at, _)| at.block);
+                !(is_named && is_same) || builders_since(cx, moved)
             }
             _ => false,
         }
@@ -235,8 +241,9 @@ impl Turned {
         }
         let side = self.side_of(cx, [from, to], is_expanded);
         self.cuts.push(Cut { ends: [from, to], bytes: cx.range(), side, tool: self.tool });
-        // Fed out of the part past all that it cut, the tool has cut the outside.
-        if !is_expanded && to[0] > from[0] + SLACK {
+        // Fed out to where it came from, the tool has cut the outside.
+        let came_from = self.chain.as_ref().and_then(|chain| chain.approach).map(|[before, _]| before);
+        if !is_expanded && came_from.is_some_and(|before| to[0] > before - SLACK) {
             self.mark(None);
         }
     }
@@ -343,7 +350,9 @@ impl Turned {
         let (least, most) =
             radii.fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), r| (least.min(r), most.max(r)));
         let end = cuts.last().map_or(f64::NAN, |cut| cut.ends[1][0]);
-        let leaves_out = end > most + SLACK || end > most - SLACK && out.is_some_and(|out| out > SLACK);
+        let goes_in = out.is_some_and(|out| out < -SLACK);
+        let leaves_out =
+            end > most + SLACK && !goes_in || end > most - SLACK && out.is_some_and(|out| out > SLACK);
         let leaves_in = end < least - SLACK || end < least + SLACK && out.is_some_and(|out| out < -SLACK);
         match (leaves_out, leaves_in) {
             (true, false) => Side::Outside,
@@ -470,12 +479,23 @@ impl Turned {
             cut.side == Side::Outside && front < z0 + SLACK && back > z1 + UNDER && radius < r1 - SLACK
         };
         let from_outside = self.cuts.iter().any(is_beside);
+        let may_be_tube = self.is_faced_like_a_tube();
         self.cuts.iter().rev().find(|cut| {
             let radius = cut.ends[0][0].max(cut.ends[1][0]);
             let front = cut.ends[0][1].max(cut.ends[1][1]).min(0.0);
-            let is_wall = radius > r1 + UNDER && (from_outside || radius - r1 < THIN);
+            let is_thin = radius - r1 < THIN && !may_be_tube;
+            let is_wall = radius > r1 + UNDER && (from_outside || is_thin);
             cut.side == Side::Outside && cut.spans(z1) && z0 > front - SLACK && is_wall
         })
+    }
+
+    /// Does the last cut along the face end before the centre?
+    fn is_faced_like_a_tube(&self) -> bool {
+        let is_face = |cut: &&Cut| {
+            let [from, to] = cut.ends;
+            is_level(from, to) && to[0] < from[0] - UNDER && to[1] > -UNDER
+        };
+        self.cuts.iter().rev().find(is_face).is_some_and(|cut| cut.ends[1][0] > UNDER)
     }
 
     /// The outside that a slanting way out of the part may meet: axes that leave together need not arrive together.

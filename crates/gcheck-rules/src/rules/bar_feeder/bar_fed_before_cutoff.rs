@@ -59,12 +59,12 @@ declare_rule! {
     /// T101
     /// G97 S800 M3
     /// G0 X0.94 Z0.1
-    /// G1 Z-0.76 F0.01
+    /// G1 Z-0.95 F0.01
     /// X1.02
     /// G0 X4. Z4.
     /// T404
     /// G0 X0. Z0.2
-    /// G1 Z-0.95 F0.006
+    /// G1 Z-1. F0.006
     /// G0 Z4.
     /// T808
     /// G0 X1.1 Z-0.875
@@ -108,6 +108,8 @@ remembers!(DeepestCut: bytes);
 
 /// Levels and radii that differ by less are one: millimetres.
 const SLACK: f64 = 0.05;
+/// No blade that parts off is wider: millimetres.
+const BLADE: f64 = 6.0;
 /// Nearer to the face of the part, a cut is of the face: millimetres.
 const FACE: f64 = 1.0;
 
@@ -129,8 +131,11 @@ impl PathRule for BarFedBeforeCutoff {
         let deepest = self.cut.as_ref().map_or(0.0, |cut| cut.z);
         if is_at_centre(travel) {
             self.hole = self.hole.min(z);
-        } else if goes_in(travel) && (z <= deepest + SLACK || z > self.hole && goes_deep(travel)) {
-            // Nearer to the chuck than all that was turned, or deep into a part with a hole: a tube is cut off before the centre.
+        } else if goes_in(travel)
+            && (z <= deepest + SLACK || z > self.hole && z <= deepest + BLADE && goes_deep(travel))
+        {
+            // Nearer to the chuck than all that was turned, or by a blade's width not, deep into a part with a hole: a tube is cut off
+            // before the centre.
             self.cut = None;
         } else if z < deepest {
             self.cut = Some(DeepestCut { z, bytes: cx.range() });

@@ -54,8 +54,16 @@ impl PathRule for CycleNumbersContradict {
             return;
         }
         let circles = cx.known_number('I').zip(cx.known_number('K'));
-        if circles.is_some_and(|(first, last)| last <= first) {
-            contradicts(cx, "numbers of a cycle contradict each other", Severity::Warning, report);
+        if let Some((first, last)) = circles.filter(|(first, last)| last <= first) {
+            let label =
+                format!("the first circle (`I` {first}) is not smaller than the finished one (`K` {last})");
+            contradicts(
+                cx,
+                "numbers of a cycle contradict each other",
+                Some(label),
+                Severity::Warning,
+                report,
+            );
         }
     }
 
@@ -65,17 +73,17 @@ impl PathRule for CycleNumbersContradict {
             Fault::Cycle(CycleFault::Plane) => "cycle in a plane that it does not work in",
             _ => return,
         };
-        contradicts(cx, what, limit(cx.model.semantics().confidence), report);
+        contradicts(cx, what, None, limit(cx.model.semantics().confidence), report);
     }
 }
 
-fn contradicts(cx: &PathCx<'_>, what: &str, most: Severity, report: &mut Report<'_>) {
+fn contradicts(cx: &PathCx<'_>, what: &str, label: Option<String>, most: Severity, report: &mut Report<'_>) {
     let Some(code) = cycle_code(cx) else { return };
     let (name, entry) = (code.number(), code.entry());
     let range = cx.word_range(|word| word.code.is_some() && cx.model.effect(word.code) == code.effect());
     report.add(
         cx.finding(&META, range, format!("{what} (`{name}`)"))
-            .label(entry.title.clone())
+            .label(label.unwrap_or_else(|| entry.title.clone()))
             .note(format!("the manual gives the meaning of each word of `{name}`  [{}]", entry.source))
             .help("check the words of the cycle against each other")
             .at_most(most),

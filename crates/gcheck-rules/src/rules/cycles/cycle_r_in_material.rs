@@ -357,6 +357,31 @@ mod tests {
         );
     }
 
+    /// A contour beside a path of which the distance is not known opens what is near it, and nothing else.
+    #[test]
+    fn a_contour_of_a_cutter_of_unknown_size() {
+        let contour = |x: &str| {
+            format!(
+                "G0 X-20. Y-10.\nZ2.\nG1 Z-10. F90.\nG41 D1 X-10. Y-10.\nX0. Y0.\nY{x}\nG2 X10. Y100. I10. J0.\nG1 X20.\nG40 X20. Y120.\nG0 Z25.\nG81 X200. Y80. Z-9. R2. F90.\nG80\n"
+            )
+        };
+        check_rule(
+            &RULE,
+            "haas-mill",
+            &program(&contour("90."), "G83 X100. Y20. Z-25. R-2. Q3. F90."),
+            &expect![[r#"
+                16 | G83 X100. Y20. Z-25. R-2. Q3. F90.
+                   |                      ^^^^ warning[cycle-r-in-material] the cycle goes at rapid to below the surface of the part (`R`)
+            "#]],
+        );
+        check_rule(
+            &RULE,
+            "haas-mill",
+            &program(&contour("90."), "G83 X30. Y20. Z-25. R-2. Q3. F90."),
+            &expect![[""]],
+        );
+    }
+
     #[test]
     fn a_spot_does_not_open_the_hole() {
         let spot = |r: &str, z: &str| format!("G81 X0. Y0. Z{z} R{r} F90.\nX40.\nG80\n");

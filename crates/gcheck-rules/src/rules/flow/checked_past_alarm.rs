@@ -84,7 +84,7 @@ impl PathRule for CheckedPastAlarm {
                     }
                     _ => "the control stops here",
                 })
-                .note("as if the block were corrected")
+                .note("gcheck checks the rest as if this block were corrected")
                 .help("correct this block first");
         report.add(finding);
     }

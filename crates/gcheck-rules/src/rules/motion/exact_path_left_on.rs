@@ -106,6 +106,12 @@ mod tests {
         assert_eq!(fix("G21 G90 G94 G64 P0.05"), (help("G64 P0.05"), "G64 P0.05\n".to_owned()));
         assert_eq!(fix("G64 P1\nG21 G64 Q0.02 p.5"), (help("G64 Q0.02 p.5"), "G64 Q0.02 p.5\n".to_owned()));
         assert_eq!(fix("G21 G90 G64"), (help("G64"), "G64\n".to_owned()));
+        // In other units, and of another call, the number says something else.
+        for blending in
+            ["G21 G90 G64 P0.05\nG20", "G21 G90\no100 sub\nG64 P#1\no100 endsub\no100 call [0.05]"]
+        {
+            assert_eq!(fix(blending), (help("G64"), "G64\n".to_owned()), "{blending}");
+        }
     }
 
     #[test]

@@ -2,11 +2,11 @@
 
 use std::ops::Range;
 
-use gcheck_controls::Effect;
-use gcheck_engine::{ArcMove, At, Event, Fact, Role, Spindle, TravelKind};
+use gcheck_engine::{ArcMove, At, Event, Fact, Spindle, TravelKind};
 use gcheck_geometry::Mm;
 
 use crate::declare::declare_rule;
+use crate::facts::compensation::is_compensated;
 use crate::facts::cuts::{Cuts, LEVEL, SURFACE, cutter_radius, point};
 use crate::{Finding, FollowedCx, MakeShared, PathCx, PathRule, Report, Run, Severity, Watch};
 use crate::{Remembers, remembers};
@@ -538,11 +538,6 @@ fn tell(cx: &PathCx<'_>, way: &Way, message: &str, why: &str) -> Finding {
 /// How far beside its path the tool in the spindle clears, millimetres.
 fn clears(cx: &PathCx<'_>) -> f64 {
     cutter_radius(cx).unwrap_or(CLEARS)
-}
-
-fn is_compensated(cx: &PathCx<'_>) -> bool {
-    let on = cx.state().effect(Role::Compensation, cx.model);
-    on.is_some_and(|effect| effect != Effect::CompensationOff)
 }
 
 /// Length one; `None` for a way that goes nowhere.

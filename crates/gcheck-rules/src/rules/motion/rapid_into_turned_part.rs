@@ -252,6 +252,35 @@ mod tests {
         }
     }
 
+    /// The recess of a bore that was there before, which the tool leaves inwards; a part that is turned round, or goes to another
+    /// spindle; a tube that is faced no farther than its hole.
+    #[test]
+    fn parts_that_are_hollow_where_the_program_goes() {
+        let bore = "G0 X100. Z5.\nZ2.\nX40.\nG1 Z-30. F.15\nX46.\n";
+        let recess =
+            "Z2.\nX100. Z100.\nT0505\nG54\nG97 S1000 M3\nG0 X36. Z2.\nZ-20.\nG1 X44. F.05\nX36.\nG0 Z2.\n";
+        let solid = "G0 X62. Z2.\nZ0.\nG1 X-1.6 F.2\nG0 Z2.\nX50.\nG1 Z-60. F.25\nX62.\nG0 Z2.\nG28 U0 W0\n";
+        let cored = "T0404\nG54\nG97 S1000 M3\nG0 X22. Z2.\nZ-9.\nG1 X24. Z-10. F.1\nZ-20.\nX20.\nG0 Z2.\n";
+        let tube = "G0 X64. Z2.\nZ0.\nG1 X50. F.2\nG0 X64. Z2.\nX60.\nG1 Z-40. F.2\nX66.\nG0 X150. Z100.\n";
+        let inside = "T0202\nG54\nG97 S1200 M3\nG0 X56.5 Z2.\nZ-20.\nG1 X57.5 F.1\nZ-30.\nX55.\nG0 Z2.\n";
+        for moves in [
+            format!("{bore}G1 X38.\nG0 {recess}"),
+            format!("{bore}G0 X38.\n{recess}"),
+            format!("{solid}M0\n{cored}"),
+            format!("{solid}M70\n{cored}"),
+            format!("{tube}{inside}"),
+        ] {
+            check_rule(&RULE, "haas-lathe", &program("", &format!("G54\n{moves}")), &expect![[""]]);
+        }
+        let found = findings(
+            &only(&RULE),
+            "haas-lathe",
+            &program("", &format!("G54\n{solid}{cored}")),
+            &World::default(),
+        );
+        assert_eq!(found.len(), 1, "without the stop between: {found:#?}");
+    }
+
     #[test]
     fn a_bore_is_left_inwards() {
         let bored = "G0 X52. Z2.\nX48.\nG1 Z-30. F.2\nG0 U-1.\nG0 Z2.";

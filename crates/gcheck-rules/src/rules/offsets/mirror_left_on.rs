@@ -57,7 +57,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::testing::check_rule;
+    use crate::testing::{World, check_rule, findings, only};
 
     #[test]
     fn the_end_is_marked() {
@@ -83,5 +83,14 @@ mod tests {
               | ^^^ warning[mirror-left-on] the mirror image is still on at the end of the program (`G101`)
         "#]],
         );
+    }
+
+    /// What switched another axis off does not switch this one off.
+    #[test]
+    fn the_help_names_no_axis_of_an_earlier_block() {
+        let text = "G21 G90 G54 G17\nT1 M6\nG0 X0. Y0. S1000 M3\nG51.1 X0.\nG1 Z-1. F100.\nX10.\nG50.1 X0.\nG51.1 Y0.\nY10.\nM30\n";
+        let found = findings(&only(&RULE), "fanuc-mill", text, &World::default());
+        let help = found.first().and_then(|finding| finding.help.clone()).unwrap_or_default();
+        assert!(help.contains("`G50.1`") && !help.contains("X0"), "{found:#?}");
     }
 }

@@ -100,7 +100,7 @@ impl PathRule for SpeedMissing {
         };
         let finding = cx
             .finding(&META, cx.range(), message)
-            .label("cuts at the speed that an earlier program left")
+            .label(if is_zero { "cuts at speed zero" } else { "cuts without a speed of this program" })
             .help(format!("give `S` with `{code}`"));
         // A machine whose speed is set by hand.
         let finding = if has_any { finding } else { finding.at_most(Severity::Info) };

@@ -183,6 +183,10 @@ impl PathRule for SpindleStoppedWhileCutting {
             return;
         }
         self.told.push(stopped_by);
+        // A boring cycle stops the spindle once more, at the bottom of its hole.
+        if cycle_code(cx).is_some() {
+            self.told.push(Some(cx.origin().at));
+        }
         // `T1 M6 M3` in one block: the machine builder decides which comes first.
         let is_started_with_change =
             stopped_by.and_then(|at| cx.find_word(at, |word| starts_spindle(cx.model.effect(word.code))));
@@ -245,13 +249,15 @@ impl PathRule for SpindleStoppedWhileCutting {
             return;
         }
         // The cut of the block, as if it were corrected, comes after.
-        self.told.push(cx.definitions().set_by(Fact::Spindle));
+        let stopped_by = cx.definitions().set_by(Fact::Spindle);
+        self.told.push(stopped_by);
+        let by = stopped_by.map(|at| format!(" (`{}`)", stop_code(cx, at))).unwrap_or_default();
         let finding = cx
-            .finding(&META, cx.range(), "feed per turn while the spindle is stopped (`M5`)")
+            .finding(&META, cx.range(), format!("feed per turn while the spindle is stopped{by}"))
             .label("waits for the spindle, which does not turn")
             .note("this control refuses the block")
             .help("start the spindle with `S` and `M3` or `M4` before this block");
-        report.add(refused(cx, since(cx, finding, cx.definitions().set_by(Fact::Spindle))));
+        report.add(refused(cx, since(cx, finding, stopped_by)));
     }
 }
 
@@ -651,9 +657,9 @@ mod tests {
             "linuxcnc",
             "G21 G0 X0 Z5\nG33 Z-10 K1\nM2\n",
             &expect![[r#"
-            2 | G33 Z-10 K1
-              | ^^^^^^^^^^^ warning[spindle-stopped-while-cutting] feed per turn while the spindle is stopped (`M5`)
-        "#]],
+                2 | G33 Z-10 K1
+                  | ^^^^^^^^^^^ warning[spindle-stopped-while-cutting] feed per turn while the spindle is stopped
+            "#]],
         );
     }
 
@@ -675,9 +681,9 @@ mod tests {
             "linuxcnc",
             "G21 G95\nG1 X1 F0.1\nM2\n",
             &expect![[r#"
-            2 | G1 X1 F0.1
-              | ^^^^^^^^^^ warning[spindle-stopped-while-cutting] feed per turn while the spindle is stopped (`M5`)
-        "#]],
+                2 | G1 X1 F0.1
+                  | ^^^^^^^^^^ warning[spindle-stopped-while-cutting] feed per turn while the spindle is stopped
+            "#]],
         );
         check_rule(
             &RULE,

@@ -1,7 +1,7 @@
 //! A tool of a lathe that cuts under offset 00.
 
-use gcheck_controls::Letter;
-use gcheck_engine::{Abstract, At, Domain, Event, Fact};
+use gcheck_controls::{Effect, Letter};
+use gcheck_engine::{Abstract, At, Axis, Domain, Event, Fact, Spindle, Truth};
 
 use crate::declare::declare_rule;
 use crate::facts::offset_schemes::whole;
@@ -12,7 +12,8 @@ declare_rule! {
     /// A lathe takes the last two digits of `T` as the offset: `T0100` puts tool 1 in place and cancels its offset. The tool cuts
     /// before another `T` gives it one.
     ///
-    /// Pullers, stops and tools whose comment says that they need no spindle are not reported.
+    /// Pullers, stops and other tools that are fed while nothing turns are not reported, nor programs that give the place of each tool
+    /// by a work offset of its own or by a preset.
     ///
     /// ## Why it matters
     /// Without an offset the control does not know where the tip is: all diameters and lengths are off by the whole offset of the
@@ -93,16 +94,26 @@ impl PathRule for LatheToolWithoutOffset {
         let called = cx.definitions().set_by(Fact::Tool).filter(is_new);
         let Some(called) = called.filter(|_| self.told.is_none() || self.uses_offsets) else { return };
         let Some(call) = cx.find_word(called, |word| word.letter == Letter::of('T')) else { return };
-        self.told = Some(called);
-        if ToolWords::of(cx).needs_no_spindle() {
+        let stands = cx.state().spindle() == Some(Spindle::Stopped) && cx.state().live_tool() == Truth::False;
+        // A preset says where the tool is.
+        let shift = cx.state().shift();
+        let is_preset = [Axis::X, Axis::Z].into_iter().any(|axis| shift.raw(axis) != 0.0);
+        let has_own_offsets = !self.uses_offsets && cx.file_uses(is_further_work_offset);
+        if stands || is_preset || has_own_offsets || ToolWords::of(cx).needs_no_spindle() {
             return;
         }
+        self.told = Some(called);
         let finding = cx
             .finding(&META, cx.range(), format!("tool {tool} cuts without its offset"))
             .label("cuts under offset 00")
             .also(call, "the last two digits cancel the offset");
         report.add(finding.help(format!("call the tool with its offset: `T{tool:02}{tool:02}`")));
     }
+}
+
+/// A work offset beside the first one, which may be that of a tool.
+fn is_further_work_offset(effect: Effect) -> bool {
+    matches!(effect, Effect::WorkOffset(number) if number > 1)
 }
 
 #[cfg(test)]
@@ -134,6 +145,9 @@ mod tests {
             "G21 G99\nG97 S900 M3\nG0 X48. Z2.\nG1 Z-30. F.2\nM30\n",
             "G21 G99\nT#1\nG97 S900 M3\nG0 X48. Z2.\nG1 Z-30. F.2\nM30\n",
             "G21 G99\nT0900 (BAR PULLER)\nG0 X0. Z2.\nG98 G1 Z-30. F200.\nM30\n",
+            "G21 G99\nT0700\nG98 G0 X0. Z20.\nG1 Z1. F500.\nM30\n",
+            "G21 G99\nT0100\nG50 X200. Z150.\nG97 S900 M3\nG0 X48. Z2.\nG1 Z-30. F.2\nM30\n",
+            "G21 G99\nT0100\nG54 G97 S900 M3\nG0 X48. Z2.\nG1 Z-30. F.2\nT0200\nG55 G0 X20.\nG1 Z-3.\nM30\n",
             "G21 G99\nT0100\nG65 P9001\nT0101\nG97 S900 M3\nG0 X48. Z2.\nG1 Z-30. F.2\nM30\n",
         ] {
             check_rule(&RULE, "fanuc-lathe", program, &expect![[""]]);

@@ -97,8 +97,11 @@ impl<'s> Executions<'s> {
         }
         let values = self.look.words(&block, at, &state.as_abstract());
         for (name, words) in commands(words, &values, session) {
-            let words = words.filter(|_| self.computed.0.len() < MOST_COMPUTED);
-            self.computed.add(name, words, 1, || place(session, &file, block.range().start));
+            let mut command = (name, words);
+            if self.computed.0.len() >= MOST_COMPUTED && !self.computed.0.contains_key(&command) {
+                command.1 = None;
+            }
+            self.computed.add(command.0, command.1, 1, || place(session, &file, block.range().start));
         }
         true
     }
