@@ -56,6 +56,8 @@ pub(crate) struct Cuts {
     programmed: Option<[f64; 3]>,
     /// It ended beside that, by a distance that is unknown.
     is_beside: bool,
+    /// One of the cuts ran beside its path, by a distance that is unknown.
+    has_beside: bool,
     /// Something unknown was moved, so that no later question has an answer.
     blind: bool,
 }
@@ -164,7 +166,7 @@ impl Cuts {
         let (Some(a), Some(b), Some(z)) = (flat(from), flat(to), z) else {
             match (began, programmed, bulge(cx, event)) {
                 (Some([x0, y0, z0]), Some([x1, y1, z1]), Some(bulge)) if was_beside || is_compensated(cx) => {
-                    self.is_beside = flat(to).is_none();
+                    (self.is_beside, self.has_beside) = (flat(to).is_none(), true);
                     let beside = MOST_BESIDE + bulge;
                     self.list.push(Cut { from: [x0, y0], to: [x1, y1], z: z0.min(z1), beside });
                 }
@@ -234,6 +236,11 @@ impl Cuts {
         };
         let is_cut = |cut: &Cut| is_inside(cut.from, cut.beside) && is_inside(cut.to, cut.beside);
         self.list.iter().take(count).any(is_cut)
+    }
+
+    /// Is it known of all cuts how they ran?
+    pub(crate) fn are_all_on_their_path(&self) -> bool {
+        !self.has_beside
     }
 
     /// Is it unknown for good what was cut?

@@ -219,7 +219,7 @@ impl PathRule for RapidBetweenCuts {
             Event::Arc(arc) => (point(&arc.programmed), arc.expanded),
             _ => (None, true),
         };
-        let cuts = cx.shared::<Cuts>().filter(|cuts| cuts.knows(cx, event));
+        let cuts = cx.shared::<Cuts>().filter(|cuts| cuts.knows(cx, event) && cuts.are_all_on_their_path());
         // A move that compensation inserts at a corner does not count; the strokes of a cycle end the present way.
         if is_expanded {
             if !is_compensated(cx) {
