@@ -341,6 +341,17 @@ impl Effect {
     pub const fn is_arc(self) -> bool {
         matches!(self, Self::ArcClockwise | Self::ArcCounterClockwise)
     }
+
+    /// Starts the spindle, either way round; with coolant too.
+    pub const fn starts_spindle(self) -> bool {
+        matches!(
+            self,
+            Self::SpindleClockwise
+                | Self::SpindleCounterClockwise
+                | Self::SpindleClockwiseWithCoolant
+                | Self::SpindleCounterClockwiseWithCoolant
+        )
+    }
 }
 
 /// Where controls read one thing two ways.

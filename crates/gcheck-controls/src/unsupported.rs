@@ -143,7 +143,7 @@ impl<'a> Lines<'a> {
 
 /// Where lines are that begin with this letter.
 fn place_of(first: char) -> usize {
-    usize::try_from(u32::from(first.to_ascii_lowercase())).map_or(0, |code| if code < 128 { code } else { 0 })
+    if first.is_ascii() { first.to_ascii_lowercase() as usize } else { 0 }
 }
 
 impl Hint {

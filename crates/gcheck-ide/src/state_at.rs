@@ -376,7 +376,7 @@ mod tests {
         assert_eq!(tip(nobody).2, Some(None), "any tool");
         let tilted = "O1\nG20 G90 G54 T1 M6\nG0 X1. Y0. Z3. A0. B0.\nG143 H1 X1. Y0. Z3. A-15. B8.\n$0G1 X1.25 Z2. F20.\nM30\n";
         let (_, programmed, tip) = tip(tilted);
-        assert_eq!((programmed, tip), (Some(Some(3.0)), Some(None)), "a posted length that nobody told");
+        assert_eq!((programmed, tip), (Some(Some(3.0)), Some(None)), "the posted length is not known");
     }
 
     #[test]

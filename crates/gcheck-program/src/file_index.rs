@@ -611,20 +611,9 @@ fn gives_speed_in_cut(table: &BlockTable, block: &Block, dialect: &Dialect<'_>) 
             .filter_map(|word| dialect.control().code_at(word.code))
             .map(gcheck_controls::Code::effect)
     };
-    let is_cut =
-        |effect| matches!(effect, Effect::Linear | Effect::ArcClockwise | Effect::ArcCounterClockwise);
-    let starts = |effect| {
-        matches!(
-            effect,
-            Effect::SpindleClockwise
-                | Effect::SpindleCounterClockwise
-                | Effect::SpindleClockwiseWithCoolant
-                | Effect::SpindleCounterClockwiseWithCoolant
-        )
-    };
     words.iter().any(|word| word.letter == speed && word.number().is_some_and(|number| number > 0.0))
-        && effects().any(is_cut)
-        && !effects().any(starts)
+        && effects().any(|effect| effect == Effect::Linear || effect.is_arc())
+        && !effects().any(Effect::starts_spindle)
 }
 
 fn shift(range: &Range<u32>, base: u32) -> Range<u32> {

@@ -337,14 +337,11 @@ fn moved<T: Copy>(
         Way::Thread => Drive::Thread(rpm),
         Way::Tap(scale) => Drive::Tap(Rpm(rpm.0 * scale)),
     };
-    if let Some(frame) = step.swung
-        && [&motion.machine_from, &motion.machine].into_iter().all(is_known)
-    {
+    if step.swings && [&motion.machine_from, &motion.machine].into_iter().all(is_known) {
         let [from, to] = [&motion.machine_from, &motion.machine].map(point);
         let whole = Move { drive, from, to, arc: None, asked, tag };
-        let Some(arc) = motion.arc.filter(|arc| arc.is_known() && arc.rise().is_known()) else {
-            return each(Item::Move(whole));
-        };
+        let arc = motion.arc.filter(|arc| arc.is_known() && arc.rise().is_known());
+        let Some((arc, frame)) = arc.zip(step.swung_arc) else { return each(Item::Move(whole)) };
         // Where the rotary axes turn on the way, the frame of its end is right there alone.
         let off = (motion.machine_from - motion.from.with_xyz(frame.apply(motion.from.xyz()))).xyz();
         let place = |point: [Mm; 3], done: f64| {

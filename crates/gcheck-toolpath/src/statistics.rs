@@ -459,7 +459,8 @@ impl Statistics {
         let Some(first) = sections.next() else {
             let event = Event::End;
             let nowhere = Step {
-                swung: None,
+                swings: false,
+                swung_arc: None,
                 event: &event,
                 n: None,
                 line: 0,

@@ -28,9 +28,10 @@ pub struct Step<'a> {
     pub rpm: f64,
     /// Machine coordinates after the event; NaN unknown.
     pub machine: Position,
-    /// Where the linear axes follow the rotary ones: the machine coordinates of points in the part, with the rotary axes where
-    /// the event ends.
-    pub swung: Option<Frame>,
+    /// The linear axes follow the rotary ones: the machine coordinates of a move lie elsewhere than its points in the part.
+    pub swings: bool,
+    /// The machine coordinates of the points of an arc that swings, with the rotary axes where it ends.
+    pub swung_arc: Option<Frame>,
     /// The tool in the spindle; `None` unknown.
     pub tool: Option<u32>,
     /// Where a move would end without compensation for the tool's size and length; NaN unknown.
@@ -69,6 +70,11 @@ impl<'a> Step<'a> {
         units: Units,
     ) -> Self {
         let stands = stands(state, model, machine, event);
+        let swings = machine.kinematics.is_some() && state.follows_rotary(&stands, model, machine);
+        let swung_arc = match event {
+            Event::Arc(arc) if swings => state.linear_axes(&arc.to, model, machine),
+            _ => None,
+        };
         Self {
             event,
             n: spot.n,
@@ -78,7 +84,8 @@ impl<'a> Step<'a> {
             feed: number(state.feed()),
             rpm: turns(state),
             machine: stands,
-            swung: swung(state, model, machine, event, &stands),
+            swings,
+            swung_arc,
             tool: tool(state.tool()),
             aim: aim(state, event),
             h: tool(state.h()),
@@ -126,22 +133,6 @@ fn stands(state: &State<Concrete>, model: &Model<'_>, machine: &Machine, event: 
         Event::Curve(curve) => state.to_machine(&curve.to, model, machine),
         _ => state.machine(model, machine),
     }
-}
-
-fn swung(
-    state: &State<Concrete>,
-    model: &Model<'_>,
-    machine: &Machine,
-    event: &Event,
-    stands: &Position,
-) -> Option<Frame> {
-    let to = match event {
-        Event::Travel(travel) => &travel.to,
-        Event::Arc(arc) => &arc.to,
-        _ => return None,
-    };
-    let swings = machine.kinematics.is_some() && state.follows_rotary(stands, model, machine);
-    swings.then(|| state.linear_axes(to, model, machine)).flatten()
 }
 
 /// Why the axes are elsewhere than the programmed point says.

@@ -658,32 +658,24 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         for axis in own {
             let index = axis.index();
             let travel = Axis::ABC.get(index).and_then(|axis| self.machine.travel.get(axis));
-            let is_open = from.get(index).is_none_or(|angle| angle.0.is_nan());
-            let turns: &[f64] = if travel.is_some() {
-                &[0.0, -360.0, 360.0]
-            } else if is_open {
-                &[0.0, 360.0]
-            } else {
-                &[0.0]
+            let is_unknown = |angles: [Degrees; 3]| angles.get(index).is_none_or(|angle| angle.0.is_nan());
+            let turns: &[f64] = match travel {
+                // The tool lies along the axis: it stays where it is.
+                _ if is_unknown(way) => continue,
+                Some(_) => &[0.0, -360.0, 360.0],
+                None if is_unknown(from) => &[0.0, 360.0],
+                None => &[0.0],
             };
-            let is_within = |angle: f64| travel.is_none_or(|(low, high)| (*low..=*high).contains(&angle));
-            let mut turned = Vec::new();
-            for way in ways {
-                for turn in turns {
-                    let mut other = way;
-                    let Some(angle) = other.get_mut(index) else { continue };
-                    // The tool lies along the axis: it stays where it is, known or not.
-                    if angle.0.is_nan() {
-                        turned.push(other);
-                        break;
-                    }
-                    angle.0 += turn;
-                    if is_within(angle.0) {
-                        turned.push(other);
-                    }
-                }
-            }
-            ways = turned;
+            let turned = |way: [Degrees; 3], turn: f64| {
+                let mut turned = way;
+                let angle = turned.get_mut(index)?;
+                angle.0 += turn;
+                travel.is_none_or(|(low, high)| (*low..=*high).contains(&angle.0)).then_some(turned)
+            };
+            ways = ways
+                .into_iter()
+                .flat_map(|way| turns.iter().filter_map(move |turn| turned(way, *turn)))
+                .collect();
         }
         ways
     }

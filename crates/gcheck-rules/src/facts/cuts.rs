@@ -101,6 +101,9 @@ impl SharedMemory for Cuts {
             Some(frame) if self.knows(cx, event) => {
                 self.frame = Some(frame);
                 self.add(cx, event);
+                if self.list.len() > MAX_CUTS {
+                    self.give_up();
+                }
             }
             _ => self.give_up(),
         }
@@ -185,9 +188,6 @@ impl Cuts {
             }
             _ => self.list.push(Cut { from: a, to: b, z, beside: 0.0 }),
         }
-        if self.list.len() > MAX_CUTS {
-            self.give_up();
-        }
     }
 
     fn add_arc(&mut self, centre: [f64; 2], start: [f64; 2], sweep: f64, z: f64) {
@@ -228,11 +228,7 @@ impl Cuts {
     /// Does one of the first `count` cuts lie within a rectangle?
     pub(crate) fn lies_within(&self, count: usize, low: [f64; 2], high: [f64; 2]) -> bool {
         let is_inside = |at: [f64; 2], more: f64| {
-            let is_between = |index: usize| match (at.get(index), low.get(index), high.get(index)) {
-                (Some(at), Some(low), Some(high)) => *at > low - more && *at < high + more,
-                _ => false,
-            };
-            is_between(0) && is_between(1)
+            at.iter().zip(low).zip(high).all(|((at, low), high)| *at > low - more && *at < high + more)
         };
         let is_cut = |cut: &Cut| is_inside(cut.from, cut.beside) && is_inside(cut.to, cut.beside);
         self.list.iter().take(count).any(is_cut)

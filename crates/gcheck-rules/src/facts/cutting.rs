@@ -43,12 +43,5 @@ pub(crate) fn turns_backwards(effect: Effect) -> bool {
 
 /// Does the code start something that cuts?
 pub(crate) fn starts_spindle(effect: Effect) -> bool {
-    matches!(
-        effect,
-        Effect::SpindleClockwise
-            | Effect::SpindleCounterClockwise
-            | Effect::SpindleClockwiseWithCoolant
-            | Effect::SpindleCounterClockwiseWithCoolant
-            | Effect::LiveToolOn
-    )
+    effect.starts_spindle() || effect == Effect::LiveToolOn
 }

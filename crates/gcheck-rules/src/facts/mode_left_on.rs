@@ -118,10 +118,10 @@ impl ModeLeftOn {
             let mut text = cx.name_of(code);
             for word in words.iter().filter(|word| reads.contains(word.letter)) {
                 word.number()?;
-                let range =
-                    (place.base + word.range().start) as usize..(place.base + word.range().end) as usize;
                 text.push(' ');
-                text.push_str(file.loaded.text().get(range)?);
+                text.push_str(
+                    file.loaded.slice(place.base + word.range().start..place.base + word.range().end),
+                );
             }
             Some(text)
         };

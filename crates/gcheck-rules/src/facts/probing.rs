@@ -42,14 +42,7 @@ pub(crate) fn is_near(cx: &PathCx<'_>, is: impl Fn(Effect) -> bool) -> bool {
 
 /// What follows belongs to another operation.
 fn parts_sections(effect: Effect) -> bool {
-    matches!(
-        effect,
-        Effect::ToolChange
-            | Effect::SpindleClockwise
-            | Effect::SpindleCounterClockwise
-            | Effect::SpindleClockwiseWithCoolant
-            | Effect::SpindleCounterClockwiseWithCoolant
-    )
+    effect == Effect::ToolChange || effect.starts_spindle()
 }
 
 /// Does a code with this effect move until the probe answers?

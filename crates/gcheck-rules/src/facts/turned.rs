@@ -369,7 +369,7 @@ impl Turned {
     /// The radius of the bore at this level, and the cut that made it.
     pub(crate) fn bore(&self, z: f64) -> Option<(f64, &Cut)> {
         let at = self.cuts.iter().filter(|cut| cut.side == Side::Inside && cut.spans(z));
-        let walls = at.map(|cut| (cut.ends[0][0].max(cut.ends[1][0]), cut));
+        let walls = at.map(|cut| (cut.radius(), cut));
         walls.max_by(|a, b| a.0.total_cmp(&b.0))
     }
 
@@ -416,12 +416,12 @@ impl Turned {
             return None;
         }
         self.cuts.iter().rev().find(|cut| {
-            let radius = cut.ends[0][0].max(cut.ends[1][0]);
+            let radius = cut.radius();
             if cut.side != Side::Outside || r0 < radius - SLACK || r1 > radius - UNDER || !cut.spans(z1) {
                 return false;
             }
             let through = z0 + (r0 - radius) / (r0 - r1) * (z1 - z0);
-            let face = cut.ends[0][1].max(cut.ends[1][1]).min(0.0);
+            let face = cut.front().min(0.0);
             if through <= face + SLACK {
                 return true;
             }
@@ -453,7 +453,7 @@ impl Turned {
     pub(crate) fn face_crossed(&self, from: Spot, to: Spot) -> Option<&Cut> {
         let [[_, z0], [r1, z1]] = [from, to];
         let face = self.face()?;
-        let [radius, level] = [face.ends[0][0].max(face.ends[1][0]), face.ends[0][1]];
+        let [radius, level] = [face.radius(), face.ends[0][1]];
         // A facing tool may have gone past the centre.
         let is_into = z0 > level - SLACK && z1 < level - UNDER && r1 < radius - UNDER && r1 > -PAST_CENTRE;
         // Other faces open nothing below this one.
@@ -474,15 +474,14 @@ impl Turned {
             return None;
         }
         let is_beside = |cut: &Cut| {
-            let [front, back] = [cut.ends[0][1].max(cut.ends[1][1]), cut.ends[0][1].min(cut.ends[1][1])];
-            let radius = cut.ends[0][0].max(cut.ends[1][0]);
-            cut.side == Side::Outside && front < z0 + SLACK && back > z1 + UNDER && radius < r1 - SLACK
+            let lies_between = cut.front() < z0 + SLACK && cut.back() > z1 + UNDER;
+            cut.side == Side::Outside && lies_between && cut.radius() < r1 - SLACK
         };
         let from_outside = self.cuts.iter().any(is_beside);
         let may_be_tube = self.is_faced_like_a_tube();
         self.cuts.iter().rev().find(|cut| {
-            let radius = cut.ends[0][0].max(cut.ends[1][0]);
-            let front = cut.ends[0][1].max(cut.ends[1][1]).min(0.0);
+            let radius = cut.radius();
+            let front = cut.front().min(0.0);
             let is_thin = radius - r1 < THIN && !may_be_tube;
             let is_wall = radius > r1 + UNDER && (from_outside || is_thin);
             cut.side == Side::Outside && cut.spans(z1) && z0 > front - SLACK && is_wall
@@ -505,9 +504,9 @@ impl Turned {
             return None;
         }
         let is_met = |cut: &&Cut| {
-            let radius = cut.ends[0][0].max(cut.ends[1][0]);
-            let deepest = cut.ends[0][1].min(cut.ends[1][1]);
-            let is_on_the_way = deepest < -UNDER && cut.ends[0][1].max(cut.ends[1][1]) > z0 + UNDER;
+            let radius = cut.radius();
+            let deepest = cut.back();
+            let is_on_the_way = deepest < -UNDER && cut.front() > z0 + UNDER;
             cut.side == Side::Outside && is_on_the_way && r0 > radius - SLACK && r1 < radius - UNDER
         };
         self.cuts.iter().rev().find(is_met).filter(|_| !self.is_cut_to([r1, z0]))
@@ -521,16 +520,31 @@ impl Turned {
     /// How deep the tools before this one have gone along the centre; zero without any.
     pub(crate) fn depth_at_centre(&self, tool: Option<At>) -> f64 {
         let at = self.cuts.iter().filter(|cut| cut.tool != tool && cut.is_centre());
-        at.map(|cut| cut.ends[0][1].min(cut.ends[1][1])).fold(0.0, f64::min)
+        at.map(Cut::back).fold(0.0, f64::min)
     }
 }
 
 impl Cut {
+    /// Its larger radius.
+    pub(crate) fn radius(&self) -> f64 {
+        self.ends[0][0].max(self.ends[1][0])
+    }
+
+    /// Its end away from the chuck.
+    fn front(&self) -> f64 {
+        self.ends[0][1].max(self.ends[1][1])
+    }
+
+    /// Its end nearer to the chuck.
+    fn back(&self) -> f64 {
+        self.ends[0][1].min(self.ends[1][1])
+    }
+
     /// Does it come as near to the centre as this place, and as deep, from outside?
     fn opens(&self, [radius, z]: Spot) -> bool {
         let least = self.ends[0][0].min(self.ends[1][0]);
         let is_hole = self.side == Side::Inside || self.is_centre();
-        let depth = self.ends[0][1].min(self.ends[1][1]);
+        let depth = self.back();
         !is_hole && least <= radius + SLACK && depth <= z + WIDTH
     }
 
@@ -568,7 +582,7 @@ impl Cut {
     }
 
     fn reaches(&self, z: f64) -> bool {
-        self.ends[0][1].min(self.ends[1][1]) < z + UNDER
+        self.back() < z + UNDER
     }
 }
 

@@ -147,7 +147,8 @@ impl Run {
     pub(crate) fn each(&self, mut each: impl FnMut(&Step<'_>)) {
         for step in &self.steps {
             each(&Step {
-                swung: None,
+                swings: false,
+                swung_arc: None,
                 event: &step.event,
                 n: step.n,
                 line: step.line,

@@ -134,8 +134,8 @@ impl PathRule for BarFedBeforeCutoff {
         } else if goes_in(travel)
             && (z <= deepest + SLACK || z > self.hole && z <= deepest + BLADE && goes_deep(travel))
         {
-            // Nearer to the chuck than all that was turned, or by a blade's width not, deep into a part with a hole: a tube is cut off
-            // before the centre.
+            // A tube is cut off before the centre: nearer to the chuck than all that was turned, or at most a blade's width before
+            // its end and deep into a part with a hole.
             self.cut = None;
         } else if z < deepest {
             self.cut = Some(DeepestCut { z, bytes: cx.range() });

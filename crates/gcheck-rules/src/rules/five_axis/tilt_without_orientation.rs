@@ -1,6 +1,6 @@
 //! A tilted working plane that nothing has turned the tool to.
 
-use gcheck_controls::{Code, Effect, Letter, LetterSet, Motion};
+use gcheck_controls::{Code, Effect, LetterSet, Motion};
 use gcheck_engine::{At, Axis, Event, Fact, Role};
 
 use crate::declare::declare_rule;
@@ -109,11 +109,9 @@ fn orients(cx: &PathCx<'_>, code: Code<'_>) -> bool {
 /// May something before the cut have turned the tool or the table? Axes that are known to be at zero are not turned.
 fn may_be_turned(cx: &PathCx<'_>) -> bool {
     let here = cx.origin().at;
-    let turning = [(Axis::A, 'A'), (Axis::B, 'B'), (Axis::C, 'C')];
-    let is_at_zero = |axis: Axis| cx.state().actual().get(axis) == Some(0.0);
-    let moved = turning.into_iter().filter(|(axis, _)| !is_at_zero(*axis));
-    let letters: LetterSet =
-        moved.map(|(_, letter)| Letter::of(letter)).chain("UVW".chars().map(Letter::of)).collect();
+    let moved = Axis::ABC.into_iter().filter(|axis| cx.state().actual().get(*axis) != Some(0.0));
+    let letters: LetterSet = moved.map(Axis::letter).collect();
+    let letters = letters.or(LetterSet::of("UVW"));
     let turns = |block: u32| {
         cx.place_of(At { block, ..here }).is_none_or(|place| {
             let words = place.table.words(place.block());

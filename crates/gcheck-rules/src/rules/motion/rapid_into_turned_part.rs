@@ -18,6 +18,9 @@ declare_rule! {
     /// if the tool comes to it inwards, in a move in X beside the part. Where there is a hole, nothing is taken for the
     /// outside by its approach alone.
     ///
+    /// Moves along Z into a shoulder are reported too: from outside of what is turned before it, or so near the outside that no bore
+    /// leaves as little.
+    ///
     /// A part that was faced to its centre is solid, as far as no hole was made. A retract that goes out of the part and inwards at
     /// once is reported too where it ends under an outside surface that it passes: axes that leave together need not arrive
     /// together.
@@ -139,21 +142,14 @@ impl RapidIntoTurnedPart {
             );
         } else if let Some(cut) = turned.shoulder_crossed(from, to) {
             self.told = Some(cx.origin().at);
-            let radius = cut.ends[0][0].max(cut.ends[1][0]);
-            report.add(
-                cx.finding(&META, cx.range(), "rapid move along Z into the part, through a shoulder")
-                    .label(format!(
-                        "at X {} to Z {}, where nothing was cut",
-                        shown(cx, to[0]),
-                        cx.shown(Mm(to[1]))
-                    ))
-                    .also(cut.bytes.clone(), format!("the outside is turned to X {} here", shown(cx, radius)))
-                    .assuming("the part is not hollow there before the program starts")
-                    .help("check X and Z of the move, or make it at feed (`G1`)"),
-            );
+            let message = "rapid move along Z into the part, through a shoulder";
+            let label =
+                format!("at X {} to Z {}, where nothing was cut", shown(cx, to[0]), cx.shown(Mm(to[1])));
+            let help = "check X and Z of the move, or make it at feed (`G1`)";
+            report.add(into_part(cx, cut, message, label, help));
         } else if let Some(cut) = turned.outside_beside(from, to) {
             self.told = Some(cx.origin().at);
-            let radius = cut.ends[0][0].max(cut.ends[1][0]);
+            let radius = cut.radius();
             report.add(
                 cx.finding(&META, cx.range(), "rapid retract that goes inwards past a turned surface")
                     .label(format!("ends at X {}, nearer to the centre", shown(cx, to[0])))
@@ -172,7 +168,7 @@ fn shown(cx: &PathCx<'_>, radius: f64) -> String {
 }
 
 fn through_outside(cx: &PathCx<'_>, cut: &Cut, from: Spot, to: Spot) -> Finding {
-    let radius = cut.ends[0][0].max(cut.ends[1][0]);
+    let radius = cut.radius();
     let is_retract = is_level(from, to) && (from[0] - radius).abs() < SLACK;
     let (message, help) = if is_retract {
         (
@@ -185,9 +181,15 @@ fn through_outside(cx: &PathCx<'_>, cut: &Cut, from: Spot, to: Spot) -> Finding 
             "check X and Z of the move, or make it at feed (`G1`)",
         )
     };
+    let label = format!("to X {} at Z {}, where nothing was cut", shown(cx, to[0]), cx.shown(Mm(to[1])));
+    into_part(cx, cut, message, label, help)
+}
+
+/// A move through what a cut has turned.
+fn into_part(cx: &PathCx<'_>, cut: &Cut, message: &str, label: String, help: &str) -> Finding {
     cx.finding(&META, cx.range(), message)
-        .label(format!("to X {} at Z {}, where nothing was cut", shown(cx, to[0]), cx.shown(Mm(to[1]))))
-        .also(cut.bytes.clone(), format!("the outside is turned to X {} here", shown(cx, radius)))
+        .label(label)
+        .also(cut.bytes.clone(), format!("the outside is turned to X {} here", shown(cx, cut.radius())))
         .assuming("the part is not hollow there before the program starts")
         .help(help)
 }

@@ -161,7 +161,7 @@ mod tests {
         );
     }
 
-    /// In front of the face, where the tool is fed to it, there is no part.
+    /// The tool is fed through air to the face.
     #[test]
     fn the_way_to_the_face_is_not_a_shoulder() {
         check_rule(

@@ -1,6 +1,6 @@
 //! A spindle that is started without a speed.
 
-use gcheck_controls::{Effect, Letter};
+use gcheck_controls::{CodeIx, Letter};
 use gcheck_engine::{Abstract, At, Domain, Event, Fact, Spindle};
 use gcheck_program::Place;
 
@@ -115,17 +115,9 @@ impl PathRule for SpeedMissing {
 
 fn start_code(cx: &PathCx<'_>, at: At) -> Option<String> {
     let place = cx.place_of(at)?;
-    let is_start = |effect| {
-        matches!(
-            effect,
-            Effect::SpindleClockwise
-                | Effect::SpindleCounterClockwise
-                | Effect::SpindleClockwiseWithCoolant
-                | Effect::SpindleCounterClockwiseWithCoolant
-        )
-    };
     let words = place.table.words(place.block()).iter();
-    let code = words.map(|word| word.code).find(|code| code.is_some() && is_start(cx.model.effect(*code)))?;
+    let is_start = |code: &CodeIx| code.is_some() && cx.model.effect(*code).starts_spindle();
+    let code = words.map(|word| word.code).find(is_start)?;
     Some(cx.name_of(code))
 }
 
