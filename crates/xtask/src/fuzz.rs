@@ -215,16 +215,17 @@ fn keep(fuzzer: &Path, target: &str) -> anyhow::Result<()> {
 
 #[cfg(test)]
 mod tests {
+    use std::collections::BTreeSet;
     use std::fs;
     use std::path::PathBuf;
 
     use super::{Ran, folder, read};
     use crate::workspace;
 
-    /// The lock file of the fuzzer is its own: a crate that ours use and that is not in it fails `cargo xtask fuzz`, which no test
+    /// The lock file of the fuzzer is its own: one that does not fit what our crates use fails `cargo xtask fuzz`, which no test
     /// runs.
     #[test]
-    fn the_lock_of_the_fuzzer_knows_what_our_crates_use() {
+    fn the_lock_of_the_fuzzer_fits_what_our_crates_use() {
         let table = |path: PathBuf| fs::read_to_string(path).unwrap().parse::<toml::Table>().unwrap();
         let lock = table(folder().join("Cargo.lock"));
         let names = |table: &toml::Table, key: &str| -> Vec<String> {
@@ -245,20 +246,34 @@ mod tests {
             let name = package["name"].as_str().unwrap();
             let locked = names(package, "dependencies");
             let manifest = table(workspace::root().join("crates").join(name).join("Cargo.toml"));
-            let used = manifest.get("dependencies").and_then(|used| used.as_table()).into_iter().flatten();
+            // The workspace may call a package by another name.
+            let package = |used: &str| {
+                let called = versions.get(used).and_then(|told| told.get("package")?.as_str());
+                called.unwrap_or(used).to_owned()
+            };
             let is_optional = |told: &toml::Value| {
                 told.get("optional").is_some_and(|optional| optional.as_bool() == Some(true))
             };
-            for (used, _) in used.filter(|(_, told)| !is_optional(told)) {
-                // The workspace may call a package by another name.
-                let called =
-                    versions.get(used).and_then(|told| told.get("package")).and_then(|name| name.as_str());
-                let used = called.unwrap_or(used);
+            let mut declared = BTreeSet::new();
+            let targets = manifest.get("target").and_then(|targets| targets.as_table()).into_iter().flatten();
+            let targets = targets.filter_map(|(_, target)| target.as_table());
+            for table in targets.chain([&manifest]) {
+                let listed = ["dependencies", "build-dependencies"].map(|key| table.get(key)?.as_table());
+                for (used, told) in listed.into_iter().flatten().flatten() {
+                    let used = package(used);
+                    assert!(
+                        is_optional(told) || locked.contains(&used),
+                        "{name} uses {used}: `cargo metadata --manifest-path fuzz/Cargo.toml` locks it"
+                    );
+                    declared.insert(used);
+                    compared += 1;
+                }
+            }
+            for locked in locked {
                 assert!(
-                    locked.iter().any(|locked| locked == used),
-                    "{name} uses {used}: `cargo metadata --manifest-path fuzz/Cargo.toml` locks it"
+                    declared.contains(&locked),
+                    "{name} does not use {locked}: `cargo metadata --manifest-path fuzz/Cargo.toml` forgets it"
                 );
-                compared += 1;
             }
         }
         assert!(compared > 30, "{compared} dependencies were compared");
