@@ -334,6 +334,9 @@ pub enum Effect {
     AnalogOutput,
     ChuckClamp,
     ChuckUnclamp,
+    /// The chuck of a second spindle. The state does not follow it.
+    SecondChuckClamp,
+    SecondChuckUnclamp,
 }
 
 impl Effect {

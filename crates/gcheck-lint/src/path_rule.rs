@@ -42,6 +42,8 @@ bitflags::bitflags! {
         const COMPUTED_CODES = 1 << 13;
         /// [`PathRule::followed`].
         const FOLLOWED = 1 << 14;
+        /// [`PathRule::ended_elsewhere`].
+        const ENDS_ELSEWHERE = 1 << 15;
     }
 }
 
@@ -99,6 +101,12 @@ pub trait PathRule {
     /// The program ends.
     fn ended(&mut self, cx: &PathCx<'_>, ending: Ending, report: &mut Report<'_>) {
         let _ = (cx, ending, report);
+    }
+
+    /// The job ends in a program of another file: by its code, or at the end of that file's text. What is found belongs to the call
+    /// in this file.
+    fn ended_elsewhere(&mut self, cx: &PathCx<'_>, at_end_of_text: bool, report: &mut Report<'_>) {
+        let _ = (cx, at_end_of_text, report);
     }
 
     /// The control would stop with an alarm.

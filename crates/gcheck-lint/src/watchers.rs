@@ -73,7 +73,7 @@ pub(crate) struct Watchers<'a, 'c> {
 }
 
 /// By bit of [`Watch`]: indices of the rules that watch it.
-type Lists = [Vec<usize>; 15];
+type Lists = [Vec<usize>; Watch::all().bits().count_ones() as usize];
 
 /// How far the rules have come, beside what each remembers.
 #[derive(Debug, Clone, PartialEq)]
@@ -341,10 +341,22 @@ impl<'a, 'c> Watchers<'a, 'c> {
         watch: Watch,
         flow: &FlowCx<'_>,
         evaluated: &Evaluated,
-        mut call: impl FnMut(&mut dyn PathRule, &PathCx<'_>, &mut Report<'_>),
+        call: impl FnMut(&mut dyn PathRule, &PathCx<'_>, &mut Report<'_>),
     ) {
         // Blocks of other files are judged when those files are checked.
-        if flow.origin.at.file != 0 || !self.watches(watch) {
+        if flow.origin.at.file == 0 {
+            self.show_of_any_file(watch, flow, evaluated, call);
+        }
+    }
+
+    fn show_of_any_file(
+        &mut self,
+        watch: Watch,
+        flow: &FlowCx<'_>,
+        evaluated: &Evaluated,
+        mut call: impl FnMut(&mut dyn PathRule, &PathCx<'_>, &mut Report<'_>),
+    ) {
+        if !self.watches(watch) {
             return;
         }
         let read = self.current.take();
@@ -355,6 +367,15 @@ impl<'a, 'c> Watchers<'a, 'c> {
         self.each(watch, flow.origin.flags, &had_enough, |rule, report| call(rule, &cx, report));
         self.current = read;
         self.shared = shared;
+    }
+
+    /// Shows that the job ends in a program of another file.
+    fn show_end_elsewhere(&mut self, flow: &FlowCx<'_>, at_end_of_text: bool) {
+        if flow.origin.at.file != 0 {
+            self.show_of_any_file(Watch::ENDS_ELSEWHERE, flow, &Evaluated::default(), |rule, cx, report| {
+                rule.ended_elsewhere(cx, at_end_of_text, report);
+            });
+        }
     }
 
     /// Shows a move to those that watch one of these kinds; then what rules remember together goes on.
@@ -515,11 +536,17 @@ impl FlowObserver for Watchers<'_, '_> {
 
     fn fault(&mut self, cx: &FlowCx<'_>, fault: &Fault) {
         self.show(Watch::FAULTS, cx, |rule, cx, report| rule.fault(cx, fault, report));
+        if *fault == Fault::NoProgramEnd {
+            self.show_end_elsewhere(cx, true);
+        }
     }
 
     fn ended(&mut self, cx: &FlowCx<'_>, ending: Ending) {
         self.changed = true;
         self.show(Watch::ENDS, cx, |rule, cx, report| rule.ended(cx, ending, report));
+        if matches!(ending, Ending::Program | Ending::Tape) {
+            self.show_end_elsewhere(cx, ending == Ending::Tape);
+        }
     }
 
     fn endless(&mut self, cx: &FlowCx<'_>, head: At) {

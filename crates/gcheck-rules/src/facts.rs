@@ -51,3 +51,4 @@ pub(crate) mod units;
 pub(crate) mod usage;
 pub(crate) mod word_sets;
 pub(crate) mod work_offset;
+pub(crate) mod workholding;

@@ -1,14 +1,15 @@
-//! Calls of programs by number: which numbers a call means, and which of them are not here.
+//! Calls of programs: which numbers a call means, which of them are not here, and how a program that is called ends.
 //!
 //! Knows: packed repeats, labels in place of programs, numbers that builders reserve. Must not know: any rule, how the number
 //! is written.
 
 use std::collections::BTreeSet;
 
-use gcheck_controls::WordEntry;
+use gcheck_controls::{Effect, WordEntry};
+use gcheck_engine::At;
 use gcheck_program::{CallKind, FileIndex};
 
-use crate::Environment;
+use crate::{Environment, PathCx};
 
 /// Some controls take a number of repeats before the last four digits of the program that is called.
 const PACKED: u32 = 10_000;
@@ -62,4 +63,35 @@ fn is_reserved(number: u32) -> bool {
         head /= 10;
     }
     head >= 8000
+}
+
+/// Blocks of a program that are looked at.
+const MOST_BLOCKS: u32 = 20_000;
+
+/// How the text of a program ends, on any of its ways.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct ProgramEnds {
+    /// A block goes back to the caller.
+    pub(crate) returns: bool,
+    /// A block ends the whole job.
+    pub(crate) the_job: bool,
+}
+
+impl ProgramEnds {
+    /// Of the program, in whatever file it is, that begins with this block; `None` for one that is too long to be read again.
+    pub(crate) fn of(cx: &PathCx<'_>, entry: At) -> Option<Self> {
+        let part = cx.program.file(entry.file)?.loaded.flow_graph().part_of(entry.block);
+        if part.end.saturating_sub(part.start) > MOST_BLOCKS {
+            return None;
+        }
+        let mut ends = Self { returns: false, the_job: false };
+        for place in part.filter_map(|block| cx.place_of(At { file: entry.file, block })) {
+            let words = place.table.words(place.block()).iter();
+            for effect in words.filter(|word| word.code.is_some()).map(|word| cx.model.effect(word.code)) {
+                ends.returns |= effect == Effect::Return;
+                ends.the_job |= matches!(effect, Effect::ProgramEnd | Effect::ProgramEndWithPallet);
+            }
+        }
+        Some(ends)
+    }
 }

@@ -87,6 +87,7 @@ pub(crate) mod cycles {
     pub(crate) mod tap_moves_sideways;
     pub(crate) mod tapped_hole_not_drilled;
     pub(crate) mod tapping_feed_off_pitch;
+    pub(crate) mod thread_lead_changes;
     pub(crate) mod thread_lead_off_pitch;
     pub(crate) mod thread_numbers_contradict;
     pub(crate) mod thread_start_below_crest;
@@ -349,13 +350,16 @@ pub(crate) mod program {
 }
 
 pub(crate) mod spindle {
+    pub(crate) mod c_axis_engaged_while_turning;
     pub(crate) mod c_axis_left_engaged;
     pub(crate) mod c_axis_not_engaged;
+    pub(crate) mod chuck_left_open;
     pub(crate) mod chuck_opened_while_turning;
     pub(crate) mod drill_at_surface_speed;
     pub(crate) mod drill_turns_backwards;
     pub(crate) mod maybe_spindle_stopped_while_cutting;
     pub(crate) mod mill_turns_backwards;
+    pub(crate) mod second_chuck_out_of_step;
     pub(crate) mod speed_above_limit_of_program;
     pub(crate) mod speed_missing;
     pub(crate) mod speed_of_another_mode;
@@ -435,6 +439,7 @@ pub(crate) mod tool {
     pub(crate) mod length_offset_zero;
     pub(crate) mod length_subtracted;
     pub(crate) mod offset_words_beside_motion;
+    pub(crate) mod parts_catcher_left_out;
     pub(crate) mod tool_call_in_comment;
     pub(crate) mod tool_call_without_station;
     pub(crate) mod tool_called_not_changed;
@@ -565,6 +570,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &cycles::tap_moves_sideways::RULE,
     &cycles::tapped_hole_not_drilled::RULE,
     &cycles::tapping_feed_off_pitch::RULE,
+    &cycles::thread_lead_changes::RULE,
     &cycles::thread_lead_off_pitch::RULE,
     &cycles::thread_numbers_contradict::RULE,
     &cycles::thread_start_below_crest::RULE,
@@ -794,13 +800,16 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &program::units_comment_contradicts::RULE,
     &program::unsupported_dialect::RULE,
     &program::wrong_control_suspicion::RULE,
+    &spindle::c_axis_engaged_while_turning::RULE,
     &spindle::c_axis_left_engaged::RULE,
     &spindle::c_axis_not_engaged::RULE,
+    &spindle::chuck_left_open::RULE,
     &spindle::chuck_opened_while_turning::RULE,
     &spindle::drill_at_surface_speed::RULE,
     &spindle::drill_turns_backwards::RULE,
     &spindle::maybe_spindle_stopped_while_cutting::RULE,
     &spindle::mill_turns_backwards::RULE,
+    &spindle::second_chuck_out_of_step::RULE,
     &spindle::speed_above_limit_of_program::RULE,
     &spindle::speed_missing::RULE,
     &spindle::speed_of_another_mode::RULE,
@@ -868,6 +877,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &tool::length_offset_zero::RULE,
     &tool::length_subtracted::RULE,
     &tool::offset_words_beside_motion::RULE,
+    &tool::parts_catcher_left_out::RULE,
     &tool::tool_call_in_comment::RULE,
     &tool::tool_call_without_station::RULE,
     &tool::tool_called_not_changed::RULE,

@@ -65,10 +65,11 @@ fn a_mistake_is_found_whether_its_words_are_written_or_computed() {
     };
     let shown: String = silent.into_iter().map(line).collect();
     expect![[r#"
-        5970 words
+        6048 words
         allowance-into-contour: F G X Z
         blank-inside-number: G Y
         block-number-not-first: G
+        chuck-left-open: M
         code-must-come-first: M
         coolant-locked: M
         corner-before-rapid: G Z
@@ -96,6 +97,7 @@ fn a_mistake_is_found_whether_its_words_are_written_or_computed() {
         maybe-spindle-stopped-while-cutting: G M
         number-out-of-range: P Q
         offset-words-beside-motion: G
+        parts-catcher-left-out: M
         peck-longer-than-hole: Q
         peck-very-short: Q
         pocket-arc-below-tool: G M

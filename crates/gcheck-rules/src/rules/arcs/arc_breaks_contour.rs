@@ -155,6 +155,8 @@ enum Other {
     Before,
     /// Ended after the corner in which it ends.
     After,
+    /// With its two centre words exchanged.
+    Exchanged,
 }
 
 impl PathRule for ArcBreaksContour {
@@ -250,7 +252,7 @@ impl Forms {
             return None;
         }
         let directions = |centre: Vector, way: f64| [start, end].map(|at| tangent(at, centre, way));
-        let others = if cx.word('R').is_some() {
+        let mut others = if cx.word('R').is_some() {
             // The centre on the other side of the chord.
             let mirrored = mirror(centre, start, chord);
             vec![(Other::Way, directions(mirrored, -way)), (Other::Sign, directions(mirrored, way))]
@@ -260,6 +262,13 @@ impl Forms {
             // A path that comes back on the arc before it would be smooth the long way round.
             Vec::new()
         };
+        if cx.word('R').is_none() {
+            let exchanged = [start[0] + centre[1] - start[1], start[1] + centre[0] - start[0]];
+            let radii = [start, end].map(|at| (at[0] - exchanged[0]).hypot(at[1] - exchanged[1]));
+            if (radii[0] / radii[1] - 1.0).abs() < EQUAL {
+                others.push((Other::Exchanged, directions(exchanged, way)));
+            }
+        }
         let spokes = [Way::between(centre, start)?, Way::between(end, centre)?];
         Some(Self { own: directions(centre, way), spokes, others, chord: straight })
     }
@@ -282,6 +291,9 @@ fn tell(cx: &PathCx<'_>, pending: Option<Pending>, next: Way, report: &mut Repor
         Other::Way => ("the other way round", "check `G2` and `G3` of this arc"),
         Other::Sign => {
             ("with the other sign of `R`", "check the sign of `R`: below zero it means the longer arc")
+        }
+        Other::Exchanged => {
+            ("with its centre words exchanged", "check which of the centre words has which value")
         }
         Other::Before => {
             ("begun so far before the corner", "end the block before at the point where the rounding begins")
@@ -358,7 +370,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::testing::{World, check_rule, check_rule_in};
+    use crate::testing::{World, check_rule, check_rule_in, findings, only, words};
 
     fn program(moves: &str) -> String {
         format!("G21 G17 G90 G54 S3000 M3\nG0 X0. Y0. Z-2.\n{moves}G0 Z50.\nM30\n")
@@ -473,6 +485,33 @@ mod tests {
             &RULE,
             "fanuc-mill",
             &program("G1 X40. F300.\nG3 X50. Y10. I0. J10.\nG1 Y40.\n"),
+            &expect![[""]],
+        );
+    }
+
+    #[test]
+    fn with_the_values_of_its_centre_words_exchanged() {
+        let found = findings(
+            &only(&RULE),
+            "haas-mill",
+            &program("G1 X50. F300.\nG3 X60. Y10. I10. J0.\nG1 Y50.\n"),
+            &World::default(),
+        );
+        expect![[r#"
+            the arc breaks the contour: corners before and after it
+              here: with its centre words exchanged it goes on smoothly from the cut before, and to the one after
+              help: check which of the centre words has which value
+        "#]]
+        .assert_eq(&found.iter().map(words).collect::<String>());
+        for arc in ["G3 X60. Y10. I0. J10.", "G3 X60. Y10. J10."] {
+            let right = program(&format!("G1 X50. F300.\n{arc}\nG1 Y50.\n"));
+            check_rule(&RULE, "haas-mill", &right, &expect![[""]]);
+        }
+        // A half round notch across the way has corners both ways.
+        check_rule(
+            &RULE,
+            "haas-mill",
+            &program("G1 X50. F300.\nG3 X70. Y0. I10. J0.\nG1 X90.\n"),
             &expect![[""]],
         );
     }

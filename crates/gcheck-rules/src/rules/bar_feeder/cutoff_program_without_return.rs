@@ -1,11 +1,11 @@
 //! A cutoff program in another file that does not return to the bar feed.
 
 use gcheck_controls::Effect;
-use gcheck_engine::At;
 
 use crate::declare::declare_rule;
 use crate::facts::bar_feed::bar_feeder;
 use crate::facts::offset_schemes::whole;
+use crate::facts::program_calls::ProgramEnds;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
 declare_rule! {
@@ -46,9 +46,6 @@ declare_rule! {
 
 struct CutoffProgramWithoutReturn;
 
-/// Blocks of a program that are looked at.
-const MOST_BLOCKS: u32 = 20_000;
-
 impl PathRule for CutoffProgramWithoutReturn {
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
         if bar_feeder(cx).is_none() || !cx.has_effect(|effect| effect == Effect::BarFeed) {
@@ -60,27 +57,10 @@ impl PathRule for CutoffProgramWithoutReturn {
             return;
         }
         let Some(file) = cx.program.file(entry.file) else { return };
-        let part = file.loaded.flow_graph().part_of(entry.block);
-        if part.end.saturating_sub(part.start) > MOST_BLOCKS {
-            return;
-        }
-        let has = |is: &dyn Fn(Effect) -> bool| {
-            part.clone().any(|block| {
-                let Some(place) = cx.place_of(At { file: entry.file, block }) else { return false };
-                place
-                    .table
-                    .words(place.block())
-                    .iter()
-                    .any(|word| word.code.is_some() && is(cx.model.effect(word.code)))
-            })
-        };
-        if has(&|effect| effect == Effect::Return) {
-            return;
-        }
-        let ends = has(&|effect| matches!(effect, Effect::ProgramEnd | Effect::ProgramEndWithPallet));
+        let Some(ends) = ProgramEnds::of(cx, entry).filter(|ends| !ends.returns) else { return };
         report.add(
             cx.finding(&META, cx.letter_range('P'), "cutoff program has no return (`M99`)")
-                .label(if ends { "ends the whole job" } else { "runs to the end of its text" })
+                .label(if ends.the_job { "ends the whole job" } else { "runs to the end of its text" })
                 .note(format!("the program is in `{}`", file.name))
                 .help("end the cutoff program with `M99`"),
         );

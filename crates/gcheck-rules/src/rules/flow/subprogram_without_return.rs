@@ -1,13 +1,15 @@
 //! A called program that does not return.
 
-use gcheck_controls::Ends;
+use gcheck_controls::{Effect, Ends};
 use gcheck_engine::{At, Ending, Fault, FrameKind};
 
 use crate::declare::declare_rule;
-use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
+use crate::facts::program_calls::ProgramEnds;
+use crate::{Finding, PathCx, PathRule, Report, Run, Severity, Watch};
 
 declare_rule! {
-    /// A program that is called has no return (`M99`): it ends with `M30`, or runs to the end of the text.
+    /// A program that is called has no return (`M99`): it ends with `M30`, or runs to the end of the text. Where it is in another
+    /// file, the call is marked.
     ///
     /// ## Why it matters
     /// The calling program never finishes: `M30` in the subprogram ends the whole job, and at the end of the text the
@@ -44,7 +46,7 @@ declare_rule! {
         tier: Path,
         since: "0.1.0",
         run: Run::Path {
-            watch: Watch::ENDS.union(Watch::FAULTS),
+            watch: Watch::ENDS.union(Watch::FAULTS).union(Watch::ENDS_ELSEWHERE),
             make: || Box::new(SubprogramWithoutReturn),
         },
     }
@@ -66,6 +68,38 @@ impl PathRule for SubprogramWithoutReturn {
         if *fault == Fault::NoProgramEnd {
             check(cx, true, report);
         }
+    }
+
+    fn ended_elsewhere(&mut self, cx: &PathCx<'_>, at_end_of_text: bool, report: &mut Report<'_>) {
+        let Some(frame) = cx.state().frames().last() else { return };
+        let is_program = matches!(frame.kind, FrameKind::Subprogram | FrameKind::Macro);
+        let (Some(file), Some(call)) = (cx.program.file(frame.entry.file), cx.range_of(frame.caller)) else {
+            return;
+        };
+        // A bar feed has a rule of its own for its cutoff program.
+        let is_bar_feed = cx.find_word(frame.caller, |word| cx.model.effect(word.code) == Effect::BarFeed);
+        // If the called program has a return anywhere, this end is one of several.
+        if !is_program
+            || is_bar_feed.is_some()
+            || ProgramEnds::of(cx, frame.entry).is_none_or(|ends| ends.returns)
+        {
+            return;
+        }
+        let (message, label) = if at_end_of_text {
+            ("the program called here has no return (`M99`)", "runs to the end of its text")
+        } else {
+            (
+                "the program called here ends the whole job: no return (`M99`)",
+                "does not come back to this program",
+            )
+        };
+        report.add(
+            Finding::new(&META, call, message)
+                .label(label)
+                .note(format!("the program is in `{}`", file.name))
+                .help("end the called program with `M99`")
+                .at_most(Severity::Warning),
+        );
     }
 }
 
@@ -129,10 +163,68 @@ fn check(cx: &PathCx<'_>, at_end_of_text: bool, report: &mut Report<'_>) {
 
 #[cfg(test)]
 mod tests {
-    use expect_test::expect;
+    use std::rc::Rc;
+
+    use expect_test::{Expect, expect};
+    use gcheck_engine::SourceFile;
 
     use super::RULE;
-    use crate::testing::check_rule;
+    use crate::Programs;
+    use crate::testing::{World, check_rule, check_rule_in};
+
+    /// Program 2, in a file of its own.
+    struct Beside(&'static str);
+
+    impl Programs for Beside {
+        fn has_number(&self, number: u32) -> bool {
+            number == 2
+        }
+
+        fn has_name(&self, _: &str) -> bool {
+            false
+        }
+
+        fn source_of_number(&self, number: u32) -> Option<SourceFile> {
+            self.has_number(number)
+                .then(|| SourceFile { name: Rc::from("O0002.nc"), text: self.0.to_owned() })
+        }
+    }
+
+    fn check_beside(program: &str, beside: &'static str, expected: &Expect) {
+        let world = World { programs: &Beside(beside), ..World::default() };
+        check_rule_in(&RULE, "fanuc-mill", program, &world, expected);
+    }
+
+    #[test]
+    fn in_another_file_the_call_is_marked() {
+        let main = "O1\nM98 P2\nG0 X0.\nM30\n";
+        check_beside(
+            main,
+            "O2\nG0 X1.\nM30\n",
+            &expect![[r#"
+                2 | M98 P2
+                  | ^^^^^^ warning[subprogram-without-return] the program called here ends the whole job: no return (`M99`)
+            "#]],
+        );
+        check_beside(
+            "O1\nG65 P2 A1.\nM30\n",
+            "O2\nG0 X#1\n",
+            &expect![[r#"
+                2 | G65 P2 A1.
+                  | ^^^^^^^^^^ warning[subprogram-without-return] the program called here has no return (`M99`)
+            "#]],
+        );
+        check_beside(
+            "O1\nIF [#500 EQ 1] GOTO 10\nM98 P2\nN10 M30\n",
+            "O2\nG0 X1.\nM30\n",
+            &expect![[r#"
+                3 | M98 P2
+                  | ^^^^^^ warning[subprogram-without-return] the program called here ends the whole job: no return (`M99`)
+            "#]],
+        );
+        check_beside(main, "O2\nIF [#500 GT 10] GOTO 90\nM99\nN90 M30\n", &expect![[""]]);
+        check_beside(main, "O2\nG0 X1.\nM99\n", &expect![[""]]);
+    }
 
     #[test]
     fn the_end_is_marked() {

@@ -1,6 +1,6 @@
 //! One code written twice in a block.
 
-use gcheck_controls::{Code, Handling};
+use gcheck_controls::{Code, Effect, Handling};
 use gcheck_program::{BlockFlags, Word};
 
 use crate::declare::declare_rule;
@@ -59,8 +59,9 @@ fn finding(cx: &BlockCx<'_>, code: Code<'_>, first: &Word, second: &Word) -> Fin
     } else {
         finding.at_most(Severity::Hint)
     };
-    // A mode that is already set does not change.
-    if code.group().modal && code.group().exclusive {
+    // A mode that is already set does not change. Stops have a group of their own and are not modes: two may be meant as two.
+    let is_stop = matches!(code.effect(), Effect::Stop | Effect::OptionalStop | Effect::PalletStop);
+    if code.group().modal && code.group().exclusive && !is_stop {
         finding.fix(Fix::safe(format!("remove the second `{text}`"), cx.with_blanks(second), ""))
     } else {
         finding
@@ -111,5 +112,8 @@ mod tests {
         "#]]
         .assert_eq(&fixed(program, &found[0]));
         assert!(words(&found[0]).contains("help: remove one `G90`"));
+        // The machine may stop twice.
+        let found = findings(&only(&RULE), "linuxcnc", "M0M0\n", &World::default());
+        assert!(found[0].fixes.is_empty(), "{}", words(&found[0]));
     }
 }

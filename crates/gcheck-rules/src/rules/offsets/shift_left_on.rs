@@ -169,7 +169,11 @@ impl ShiftLeftOn {
             )
             .label("what runs next may begin with it")
             .help(help)
-            .at_most(if is_set_position && !by_steps { Severity::Info } else { Severity::Warning });
+            .at_most(if is_set_position && !by_steps && axes.is_empty() {
+                Severity::Info
+            } else {
+                Severity::Warning
+            });
         let finding = match cleared {
             Some(_) => finding,
             None => {
@@ -232,11 +236,21 @@ mod tests {
             "linuxcnc",
             "G21 G54 G0 X0\nG92 X5\nG1 X0 F100\nM2\n",
             &expect![[r#"
+                4 | M2
+                  | ^^ warning[shift-left-on] the shift is still on at the end of the program (`G92`)
+            "#]],
+        );
+        check_rule(&RULE, "linuxcnc", "G21 G54 G0 X0\nG92 X5\nG1 X0 F100\nG92.1\nM2\n", &expect![[""]]);
+        // Where the tool was is not known, so the shift is not.
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "G21 G54\nG92 X5\nG1 X0 F100\nM2\n",
+            &expect![[r#"
             4 | M2
               | ^^ info[shift-left-on] the shift is still on at the end of the program (`G92`)
         "#]],
         );
-        check_rule(&RULE, "linuxcnc", "G21 G54 G0 X0\nG92 X5\nG1 X0 F100\nG92.1\nM2\n", &expect![[""]]);
     }
 
     #[test]

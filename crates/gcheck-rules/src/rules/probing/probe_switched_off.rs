@@ -1,14 +1,15 @@
 //! A probing move after the program switched the probe off.
 
-use gcheck_controls::{Effect, Letter};
-use gcheck_engine::Event;
+use gcheck_controls::{Code, Effect};
+use gcheck_engine::{At, Event};
+use gcheck_program::Word;
 
 use crate::declare::declare_rule;
 use crate::facts::probing::{is_probing_move, is_touch};
-use crate::{PathCx, PathRule, Report, Run, Uses, Watch, limit};
+use crate::{PathCx, PathRule, Remembers, Report, Run, Uses, Watch, limit, remembers};
 
 declare_rule! {
-    /// The program switches the probe off, and probes later.
+    /// The program switches the probe off, and probes later; or it probes and switches the probe off, and has never switched it on.
     ///
     /// ## Why it matters
     /// One output switches the probe in the spindle and the one on the table. A probe that is off does not answer. The move goes on to its end point, and drives the stylus into the part.
@@ -35,42 +36,100 @@ declare_rule! {
         severity: Warning,
         tier: Path,
         since: "0.1.0",
-        run: Run::Path { watch: Watch::CUTS, make: || Box::new(ProbeSwitchedOff) },
+        run: Run::Path {
+            watch: Watch::CUTS.union(Watch::BLOCKS).union(Watch::CHANGES),
+            make: || Box::new(ProbeSwitchedOff::default()),
+        },
     }
 }
 
-struct ProbeSwitchedOff;
+#[derive(Default, Clone, PartialEq)]
+struct ProbeSwitchedOff {
+    /// The first probing move, if nothing has switched the probe before it.
+    probed: Option<At>,
+    /// The program, or a code that may do anything, has switched the probe.
+    is_switched: bool,
+}
+
+remembers!(ProbeSwitchedOff: probed);
 
 impl PathRule for ProbeSwitchedOff {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn concerns(&self, program: &Uses<'_>) -> bool {
         program.may(|effect| effect == Effect::OutputOff)
     }
 
+    fn block(&mut self, cx: &PathCx<'_>, _: &mut Report<'_>) {
+        let switches = |effect| matches!(effect, Effect::OutputOn | Effect::OutputOnWithMove);
+        self.is_switched |= cx.has_effect(switches) && cx.known_number('P').is_none()
+            || cx.codes().iter().filter_map(|ix| cx.code_of(*ix)).any(Code::is_user)
+            || !cx.is_certain();
+    }
+
+    fn changed(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
+        let Event::Output { index, value, .. } = event else { return };
+        let Some(switch) = Switch::of(cx).filter(|switch| switch.output == *index) else { return };
+        let probed = self.probed.take().filter(|_| *value == 0.0 && !self.is_switched && cx.is_certain());
+        self.is_switched = true;
+        let Some(at) = probed else { return };
+        let by = |word: &Word| word.code.is_some() && is_touch(cx.model.effect(word.code));
+        let Some(range) = cx.find_word(at, by).or_else(|| cx.range_of(at)) else { return };
+        report.add(
+            cx.finding(&META, range, "probing before the probe is switched on")
+                .label("the probe does not answer: the move goes on to its end point")
+                .also(cx.range(), "the program only switches it off, here")
+                .assuming("the probe is off when the program begins")
+                .help(switch.help()),
+        );
+    }
+
     fn cut(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
-        let semantics = cx.model.semantics();
-        let (Some(first), Some(outputs)) = (semantics.output_variables, semantics.probe_outputs) else {
-            return;
-        };
-        if !is_probing_move(event) {
-            return;
-        }
-        let output = outputs.on;
-        if cx.known_variable(first.saturating_add(output)) != Some(0.0) {
+        let Some(switch) = Switch::of(cx).filter(|_| is_probing_move(event)) else { return };
+        if cx.known_variable(switch.variable) != Some(0.0) {
+            if !self.is_switched && self.probed.is_none() {
+                self.probed = Some(cx.origin().at);
+            }
             return;
         }
-        let by = |effect: Effect| cx.control().codes().find(|code| code.effect() == effect);
-        let (Some(off), Some(on)) = (by(Effect::OutputOff), by(Effect::OutputOn)) else { return };
-        let (entry, letter) = (off.entry(), Letter::of('P'));
+        let Some(off) = cx.control().codes().find(|code| code.effect() == Effect::OutputOff) else { return };
+        let entry = off.entry();
         report.add(
             cx.finding(&META, cx.effect_range(is_touch), "probing with the probe switched off")
                 .label("the probe does not answer: the move goes on to its end point")
                 .note(format!(
-                    "`{} {letter}{output}` ({}) switched it off  [{}]",
-                    entry.code, entry.title, entry.source
+                    "`{} P{}` ({}) switched it off  [{}]",
+                    entry.code, switch.output, entry.title, entry.source
                 ))
-                .help(format!("switch it on before this move: `{} {letter}{output}`", on.entry().code))
+                .help(switch.help())
                 .at_most(limit(entry.confidence)),
         );
+    }
+}
+
+/// The output that switches the probe.
+struct Switch<'c> {
+    output: u32,
+    /// The variable that has its state.
+    variable: u32,
+    on: Code<'c>,
+}
+
+impl<'c> Switch<'c> {
+    fn of(cx: &'c PathCx<'_>) -> Option<Self> {
+        let semantics = cx.model.semantics();
+        let output = semantics.probe_outputs.as_ref()?.on;
+        let variable = semantics.output_variables?.saturating_add(output);
+        // Another code of this effect sends a pulse alone, and nothing ends it.
+        let stays = |code: &Code<'_>| !code.entry().cancelled_by.is_empty();
+        let on = cx.control().codes().find(|code| code.effect() == Effect::OutputOn && stays(code))?;
+        Some(Self { output, variable, on })
+    }
+
+    fn help(&self) -> String {
+        format!("switch it on before this move: `{} P{}`", self.on.entry().code, self.output)
     }
 }
 
@@ -79,7 +138,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::testing::check_rule;
+    use crate::testing::{World, check_rule, findings, only, words};
 
     #[test]
     fn the_probe_may_be_on_by_other_means() {
@@ -94,6 +153,25 @@ mod tests {
         ] {
             let program = format!("G90 G54 G0 X0. Y0.\n{before}G31 Z-0.2 F10.\nM30\n");
             check_rule(&RULE, "haas-mill", &program, &expect![[""]]);
+        }
+    }
+
+    #[test]
+    fn it_has_to_be_switched_on_first() {
+        let program = |before: &str| {
+            format!("G90 G54 G0 X0. Y0.\n{before}G31 Z-0.2 F10.\nG31 Z-0.3 F5.\nM69 P1134\nM30\n")
+        };
+        let found = findings(&only(&RULE), "haas-mill", &program(""), &World::default());
+        expect![[r#"
+            probing before the probe is switched on
+              here: the probe does not answer: the move goes on to its end point
+              there: the program only switches it off, here
+              assuming: the probe is off when the program begins
+              help: switch it on before this move: `M59 P1134`
+        "#]]
+        .assert_eq(&found.iter().map(words).collect::<String>());
+        for before in ["M59 P1134\n", "M59 P#100\n", "G65 P9832\n", "M69 P1134\nM59 P1134\n"] {
+            check_rule(&RULE, "haas-mill", &program(before), &expect![[""]]);
         }
     }
 

@@ -1,11 +1,11 @@
 //! A chuck that opens while the spindle turns.
 
-use gcheck_controls::{Code, Confidence, Effect};
+use gcheck_controls::{Code, Effect};
 use gcheck_engine::{Event, Fact, Spindle};
 
 use crate::declare::declare_rule;
 use crate::facts::second_spindle::has_second_spindle;
-use crate::facts::tool_comment::comments_in;
+use crate::facts::workholding::{is_builders, names_something_else, opens};
 use crate::{PathCx, PathRule, Remembers, Report, Run, Severity, Uses, Watch, remembers};
 
 declare_rule! {
@@ -81,7 +81,7 @@ impl PathRule for ChuckOpenedWhileTurning {
         let code = codes.iter().copied().find(|ix| opens(cx.model.effect(*ix)));
         let Some(code) = code.and_then(|ix| cx.code_of(ix)) else { return };
         let is_sure = !is_builders(code);
-        if !is_sure && names_something_else(cx) {
+        if !is_sure && names_something_else(cx, cx.origin().at) {
             return;
         }
         let name = code.number().to_string();
@@ -103,47 +103,10 @@ impl PathRule for ChuckOpenedWhileTurning {
     }
 }
 
-fn opens(effect: Effect) -> bool {
-    effect == Effect::ChuckUnclamp
-}
-
 /// The block may stop the spindle first, or its effect is unknown.
 fn stops_in_block(cx: &PathCx<'_>) -> bool {
     cx.has_effect(|effect| matches!(effect, Effect::SpindleStop | Effect::BarFeed))
         || cx.codes().iter().filter_map(|ix| cx.code_of(*ix)).any(Code::is_user)
-}
-
-/// Does the machine builder decide what the code does?
-fn is_builders(code: Code<'_>) -> bool {
-    code.entry().group == "m-user" || code.entry().confidence == Confidence::Assumed
-}
-
-/// Does a comment of the block say that its code moves something else than the chuck?
-fn names_something_else(cx: &PathCx<'_>) -> bool {
-    const OTHERS: [&str; 18] = [
-        "CATCHER",
-        "CATCH",
-        "TRAY",
-        "CONVEYOR",
-        "TAILSTOCK",
-        "QUILL",
-        "CENTER",
-        "CENTRE",
-        "STEADY",
-        "REST",
-        "BRAKE",
-        "AXIS",
-        "DOOR",
-        "AIR",
-        "PROBE",
-        "ARM",
-        "SETTER",
-        "TURRET",
-    ];
-    comments_in(cx, cx.origin().at).is_some_and(|comment| {
-        let comment = comment.to_ascii_uppercase();
-        comment.split(|c: char| !c.is_ascii_alphanumeric()).any(|word| OTHERS.contains(&word))
-    })
 }
 
 #[cfg(test)]

@@ -1,0 +1,64 @@
+//! What holds the part of a lathe: which codes open the chuck, and how sure that is.
+//!
+//! Knows: effects for the main chuck, modal groups of the devices around the part, words of comments that name other devices. Must not
+//! know: any rule, where the part is.
+
+use gcheck_controls::{Code, Confidence, Effect};
+use gcheck_engine::At;
+
+use crate::PathCx;
+use crate::facts::tool_comment::comments_in;
+
+/// Does the code open the main chuck?
+pub(crate) fn opens(effect: Effect) -> bool {
+    effect == Effect::ChuckUnclamp
+}
+
+/// What a block does to a device that a modal group of two codes moves.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Moved {
+    /// The code that another one ends: out, up, on.
+    Out,
+    /// The code that ends it.
+    Back,
+}
+
+/// What the block does to the device of the modal group.
+pub(crate) fn moved(cx: &PathCx<'_>, group: &str) -> Option<Moved> {
+    let codes = cx.codes();
+    let own = codes.iter().rev().filter_map(|ix| cx.code_of(*ix)).find(|code| code.entry().group == group)?;
+    Some(if own.entry().cancelled_by.is_empty() { Moved::Back } else { Moved::Out })
+}
+
+/// Does the machine builder decide what the code does?
+pub(crate) fn is_builders(code: Code<'_>) -> bool {
+    code.entry().group == "m-user" || code.entry().confidence == Confidence::Assumed
+}
+
+/// Does a comment of the block say that its code moves something else than the chuck?
+pub(crate) fn names_something_else(cx: &PathCx<'_>, at: At) -> bool {
+    const OTHERS: [&str; 18] = [
+        "CATCHER",
+        "CATCH",
+        "TRAY",
+        "CONVEYOR",
+        "TAILSTOCK",
+        "QUILL",
+        "CENTER",
+        "CENTRE",
+        "STEADY",
+        "REST",
+        "BRAKE",
+        "AXIS",
+        "DOOR",
+        "AIR",
+        "PROBE",
+        "ARM",
+        "SETTER",
+        "TURRET",
+    ];
+    comments_in(cx, at).is_some_and(|comment| {
+        let comment = comment.to_ascii_uppercase();
+        comment.split(|c: char| !c.is_ascii_alphanumeric()).any(|word| OTHERS.contains(&word))
+    })
+}
