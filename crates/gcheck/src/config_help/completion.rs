@@ -2,6 +2,7 @@
 //!
 //! Knows: how keys and values are written. Must not know: any key.
 
+use std::collections::BTreeSet;
 use std::ops::Range;
 
 use super::open_keys::{Name, control_at, names};
@@ -69,9 +70,8 @@ impl<'a> Asked<'a> {
     fn keys(&self, table: &[Step], form: Form, typed: Option<&KeyPlace>) -> Vec<Offer> {
         let Some(shape) = Shape::at(table) else { return Vec::new() };
         let range = typed.map_or(self.offset..self.offset, |key| key.range.clone());
-        let is_there = |name: &str| {
-            self.outline.keys_of(table).any(|(known, place)| known == name && place.range != range)
-        };
+        let others = self.outline.keys_of(table).filter(|(_, place)| place.range != range);
+        let there: BTreeSet<&str> = others.map(|(name, _)| name).collect();
         let control = control_at(self.outline, self.text, table);
         let open = names(table, control.as_deref()).into_iter();
         let open = open.filter_map(|name| shape.value_of(&name.name).map(|value| (name, value)));
@@ -89,7 +89,7 @@ impl<'a> Asked<'a> {
                 Form::ListHeader => value.kind() == Kind::ListOfTables,
                 Form::Plain => true,
             };
-            if !fits || !is_again && is_there(&name) {
+            if !fits || !is_again && there.contains(name.as_str()) {
                 continue;
             }
             let (text, snippet) = self.key_written(&name, &value, form, &range, is_at_top);
@@ -210,6 +210,9 @@ struct Gap {
 
 #[cfg(test)]
 mod tests {
+    use std::fmt::Write as _;
+    use std::time::{Duration, Instant};
+
     use super::{Offer, completion};
 
     fn offers(text: &str) -> Vec<Offer> {
@@ -334,6 +337,20 @@ mod tests {
         ] {
             assert_eq!(labels(text), [] as [&str; 0], "{text}");
         }
+    }
+
+    #[test]
+    fn a_large_configuration_is_answered_soon() {
+        let mut text = "control = \"haas-mill\"\n[tools]\n".to_owned();
+        for number in 1..5_000 {
+            let _ = writeln!(text, "{number} = {{ length = 80.0, diameter = 10.0, offset = {{ X = 1.0 }} }}");
+        }
+        text.push_str("[rules]\n");
+        let start = Instant::now();
+        assert!(completion(&text, text.len()).len() > 100);
+        assert!(crate::config_help::hover(&text, text.len() - 3).is_some());
+        let most = Duration::from_millis(if cfg!(debug_assertions) { 2_000 } else { 200 });
+        assert!(start.elapsed() < most, "{:?}", start.elapsed());
     }
 
     #[test]
