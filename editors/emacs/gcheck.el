@@ -40,8 +40,17 @@
 (add-to-list 'auto-mode-alist
              '("\\.\\(nc\\|ngc\\|cnc\\|tap\\|eia\\|ncf\\|gcode\\|iso\\|din\\|prg\\|mpf\\|spf\\|min\\)\\'\\|/O[0-9]\\{4,5\\}\\'" . gcode-mode))
 
+;;;###autoload
+(define-derived-mode gcheck-toml-mode conf-toml-mode "gcheck.toml"
+  "Major mode for the configuration of gcheck, a file in TOML.")
+
+;;;###autoload
+(add-to-list 'auto-mode-alist '("/\\.?gcheck\\.toml\\'" . gcheck-toml-mode))
+
 (with-eval-after-load 'eglot
-  (add-to-list 'eglot-server-programs (cons 'gcode-mode gcheck-command)))
+  ;; Files in TOML that are not of gcheck keep the server that they have.
+  (add-to-list 'eglot-server-programs
+               (cons '(gcode-mode (gcheck-toml-mode :language-id "toml")) gcheck-command)))
 
 (provide 'gcheck)
 ;;; gcheck.el ends here

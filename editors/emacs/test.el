@@ -32,4 +32,20 @@
       (error "The finding is on line %s" (line-number-at-pos (flymake-diagnostic-beg found))))
     (message "ok a finding appears: %s" (flymake-diagnostic-text found)))
   (eglot-shutdown (eglot-current-server)))
+
+(with-temp-file "gcheck.toml"
+  (insert "control = \"haas-mill\"\n[machine]\nunits = \"inches\"\n"))
+(with-current-buffer (find-file-noselect "gcheck.toml")
+  (unless (eq major-mode 'gcheck-toml-mode) (error "gcheck.toml is %s" major-mode))
+  (apply #'eglot (eglot--guess-contact))
+  (flymake-mode 1)
+  (let ((found (until "the finding in gcheck.toml"
+                      (lambda ()
+                        (flymake-start)
+                        (seq-find (lambda (one) (string-match-p "unknown value" (flymake-diagnostic-text one)))
+                                  (flymake-diagnostics))))))
+    (unless (= 3 (line-number-at-pos (flymake-diagnostic-beg found)))
+      (error "The finding is on line %s" (line-number-at-pos (flymake-diagnostic-beg found))))
+    (message "ok a finding appears in gcheck.toml: %s" (flymake-diagnostic-text found)))
+  (eglot-shutdown (eglot-current-server)))
 (message "all tests passed")

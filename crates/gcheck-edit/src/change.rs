@@ -46,6 +46,21 @@ impl Amount {
     /// Nothing, in any unit.
     pub const ZERO: Self = Self { number: 0.0, units: None };
 
+    /// A length as people write it: `10`, `-2.5mm`, `0.5in`.
+    ///
+    /// # Errors
+    /// How a length is to be written.
+    pub fn parse(text: &str) -> Result<Self, String> {
+        let text = text.trim();
+        let units = [("mm", Units::Mm), ("inch", Units::Inch), ("in", Units::Inch)];
+        let with_unit = units.into_iter().find_map(|(name, unit)| Some((text.strip_suffix(name)?, unit)));
+        let (number, units) = with_unit.map_or((text, None), |(number, unit)| (number, Some(unit)));
+        match number.trim().parse::<f64>() {
+            Ok(number) if number.is_finite() => Ok(Self { number, units }),
+            _ => Err("write a length such as 10, -2.5, 10mm or 0.5in".to_owned()),
+        }
+    }
+
     /// A number in the unit of the program.
     pub const fn in_program(number: f64) -> Self {
         Self { number, units: None }

@@ -16,7 +16,7 @@ use std::ops::Range;
 use gcheck_db::{Analysis, Cancelled, Database, DocumentId};
 
 pub use action::{ActionKind, CodeAction};
-pub use proved::{Proved, ProvedChange, proved, proved_change_at, proved_changes};
+pub use proved::{PathChange, Proved, ProvedChange, proved, proved_change_at, proved_changes, whole_lines};
 
 /// Bytes of a file for which changes of the whole file are offered at every place; of a larger one only when all of it is
 /// selected, because editors ask at every move of the cursor.

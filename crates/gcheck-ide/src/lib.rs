@@ -18,6 +18,7 @@ mod caller;
 mod code_actions;
 mod code_lens;
 mod completion;
+mod configured;
 mod definition;
 mod describe;
 mod diagnostics;
@@ -56,12 +57,14 @@ mod workspace_symbols;
 pub use call_hierarchy::{CallItem, Incoming, Outgoing, call_items, incoming_calls, outgoing_calls};
 pub use caller::{Caller, caller};
 pub use code_actions::{
-    ActionKind, CodeAction, Proved, ProvedChange, code_actions, proved, proved_change_at, proved_changes,
+    ActionKind, CodeAction, PathChange, Proved, ProvedChange, code_actions, proved, proved_change_at,
+    proved_changes, whole_lines,
 };
 pub use code_lens::{CodeLens, RunStatistics, SectionStatistics, code_lenses, run_statistics};
 pub use completion::{
     Completion, CompletionKind, TRIGGERS as COMPLETION_TRIGGERS, completion, completion_details,
 };
+pub use configured::{Configured, configured_at};
 pub use definition::{Target, definition};
 pub use diagnostics::{
     Diagnostic, Diagnostics, MAX_DIAGNOSTICS, Omitted, Related, diagnostics, unreachable_ranges,

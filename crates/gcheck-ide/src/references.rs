@@ -6,6 +6,7 @@ use std::ops::Range;
 
 use gcheck_db::DocumentId;
 
+use crate::configured::configured_words;
 use crate::symbols::{Occurrence, ReferenceKind, occurrences, returned_to, symbol_at};
 use crate::tool_words::{tool_word_at, tool_words};
 use crate::{Place, Workspace};
@@ -40,6 +41,11 @@ pub fn references(
         let words = tool_words(&file.snapshot, word.letter, word.number).into_iter();
         let place = |range| Place { file: document, range };
         return words.map(|word| Reference { place: place(word.range), kind: ReferenceKind::Read }).collect();
+    }
+    if named.is_empty() {
+        let words = configured_words(&file.snapshot, offset).into_iter();
+        let place = |range| Place { file: document, range };
+        return words.map(|range| Reference { place: place(range), kind: ReferenceKind::Read }).collect();
     }
     let all = named.iter().flat_map(|(owner, named)| occurrences(workspace, *owner, &named.symbol));
     let mut seen: Vec<(DocumentId, Range<u32>)> = Vec::new();
@@ -95,6 +101,27 @@ mod tests {
             6: H3
         "#]],
         );
+    }
+
+    #[test]
+    fn work_offsets_within_the_program() {
+        check(
+            "haas-mill",
+            "O1\nG5$04 X1.\nG55\nG90 G54\nG154 P1\nM30\n",
+            &expect![[r#"
+                2: G54
+                4: G54
+            "#]],
+        );
+        check(
+            "haas-mill",
+            "O1\nG154 P1\nG154 P2\nG1$054 P1\nM30\n",
+            &expect![[r#"
+                2: G154
+                4: G154
+            "#]],
+        );
+        check("haas-mill", "O1\nG$00 X1.\nG0 X2.\nM30\n", &expect![[""]]);
     }
 
     #[test]

@@ -47,6 +47,8 @@ pub(crate) struct Abilities {
     pub(crate) folds_lines_only: bool,
     /// Its command that shows all about a code: `experimental.gcheck.explainCommand`.
     pub(crate) explain_command: Option<String>,
+    /// Its command that asks for the figures of a change: `experimental.gcheck.changeCommand`.
+    pub(crate) change_command: Option<String>,
 }
 
 impl Abilities {
@@ -64,6 +66,7 @@ impl Abilities {
         let item = completion.completion_item.unwrap_or_default();
         let common = completion.completion_list.and_then(|list| list.item_defaults).unwrap_or_default();
         let is_common = |name: &str| common.iter().any(|known| known == name);
+        let named = |name: &str| own.and_then(|own| own.get(name)?.as_str()).map(str::to_owned);
         let hover = text.hover.and_then(|hover| hover.content_format);
         Self {
             encoding: Encoding::choose(encodings),
@@ -100,10 +103,8 @@ impl Abilities {
             }),
             versioned_edits: is(workspace.workspace_edit.and_then(|edit| edit.document_changes)),
             shows_documents: window.show_document.is_some_and(|show| show.support),
-            explain_command: own
-                .and_then(|own| own.get("explainCommand"))
-                .and_then(Value::as_str)
-                .map(str::to_owned),
+            explain_command: named("explainCommand"),
+            change_command: named("changeCommand"),
             folds_lines_only: is(text.folding_range.and_then(|folding| folding.line_folding_only)),
         }
     }

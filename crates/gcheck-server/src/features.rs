@@ -5,6 +5,7 @@
 mod changing;
 mod commands;
 mod completing;
+mod configuring;
 mod looking;
 mod navigating;
 mod own;
@@ -38,18 +39,15 @@ fn given_up(_: Cancelled) -> Error {
 }
 
 impl Owner {
-    /// The document and the byte that a request is about.
-    fn place(&mut self, params: &TextDocumentPositionParams) -> Result<(gcheck_db::DocumentId, u32)> {
+    /// The program and the byte that a request is about; `None` for a configuration, of which most requests have nothing to say.
+    fn place(&mut self, params: &TextDocumentPositionParams) -> Result<Option<(gcheck_db::DocumentId, u32)>> {
         let uri = &params.text_document.uri;
         self.choose_settings(uri);
         self.look_ahead(uri, &|| false);
         let snapshot = self.snapshot(uri)?;
         let offset = self.places(&snapshot).offset(params.position);
         let document = self.document(uri)?;
-        if !document.is_program {
-            return Err(refused(format!("{} is a configuration, not a program", document.name())));
-        }
-        Ok((document.id, offset))
+        Ok(document.is_program.then_some((document.id, offset)))
     }
 
     /// Answers on another thread where a document is large. What an edit has made stale meanwhile is not sent.

@@ -319,7 +319,8 @@ impl LanguageServer for Handlers {
     }
 
     async fn execute_command(&self, params: ExecuteCommandParams) -> Result<Option<LSPAny>> {
-        self.quick("workspace/executeCommand", move |owner, _| owner.execute_command(params)).await
+        let work = move |owner: &mut crate::owner::Owner, reply| owner.execute_command(params, reply);
+        self.mailbox.ask("workspace/executeCommand", work).await
     }
 }
 

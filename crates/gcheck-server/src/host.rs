@@ -2,10 +2,13 @@
 //!
 //! Knows: what the server needs to be told. Must not know: files, folders, forms of configuration.
 
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use gcheck_controls::Control;
 use gcheck_db::Settings;
+use gcheck_ide::Configured;
 use gcheck_lint::RuleTable;
 
 use crate::ProgramText;
@@ -20,6 +23,31 @@ pub trait Host: Send + Sync + 'static {
     fn configuration_problems(&self, path: &Path, text: &str) -> Option<Vec<ConfigurationProblem>> {
         let _ = (path, text);
         None
+    }
+
+    /// What is told of a place in a configuration, by its text in the editor; `offset` is a byte of it.
+    fn configuration_hover(&self, path: &Path, text: &str, offset: usize) -> Option<ConfigurationHover> {
+        let _ = (path, text, offset);
+        None
+    }
+
+    /// What may be written at a place of a configuration, what fits best first.
+    fn configuration_completion(&self, path: &Path, text: &str, offset: usize) -> Vec<ConfigurationOffer> {
+        let _ = (path, text, offset);
+        Vec::new()
+    }
+
+    /// Where the configuration of a program has entries for what the program names, those that win first. `open` has the text of
+    /// a configuration that is open in the editor.
+    fn configured(
+        &self,
+        program: &ProgramQuery<'_>,
+        control: &Control,
+        named: Configured,
+        open: &dyn Fn(&Path) -> Option<String>,
+    ) -> Vec<ConfiguredPlace> {
+        let _ = (program, control, named, open);
+        Vec::new()
     }
 
     /// The programs that are in a folder itself, by path. A folder that cannot be read has none.
@@ -39,6 +67,45 @@ pub trait Host: Send + Sync + 'static {
 
     /// Patterns of the files whose changes the server wants to hear of: `**/name`.
     fn watched(&self) -> Vec<String>;
+}
+
+/// What is told of a place in a configuration.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ConfigurationHover {
+    /// In Markdown.
+    pub markdown: String,
+    /// Bytes of the text that it is about.
+    pub range: Range<usize>,
+}
+
+/// Something that may be written into a configuration.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ConfigurationOffer {
+    /// Shown in the list.
+    pub label: String,
+    /// What it is.
+    pub description: String,
+    /// It is a key, and else a value.
+    pub is_key: bool,
+    /// Bytes of the text in whose place it is written.
+    pub range: Range<usize>,
+    /// What editors compare with what is typed.
+    pub filter: String,
+    /// What is written.
+    pub text: String,
+    /// The same with places for the cursor, for editors that know snippets.
+    pub snippet: Option<String>,
+}
+
+/// An entry of a configuration.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ConfiguredPlace {
+    /// The file.
+    pub path: PathBuf,
+    /// Its text.
+    pub text: Arc<str>,
+    /// Bytes of the key.
+    pub key: Range<usize>,
 }
 
 /// A program file on disk.

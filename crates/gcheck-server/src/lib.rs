@@ -22,6 +22,10 @@ mod program_text;
 mod proto;
 mod transport;
 
-pub use host::{Choice, ConfigurationProblem, Host, InForce, OpenPrograms, ProgramFile, ProgramQuery};
+pub use gcheck_ide::Configured;
+pub use host::{
+    Choice, ConfigurationHover, ConfigurationOffer, ConfigurationProblem, ConfiguredPlace, Host, InForce,
+    OpenPrograms, ProgramFile, ProgramQuery,
+};
 pub use program_text::ProgramText;
 pub use transport::{Ending, serve};

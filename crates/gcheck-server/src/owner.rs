@@ -68,6 +68,8 @@ pub(crate) struct Owner {
     shown_problems: Vec<PathBuf>,
     /// The last hover that was answered without the state.
     pub(crate) late_hover: Option<LateHover>,
+    /// What is told of the rows of the last list for a configuration, by their labels.
+    pub(crate) offered: BTreeMap<String, String>,
     /// Counts changes of documents.
     touches: u64,
     /// Counts changes of files and configuration.
@@ -110,6 +112,7 @@ impl Owner {
             client_settings: vec![(None, ClientSettings::read(&serde_json::Value::Null).0)],
             shown_problems: Vec::new(),
             late_hover: None,
+            offered: BTreeMap::new(),
             touches: 0,
             world: 0,
             is_ready: false,
@@ -258,7 +261,7 @@ impl Owner {
         self.world
     }
 
-    fn open_programs(&self) -> Arc<dyn OpenPrograms> {
+    pub(crate) fn open_programs(&self) -> Arc<dyn OpenPrograms> {
         Arc::<OpenTexts>::clone(&self.open)
     }
 

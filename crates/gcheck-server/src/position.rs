@@ -138,6 +138,17 @@ impl<'s> Places<'s> {
     }
 }
 
+/// The range of some bytes of a text that is not a document.
+pub(crate) fn range_in(text: &str, bytes: &Range<usize>, encoding: Encoding) -> proto::Range {
+    let position = |offset: usize| {
+        let before = text.get(..offset).unwrap_or(text);
+        let line = before.rfind('\n').map_or(before, |end| before.get(end + 1..).unwrap_or_default());
+        let lines = before.bytes().filter(|byte| *byte == b'\n').count();
+        Position::new(lines as u32, encoding.columns(line))
+    };
+    proto::Range { start: position(bytes.start), end: position(bytes.end) }
+}
+
 #[cfg(test)]
 mod tests {
     use std::fmt::Write as _;

@@ -6,6 +6,7 @@ mod execution_facts;
 mod file;
 mod format;
 mod layer;
+mod listed_names;
 mod pattern;
 mod placed;
 mod preset;
@@ -187,10 +188,14 @@ impl Configs {
     }
 }
 
+/// The JSON schema of `gcheck.toml`.
+pub(crate) fn json_schema() -> schemars::Schema {
+    schemars::schema_for!(ConfigFile)
+}
+
 /// The JSON schema of `gcheck.toml`, as `gcheck schema` prints it.
 pub fn schema() -> String {
-    let schema = schemars::schema_for!(ConfigFile);
-    let mut text = serde_json::to_string_pretty(&schema).unwrap_or_default();
+    let mut text = serde_json::to_string_pretty(&json_schema()).unwrap_or_default();
     text.push('\n');
     text
 }

@@ -10,6 +10,7 @@ pub mod args;
 mod check;
 mod commands;
 pub mod config;
+mod config_help;
 mod console;
 mod containment;
 mod control_choice;

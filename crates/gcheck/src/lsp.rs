@@ -9,16 +9,19 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::UNIX_EPOCH;
 use std::{fs, io};
 
+use gcheck_controls::Control;
 use gcheck_db::Settings;
 use gcheck_lint::{Execution, RuleTable};
 use gcheck_report::ControlChoice;
 use gcheck_server::{
-    Choice, ConfigurationProblem, Host, InForce, ProgramFile, ProgramQuery, ProgramText, serve,
+    Choice, ConfigurationHover, ConfigurationOffer, ConfigurationProblem, Configured, ConfiguredPlace, Host,
+    InForce, ProgramFile, ProgramQuery, ProgramText, serve,
 };
 use gcheck_syntax::SourceText;
 
 use crate::args::{FUEL, Global};
 use crate::config::{Config, Configs, FILE_NAMES, RuleWishes, unknown_rule, validate_control};
+use crate::config_help::{self, Named};
 use crate::control_choice::choose;
 use crate::discovery::{self, EXTENSIONS, is_program_name};
 use crate::in_force::{self, Controls};
@@ -28,6 +31,9 @@ use crate::{Problem, paths, reading};
 
 /// Files of one folder that are told of.
 const MOST_FILES: usize = 5_000;
+
+/// A larger file is not a configuration.
+const MOST_CONFIGURATION: u64 = 1 << 20;
 
 /// Mistakes of one configuration that are shown.
 const MOST_PROBLEMS: usize = 20;
@@ -85,6 +91,19 @@ impl Surroundings {
             None => Configs::new(&self.config, self.isolated),
         });
         configs.as_mut().map_err(|problem| problem.clone()).and_then(work)
+    }
+
+    /// The files of a program's configuration, those that win first; of one that cannot be read the nearest file alone.
+    fn configuration_files(&self, program: &ProgramQuery<'_>) -> Vec<PathBuf> {
+        match self.config(program) {
+            Ok(config) => config.layers().iter().rev().filter_map(|layer| layer.path.clone()).collect(),
+            Err(_) => {
+                let chosen = program.configuration.map(Path::to_owned);
+                let folders = program.path.ancestors().skip(1);
+                let mut files = folders.flat_map(|folder| FILE_NAMES.map(|name| folder.join(name)));
+                chosen.or_else(|| files.find(|file| file.is_file())).into_iter().collect()
+            }
+        }
     }
 
     fn folders(&self) -> Arc<ProgramFolders> {
@@ -147,8 +166,7 @@ impl Host for Surroundings {
     }
 
     fn configuration_problems(&self, path: &Path, text: &str) -> Option<Vec<ConfigurationProblem>> {
-        let name = path.file_name()?.to_str()?;
-        if !FILE_NAMES.contains(&name) {
+        if !is_configuration(path) {
             return None;
         }
         // Each mistake is blanked with its line, so that the next one is found at its own place.
@@ -176,6 +194,57 @@ impl Host for Surroundings {
             }
         }
         Some(problems)
+    }
+
+    fn configuration_hover(&self, path: &Path, text: &str, offset: usize) -> Option<ConfigurationHover> {
+        let hover = config_help::hover(text, offset).filter(|_| is_configuration(path))?;
+        Some(ConfigurationHover { markdown: hover.markdown, range: hover.range })
+    }
+
+    fn configuration_completion(&self, path: &Path, text: &str, offset: usize) -> Vec<ConfigurationOffer> {
+        if !is_configuration(path) {
+            return Vec::new();
+        }
+        let offers = config_help::completion(text, offset).into_iter();
+        offers
+            .map(|offer| ConfigurationOffer {
+                label: offer.label,
+                description: offer.description,
+                is_key: offer.is_key,
+                range: offer.range,
+                filter: offer.filter,
+                text: offer.text,
+                snippet: offer.snippet,
+            })
+            .collect()
+    }
+
+    fn configured(
+        &self,
+        program: &ProgramQuery<'_>,
+        control: &Control,
+        named: Configured,
+        open: &dyn Fn(&Path) -> Option<String>,
+    ) -> Vec<ConfiguredPlace> {
+        let named = match named {
+            Configured::Tool(number) => Named::Tool(number),
+            Configured::Offset(number) => Named::Offset(number),
+            Configured::Code(number) => Named::Code(number),
+        };
+        let mut found = Vec::new();
+        for path in self.configuration_files(program) {
+            let on_disk = || reading::regular(&path, MOST_CONFIGURATION).ok();
+            let text = open(&path).or_else(|| String::from_utf8(on_disk()?).ok());
+            let Some(text) = text.map(Arc::<str>::from) else { continue };
+            let folder = path.parent().unwrap_or(&path);
+            let keys = config_help::entries(&text, folder, program.path, control, named);
+            found.extend(keys.into_iter().map(|key| ConfiguredPlace {
+                path: path.clone(),
+                text: Arc::clone(&text),
+                key,
+            }));
+        }
+        found
     }
 
     fn programs_in(&self, folder: &Path) -> Vec<ProgramFile> {
@@ -235,6 +304,11 @@ fn program_file(path: PathBuf) -> Option<ProgramFile> {
     let changed = data.modified().ok().and_then(|time| time.duration_since(UNIX_EPOCH).ok());
     let stamp = changed.map_or(0, |time| time.as_nanos() as u64) ^ data.len().rotate_left(48);
     Some(ProgramFile { path, size: data.len(), stamp })
+}
+
+/// Is a file a configuration, by its name?
+fn is_configuration(path: &Path) -> bool {
+    path.file_name().and_then(|name| name.to_str()).is_some_and(|name| FILE_NAMES.contains(&name))
 }
 
 /// A problem as the server shows it.

@@ -69,7 +69,20 @@ local function client()
   end
 end
 
+--- Is the server attached to the buffer that is shown?
+local function attached()
+  local buffer = vim.api.nvim_get_current_buf()
+  local get = vim.lsp.get_clients or vim.lsp.get_active_clients
+  for _, found in pairs(get()) do
+    if found.name == "gcheck" and vim.lsp.buf_is_attached(buffer, found.id) then
+      return true
+    end
+  end
+  return false
+end
+
 local function ask(method, more)
+  until_("the server", attached)
   local running = until_("a client", client)
   local parameters = vim.lsp.util.make_position_params(0, running.offset_encoding)
   parameters = vim.tbl_extend("force", parameters, more or {})
@@ -158,6 +171,45 @@ test("a program is renamed across files", function()
   vim.lsp.util.apply_workspace_edit(edit, client().offset_encoding)
   local text = table.concat(vim.api.nvim_buf_get_lines(0, 0, -1, false), "\n")
   assert(text:find("M98 P2500", 1, true), text)
+end)
+
+test("gcheck.toml has hover, completion and findings, and another file in TOML has none", function()
+  vim.fn.mkdir(folder .. "/shop", "p")
+  vim.fn.writefile({ 'control = "haas-mill"', "[machine]", "max_rpm = 8000", "[tools]", "3 = { length = 80.0 }" }, folder .. "/shop/gcheck.toml")
+  vim.fn.writefile({ "x = 1" }, folder .. "/shop/other.toml")
+  vim.cmd("edit " .. vim.fn.fnameescape(folder .. "/shop/gcheck.toml"))
+  vim.bo.filetype = "toml"
+  until_("the server", attached)
+  cursor_on("max_rpm")
+  local hover = ask("textDocument/hover")
+  assert(hover and hover.contents.value:find("Highest spindle speed", 1, true), vim.inspect(hover))
+  vim.api.nvim_buf_set_lines(0, 3, 3, false, { 'units = "inches"' })
+  local found = until_("the finding", function()
+    return vim.diagnostic.get(0)[1]
+  end)
+  assert(found.lnum == 3, vim.inspect(found))
+  vim.api.nvim_buf_set_lines(0, 3, 4, false, { 'units = "i"' })
+  vim.api.nvim_win_set_cursor(0, { 4, 10 })
+  local list = ask("textDocument/completion")
+  assert(list and list.items[1] and list.items[1].label == "inch", vim.inspect(list))
+  vim.api.nvim_buf_set_lines(0, 3, 4, false, { 'units = "inch"' })
+  until_("no finding", function()
+    return #vim.diagnostic.get(0) == 0
+  end)
+  vim.cmd("write")
+  vim.fn.writefile({ "O1", "T3 M6", "M30" }, folder .. "/shop/part.nc")
+  open("shop/part.nc")
+  until_("the server", attached)
+  cursor_on("T3")
+  local places = ask("textDocument/definition")
+  local place = places and places[1]
+  local target = place and (place.targetUri or place.uri)
+  assert(target and target:find("gcheck.toml", 1, true), vim.inspect(places))
+  assert((place.targetRange or place.range).start.line == 5, vim.inspect(places))
+  vim.cmd("edit " .. vim.fn.fnameescape(folder .. "/shop/other.toml"))
+  vim.bo.filetype = "toml"
+  vim.wait(500)
+  assert(not attached(), "the server has nothing to do with other files")
 end)
 
 test("rapid moves, cuts, arcs and other codes have their own colours", function()

@@ -22,6 +22,9 @@ export function registerCommands(server: Server, preview: ToolpathPreview): vsco
     command("selectControl", () => selectControl(server)),
     command("explain", (subject?: string, control?: string) => explain(server, answers, subject, control)),
     command("fixAll", () => vscode.commands.executeCommand("editor.action.fixAll")),
+    command("shiftPath", () => changeActive(server, "translate")),
+    command("renumber", () => changeActive(server, "renumber")),
+    command("askAndChange", (asked: AskedChange) => askAndChange(server, asked)),
     command("showSyntaxTree", () => showSyntaxTree(server, answers)),
     command("restartServer", () => server.restart()),
     command("showOutput", () => server.showOutput()),
@@ -67,6 +70,90 @@ async function selectControl(server: Server): Promise<void> {
         : vscode.ConfigurationTarget.Workspace;
     await vscode.workspace.getConfiguration("gcheck").update("control", picked.label, target);
   }
+}
+
+/** A change of a program that needs figures. */
+interface AskedChange {
+  /** As the protocol writes it. */
+  uri: string;
+  /** What is selected, as the protocol writes it. */
+  range?: object | null;
+  change: "translate" | "renumber";
+}
+
+/** Changes the program of the active editor: the lines that are selected, or all. */
+async function changeActive(server: Server, change: AskedChange["change"]): Promise<void> {
+  const editor = vscode.window.activeTextEditor;
+  if (editor?.document.languageId !== "gcode") {
+    return;
+  }
+  const { start, end, isEmpty } = editor.selection;
+  const place = ({ line, character }: vscode.Position) => ({ line, character });
+  const range = isEmpty || change === "renumber" ? null : { start: place(start), end: place(end) };
+  await askAndChange(server, { uri: server.address(editor.document).uri, range, change });
+}
+
+/** Asks for the figures of a change, and has the server prove and make it. */
+async function askAndChange(server: Server, asked: AskedChange): Promise<void> {
+  const figures = asked.change === "translate" ? await askShift(asked.range != null) : await askNumbering();
+  if (figures === undefined) {
+    return;
+  }
+  if (!server.isRunning) {
+    await doesNotRun(server);
+    return;
+  }
+  try {
+    const done = await vscode.window.withProgress(
+      { location: vscode.ProgressLocation.Window, title: "Proving the change" },
+      () =>
+        server.request<{ claim: string }>("workspace/executeCommand", {
+          command: "gcheck.changePath",
+          arguments: [{ ...asked, ...figures }],
+        }),
+    );
+    if (done !== undefined) {
+      vscode.window.setStatusBarMessage(`gcheck: ${done.claim}`, 10_000);
+    }
+  } catch (error) {
+    // The reason why the change is not made, in the server's words.
+    void vscode.window.showErrorMessage(error instanceof Error ? error.message : String(error));
+  }
+}
+
+/** The lengths of a shift, each as it is typed; `undefined` where the text is none. */
+function readShift(text: string): Record<string, string> | undefined {
+  const word = /([XYZ])\s*([-+]?(?:\d+\.?\d*|\.\d+)\s*(?:mm|inch|in)?)(?=[\sXYZ,;]|$)[\s,;]*/giy;
+  const shift: Record<string, string> = {};
+  let end = 0;
+  for (let found = word.exec(text.trim()); found !== null; found = word.exec(text.trim())) {
+    const [, axis = "", length = ""] = found;
+    shift[axis.toLowerCase()] = length.replaceAll(" ", "").replace(/^\+/, "").toLowerCase();
+    end = word.lastIndex;
+  }
+  return end > 0 && end === text.trim().length ? shift : undefined;
+}
+
+async function askShift(isPart: boolean): Promise<Record<string, string> | undefined> {
+  const text = await vscode.window.showInputBox({
+    title: isPart ? "Shift the Path in the Selected Lines" : "Shift the Path",
+    prompt: "How far along which axes: X10 Y-2.5. In the unit of the program, or with mm or in: Z0.5in",
+    value: "X0 Y0 Z0",
+    validateInput: (text) => (readShift(text) === undefined ? "Write axes with lengths, such as X10 Y-2.5" : undefined),
+  });
+  return text === undefined ? undefined : readShift(text);
+}
+
+async function askNumbering(): Promise<{ start: number; step: number } | undefined> {
+  const read = (text: string) => /^\s*([1-9]\d{0,8})\s*[:, ]\s*([1-9]\d{0,8})\s*$/.exec(text);
+  const text = await vscode.window.showInputBox({
+    title: "Renumber the Blocks",
+    prompt: "The first number and the step, as in 10:10",
+    value: "10:10",
+    validateInput: (text) => (read(text) === null ? "Write the first number and the step, as in 10:10" : undefined),
+  });
+  const numbers = text === undefined ? null : read(text);
+  return numbers === null ? undefined : { start: Number(numbers[1]), step: Number(numbers[2]) };
 }
 
 /** Says that there is nobody to answer, and offers to start the server. */

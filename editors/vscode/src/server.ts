@@ -26,6 +26,9 @@ export interface Status {
 /** The command that hovers link to. */
 const EXPLAIN = "gcheck.explain";
 
+/** The command that asks for the figures of a change. */
+const CHANGE = "gcheck.askAndChange";
+
 /** Is never cancelled. */
 const NEVER = new vscode.CancellationTokenSource().token;
 
@@ -79,6 +82,8 @@ export class Server implements vscode.Disposable {
       documentSelector: [
         { scheme: "file", language: "gcode" },
         { scheme: "untitled", language: "gcode" },
+        // Whatever the editor takes it for: hover, completion and findings of the configuration.
+        { scheme: "file", pattern: "**/{gcheck,.gcheck}.toml" },
       ],
       outputChannel: this.output,
       synchronize: { configurationSection: "gcheck" },
@@ -88,7 +93,7 @@ export class Server implements vscode.Disposable {
     const client = new LanguageClient("gcheck", "gcheck", run, options);
     client.registerFeature({
       fillClientCapabilities(capabilities) {
-        capabilities.experimental = { ...capabilities.experimental, gcheck: { explainCommand: EXPLAIN } };
+        capabilities.experimental = { ...capabilities.experimental, gcheck: { explainCommand: EXPLAIN, changeCommand: CHANGE } };
       },
       initialize: () => undefined,
       getState: () => ({ kind: "static" }),

@@ -586,3 +586,145 @@ fn a_change_that_cannot_be_proved_answers_with_the_reason() {
     let all = actions(&mut session, [4, 0, 4, 0], Some("refactor"));
     assert!(!all.iter().any(|action| action["title"].as_str().unwrap().contains("with proof")), "{all:?}");
 }
+
+#[test]
+fn a_shift_and_new_numbers_are_made_with_their_proof() {
+    let mut able = resolving();
+    able["experimental"] = json!({ "gcheck": { "changeCommand": "own.ask" } });
+    let mut session = Session::with(&able, &[]);
+    session.open("a.nc", &DRILLED.replace("G80\nM30", "G80\nN5 G0 Z50.\nM30"));
+    // The client asks for the figures, with what it is told.
+    let all = actions(&mut session, [5, 2, 5, 4], None);
+    let shift =
+        all.iter().find(|action| action["title"] == "Shift the path in the selected lines …, with proof");
+    let command = &shift.unwrap()["command"];
+    assert_eq!(command["command"], "own.ask");
+    let mut argument = command["arguments"][0].clone();
+    assert_eq!((&argument["change"], &argument["uri"]), (&json!("translate"), &json!(session.uri("a.nc"))));
+    argument["z"] = json!("-1");
+    let change = |argument: &Value| json!({ "command": "gcheck.changePath", "arguments": [argument] });
+    let done = ask(&mut session, "workspace/executeCommand", change(&argument));
+    assert_eq!(done["claim"], "every move is shifted by Z-1, within 0.001 mm (6 moves compared)");
+    let applied = |session: &Session| {
+        let asked =
+            session.client.requests.iter().rev().find(|request| request["method"] == "workspace/applyEdit");
+        let edit = asked.unwrap()["params"]["edit"]["documentChanges"][0].clone();
+        assert_eq!(edit["textDocument"]["version"], 1);
+        let texts: Vec<String> = edit["edits"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .map(|edit| edit["newText"].as_str().unwrap().to_owned())
+            .collect();
+        texts
+    };
+    assert_eq!(applied(&session), ["Z-4.", "R1."]);
+    let numbers = json!({ "uri": session.uri("a.nc"), "change": "renumber", "start": 100, "step": 5 });
+    let done = ask(&mut session, "workspace/executeCommand", change(&numbers));
+    assert!(done["claim"].as_str().unwrap().starts_with("every move is as before"), "{done}");
+    assert_eq!(applied(&session), ["100"]);
+    // What cannot be done answers with the reason, and changes nothing.
+    let count = session.client.requests.len();
+    let uri = session.uri("a.nc");
+    for (argument, reason) in [
+        (json!({ "uri": uri, "change": "translate", "x": "far" }), "write a length such as 10"),
+        (json!({ "uri": uri, "change": "translate" }), "a shift needs a length"),
+        (json!({ "uri": uri, "change": "renumber", "start": 0 }), "whole numbers from 1"),
+        (json!({ "uri": uri, "change": "dance" }), "there is no change `dance`"),
+        (json!({ "uri": "file:///nowhere.nc", "change": "mirror-x" }), "is not open"),
+        (json!("what"), "invalid type"),
+    ] {
+        let refused = session.client.refused("workspace/executeCommand", change(&argument));
+        assert!(refused["message"].as_str().unwrap().contains(reason), "{refused}");
+    }
+    assert_eq!(session.client.requests.len(), count, "nothing is written");
+    // A client that cannot ask for figures is not offered what needs them.
+    let mut session = Session::with(&resolving(), &[]);
+    session.open("a.nc", DRILLED);
+    let all = actions(&mut session, [5, 2, 5, 4], None);
+    assert!(!all.iter().any(|action| action["title"].as_str().unwrap().contains('…')), "{all:?}");
+}
+
+/// A configuration that each step of somebody who types makes broken and whole again.
+const SHOP: &str = "control = \"haas-mill\"\n[machine]\nunits = \"mm\"\nmax_rpm = 8000\n[tools]\n3 = { length = 80.0 }\n[offsets]\nG54 = { X = -400.0 }\n\"G154 P2\" = { X = 1.0 }\n[codes]\nM51 = { title = \"door\", alias = \"O9010\" }\n";
+
+#[test]
+fn a_configuration_has_hover_completion_and_findings_while_it_is_typed() {
+    let mut session = Session::new(&[("gcheck.toml", SHOP)]);
+    session.open("gcheck.toml", SHOP);
+    assert_eq!(session.published("gcheck.toml", 1), [] as [&str; 0]);
+    let at = session.at("gcheck.toml", 3, 2);
+    let hover = ask(&mut session, "textDocument/hover", at);
+    let told = hover["contents"]["value"].as_str().unwrap();
+    assert!(told.starts_with("**machine.max_rpm**: number\n\nHighest spindle speed, in 1/min."), "{told}");
+    session.edit("gcheck.toml", 2, [2, 9, 2, 11], "inches");
+    let found = session.published("gcheck.toml", 2);
+    assert_eq!(found.len(), 1, "{found:?}");
+    assert!(found[0].starts_with("2:8-2:16"), "{found:?}");
+    session.edit("gcheck.toml", 3, [2, 9, 2, 15], "i");
+    session.published("gcheck.toml", 3);
+    let at = session.at("gcheck.toml", 2, 10);
+    let list = ask(&mut session, "textDocument/completion", at);
+    assert_eq!(list["items"].as_array().unwrap().len(), 1, "{list}");
+    assert_eq!(list["items"][0]["label"], "inch");
+    session.edit("gcheck.toml", 4, [2, 9, 2, 10], "inch");
+    assert_eq!(session.published("gcheck.toml", 4), [] as [&str; 0]);
+    // Every key of somebody who types it anew has an answer, and soon.
+    session.edit("gcheck.toml", 5, [0, 0, 99, 0], "");
+    let (mut line, mut character) = (0, 0);
+    let mut slowest = std::time::Duration::ZERO;
+    let mut version = 5;
+    for typed in SHOP.chars() {
+        version += 1;
+        session.edit("gcheck.toml", version, [line, character, line, character], &typed.to_string());
+        (line, character) = if typed == '\n' { (line + 1, 0) } else { (line, character + 1) };
+        let at = session.at("gcheck.toml", line, character);
+        let start = std::time::Instant::now();
+        ask(&mut session, "textDocument/completion", at.clone());
+        ask(&mut session, "textDocument/hover", at);
+        slowest = slowest.max(start.elapsed());
+    }
+    let most = if cfg!(debug_assertions) { 2_000 } else { 200 };
+    assert!(slowest.as_millis() < most, "both within {slowest:?}");
+    assert_eq!(session.published("gcheck.toml", version), [] as [&str; 0]);
+}
+
+#[test]
+fn a_file_in_toml_that_is_not_ours_has_no_answers() {
+    let mut session = Session::new(&[]);
+    session.open("other.toml", SHOP);
+    let at = session.at("other.toml", 3, 2);
+    assert_eq!(ask(&mut session, "textDocument/hover", at.clone()), Value::Null);
+    assert_eq!(ask(&mut session, "textDocument/completion", at)["items"], json!([]));
+}
+
+#[test]
+fn words_of_a_program_lead_into_its_configuration() {
+    let program = "O1\nT3 M6\nG54 G43 H3 Z5.\nG154 P2\nM51\nT4 M6\nM30\n";
+    let called = "O9010\nM99\n";
+    let mut session = Session::new(&[("gcheck.toml", SHOP), ("O9010.nc", called)]);
+    session.open("a.nc", program);
+    let places = |session: &mut Session, line, character| {
+        let at = session.at("a.nc", line, character);
+        let found = ask(session, "textDocument/definition", at);
+        let place = |found: &Value| {
+            let (uri, range) = match &found["targetUri"] {
+                Value::Null => (&found["uri"], &found["range"]),
+                uri => (uri, &found["targetSelectionRange"]),
+            };
+            let name = uri.as_str().unwrap().rsplit('/').next().unwrap().to_owned();
+            format!("{name} {}", crate::session::shown(range))
+        };
+        found.as_array().unwrap().iter().map(place).collect::<Vec<_>>()
+    };
+    assert_eq!(places(&mut session, 1, 1), ["gcheck.toml 5:0-5:1"]);
+    assert_eq!(places(&mut session, 2, 9), ["gcheck.toml 5:0-5:1"]);
+    assert_eq!(places(&mut session, 2, 1), ["gcheck.toml 7:0-7:3"]);
+    assert_eq!(places(&mut session, 3, 2), ["gcheck.toml 8:0-8:9"]);
+    assert_eq!(places(&mut session, 5, 1), [] as [&str; 0]);
+    let of_code = places(&mut session, 4, 1);
+    assert!(of_code.contains(&"gcheck.toml 10:0-10:3".to_owned()), "{of_code:?}");
+    // What is in the editor counts, broken as it may be.
+    session.open("gcheck.toml", &format!("control =\n{SHOP}"));
+    assert_eq!(places(&mut session, 1, 1), ["gcheck.toml 6:0-6:1"]);
+}

@@ -16,6 +16,7 @@ use gcheck_edit::{
     witness,
 };
 use gcheck_engine::{Assumption, Axis, Ending, Machine, Options, Role, RunResult, Stopped, Units};
+use gcheck_format::{Numbering, renumber};
 use gcheck_toolpath::{Act, Aspect, Differences, Rest, compare};
 
 use super::cycles::cycle_at;
@@ -104,7 +105,7 @@ pub fn proved_changes(snapshot: &Snapshot, selected: &Range<u32>) -> Vec<ProvedC
 }
 
 /// The lines that a selection touches.
-fn whole_lines(snapshot: &Snapshot, selected: &Range<u32>) -> Range<u32> {
+pub fn whole_lines(snapshot: &Snapshot, selected: &Range<u32>) -> Range<u32> {
     let first = snapshot.line_at(selected.start);
     let last = snapshot.line_at(selected.end);
     // A selection of whole lines ends where the next one begins.
@@ -113,45 +114,87 @@ fn whole_lines(snapshot: &Snapshot, selected: &Range<u32>) -> Range<u32> {
     snapshot.line_range(first).start..snapshot.line_range(last).end
 }
 
-fn change(name: &str) -> Option<Change> {
-    let zero = Amount::ZERO;
-    Some(match name {
-        "expand-cycle" => Change::ExpandCycle,
-        "unroll-loop" => Change::UnrollLoop,
-        "safe-start" => Change::SafeStart,
-        "absolute" => Change::Absolute,
-        "incremental" => Change::Incremental,
-        "mm" => Change::Convert(Units::Mm),
-        "inch" => Change::Convert(Units::Inch),
-        "feeds-90" => Change::ScaleFeeds(0.9),
-        "feeds-110" => Change::ScaleFeeds(1.1),
-        "speeds-90" => Change::ScaleSpeeds(0.9),
-        "speeds-110" => Change::ScaleSpeeds(1.1),
-        "mirror-x" => Change::Mirror(Axis::X, zero),
-        "mirror-y" => Change::Mirror(Axis::Y, zero),
-        "rotate-90" => Change::Rotate(1, [zero; 2]),
-        "rotate-180" => Change::Rotate(2, [zero; 2]),
-        "rotate-270" => Change::Rotate(3, [zero; 2]),
-        _ => return None,
-    })
+/// A change that somebody asks for.
+#[derive(Debug, Clone)]
+pub struct PathChange {
+    change: Change,
+    numbering: Option<Numbering>,
+}
+
+impl PathChange {
+    /// The change of a name, as [`ProvedChange`] has it.
+    pub fn named(name: &str) -> Option<Self> {
+        let zero = Amount::ZERO;
+        let change = match name {
+            "expand-cycle" => Change::ExpandCycle,
+            "unroll-loop" => Change::UnrollLoop,
+            "safe-start" => Change::SafeStart,
+            "absolute" => Change::Absolute,
+            "incremental" => Change::Incremental,
+            "mm" => Change::Convert(Units::Mm),
+            "inch" => Change::Convert(Units::Inch),
+            "feeds-90" => Change::ScaleFeeds(0.9),
+            "feeds-110" => Change::ScaleFeeds(1.1),
+            "speeds-90" => Change::ScaleSpeeds(0.9),
+            "speeds-110" => Change::ScaleSpeeds(1.1),
+            "mirror-x" => Change::Mirror(Axis::X, zero),
+            "mirror-y" => Change::Mirror(Axis::Y, zero),
+            "rotate-90" => Change::Rotate(1, [zero; 2]),
+            "rotate-180" => Change::Rotate(2, [zero; 2]),
+            "rotate-270" => Change::Rotate(3, [zero; 2]),
+            _ => return None,
+        };
+        Some(Self { change, numbering: None })
+    }
+
+    /// Shifts the path by lengths along X, Y and Z, as people write them: `10`, `-2.5mm`; not at all where one is left out.
+    ///
+    /// # Errors
+    /// What is wrong with the lengths, for people.
+    pub fn shift(by: [Option<&str>; 3]) -> Result<Self, String> {
+        let mut amounts = [Amount::ZERO; 3];
+        for (amount, written) in amounts.iter_mut().zip(by) {
+            if let Some(written) = written {
+                *amount = Amount::parse(written)?;
+            }
+        }
+        if amounts.iter().all(|amount| amount.number == 0.0) {
+            return Err("a shift needs a length that is not zero".to_owned());
+        }
+        Ok(Self { change: Change::Translate(amounts), numbering: None })
+    }
+
+    /// Numbers the blocks again.
+    ///
+    /// # Errors
+    /// What is wrong with the numbers, for people.
+    pub fn renumber(start: u32, step: u32) -> Result<Self, String> {
+        if start == 0 || step == 0 {
+            return Err("the first number and the step are whole numbers from 1".to_owned());
+        }
+        Ok(Self { change: Change::Renumber, numbering: Some(Numbering { start, step }) })
+    }
 }
 
 /// Makes a change of a document and proves it. The inner error is the reason why it is not made, for people.
 ///
 /// # Errors
-/// [`Cancelled`] when `stop` said yes, or no change has the name.
+/// [`Cancelled`] when `stop` said yes.
 pub fn proved(
     snapshot: &Snapshot,
-    name: &str,
+    asked: &PathChange,
     range: Option<Range<u32>>,
     fuel: u64,
     stop: &dyn Fn() -> bool,
 ) -> Result<Result<Proved, String>, Cancelled> {
-    let change = change(name).ok_or(Cancelled)?;
+    let change = &asked.change;
     let scope = range.map_or(Scope::All, Scope::Bytes);
+    if asked.numbering.is_some() && scope != Scope::All {
+        return Ok(Err("blocks are renumbered in the whole file, as jumps lead everywhere".to_owned()));
+    }
     let mut machine = snapshot.settings().machine.engine.clone();
     let runs = runs(snapshot);
-    let proving = Proving { snapshot, change: &change, scope: &scope, fuel, stop };
+    let proving = Proving { snapshot, change, numbering: asked.numbering, scope: &scope, fuel, stop };
     let unknown = proving.assume(&mut machine, &runs)?;
     let text = snapshot.text();
     let edits = match proving.plan(&machine, &runs)? {
@@ -183,6 +226,7 @@ fn runs(snapshot: &Snapshot) -> Vec<Options> {
 struct Proving<'a> {
     snapshot: &'a Snapshot,
     change: &'a Change,
+    numbering: Option<Numbering>,
     scope: &'a Scope,
     fuel: u64,
     stop: &'a dyn Fn() -> bool,
@@ -221,6 +265,12 @@ impl Proving<'_> {
                 if let Some(gap) = gcheck_lint::describe_all(&gaps, model).into_iter().next() {
                     return Ok(Err(format!("the proof would have a gap, as {}", gap.text)));
                 }
+            }
+            if let Some(numbering) = &self.numbering {
+                let edits = renumber(&self.snapshot.text(), &self.snapshot.dialect(), numbering);
+                return Ok(
+                    edits.map_err(|refused| format!("line {}: {refused}", self.line(refused.range.start)))
+                );
             }
             let planned = plan(self.change, self.scope, &seen, program, model, machine);
             Ok(planned.map(|plan| plan.edits).map_err(|refusal| self.reason(&refusal)))
@@ -348,7 +398,7 @@ mod tests {
 
     use expect_test::{Expect, expect};
 
-    use super::{proved, proved_change_at, proved_changes};
+    use super::{PathChange, proved, proved_change_at, proved_changes};
     use crate::fixture::{Fixture, applied};
 
     const PROGRAM: &str = "O1\nG21 G17 G90 G94 G54 G40 G80\nS1000 M3\nG0 X1. Y2. Z5.\nG1 Z-1. F100.\nG2 X3. Y2. I1.\nG0 Z5.\nG81 X5. Z-3. R2. F80.\nG80\nM30\n";
@@ -359,9 +409,40 @@ mod tests {
     }
 
     fn answer(text: &str, name: &str, range: Option<Range<u32>>) -> Result<(String, String), String> {
+        asked(text, &PathChange::named(name).unwrap(), range)
+    }
+
+    fn asked(text: &str, change: &PathChange, range: Option<Range<u32>>) -> Result<(String, String), String> {
         let snapshot = Fixture::new("haas-mill", text).snapshot();
-        let proved = proved(&snapshot, name, range, 100_000, &|| false).unwrap()?;
+        let proved = proved(&snapshot, change, range, 100_000, &|| false).unwrap()?;
         Ok((applied(text, &proved.edits), proved.claim))
+    }
+
+    #[test]
+    fn a_shift_by_lengths_as_people_write_them() {
+        let by = PathChange::shift([Some("10"), Some("-0.1in"), None]).unwrap();
+        let (text, claim) = asked(PROGRAM, &by, None).unwrap();
+        assert!(text.contains("G0 X11. Y-0.54 Z5.") && text.contains("G2 X13. Y-0.54 I1."), "{text}");
+        assert_eq!(claim, "every move is shifted by X10 Y-0.1 inch, within 0.001 mm (8 moves compared)");
+        let start = PROGRAM.find("G81").unwrap() as u32;
+        let down = PathChange::shift([None, None, Some("-1")]).unwrap();
+        let (text, _) = asked(PROGRAM, &down, Some(start..start + 3)).unwrap();
+        assert!(text.contains("G0 Z5.\nG81 X5. Z-4. R1. F80."), "the lines of the selection change: {text}");
+        for wrong in [[Some("ten"), None, None], [None, None, None], [Some("0"), None, Some("0mm")]] {
+            PathChange::shift(wrong).unwrap_err();
+        }
+    }
+
+    #[test]
+    fn blocks_are_numbered_again_with_their_jumps() {
+        let text = "O1\nN5 G0 X0.\n#1=#1+1\nIF [#1 LT 3] GOTO 5\nM30\n".replace("#1=#1+1", "#1=3");
+        let numbers = PathChange::renumber(100, 5).unwrap();
+        let (after, claim) = asked(&text, &numbers, None).unwrap();
+        assert!(after.contains("N100 G0 X0.") && after.contains("GOTO 100"), "{after}");
+        assert!(claim.starts_with("every move is as before"), "{claim}");
+        assert!(asked(&text, &numbers, Some(3..5)).unwrap_err().contains("whole file"));
+        PathChange::renumber(0, 5).unwrap_err();
+        PathChange::renumber(5, 0).unwrap_err();
     }
 
     #[test]
@@ -393,7 +474,8 @@ mod tests {
         let Some(change) = proved_change_at(&snapshot, fixture.offset) else {
             return expected.assert_eq("nothing is offered\n");
         };
-        let answer = proved(&snapshot, change.name, change.range, 100_000, &|| false).unwrap();
+        let asked = PathChange::named(change.name).unwrap();
+        let answer = proved(&snapshot, &asked, change.range, 100_000, &|| false).unwrap();
         let shown = match answer {
             Ok(proved) => {
                 format!("{}: {}\n", applied(&snapshot.text(), &proved.edits).trim_end(), proved.claim)

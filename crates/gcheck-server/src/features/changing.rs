@@ -2,12 +2,11 @@
 //!
 //! Knows: their forms in the protocol. Must not know: what is changed how.
 
-use std::ops::Range;
-
 use gcheck_db::Snapshot;
-use gcheck_ide::{ActionKind, FileEdits, Style};
+use gcheck_ide::{ActionKind, FileEdits, PathChange, Style};
 
 use serde::{Deserialize, Serialize};
+use serde_json::Value;
 
 use super::commands::OPEN_PAGE;
 use super::navigating::workspace_edit;
@@ -16,9 +15,10 @@ use crate::mailbox::Reply;
 use crate::owner::{Addressed, Owner};
 use crate::position::Places;
 use crate::proto::{
-    CodeAction, CodeActionKind, CodeActionOrCommand, CodeActionParams, CodeActionResponse, Command,
-    Diagnostic, DocumentFormattingParams, DocumentOnTypeFormattingParams, DocumentRangeFormattingParams,
-    NumberOrString, Result, TextEdit, Uri,
+    ApplyWorkspaceEdit, ApplyWorkspaceEditParams, CodeAction, CodeActionKind, CodeActionOrCommand,
+    CodeActionParams, CodeActionResponse, Command, Diagnostic, DocumentFormattingParams,
+    DocumentOnTypeFormattingParams, DocumentRangeFormattingParams, Error, NumberOrString, Result, TextEdit,
+    Uri,
 };
 
 /// Fixes what has a fix that changes no move; editors may run it whenever a file is saved.
@@ -37,6 +37,44 @@ pub(crate) fn action_kinds() -> Vec<CodeActionKind> {
 /// Blocks that each run of a proof may execute.
 const PROOF_FUEL: u64 = 2_000_000;
 
+/// What `gcheck.changePath` is given.
+#[derive(Debug, Deserialize)]
+pub(crate) struct ChangePath {
+    uri: Uri,
+    /// What is selected; the whole program without it.
+    range: Option<crate::proto::Range>,
+    /// `translate`, `renumber`, or the name of a change that needs no figures.
+    change: String,
+    x: Option<String>,
+    y: Option<String>,
+    z: Option<String>,
+    start: Option<u32>,
+    step: Option<u32>,
+}
+
+impl ChangePath {
+    fn asked(&self) -> std::result::Result<PathChange, String> {
+        match self.change.as_str() {
+            "translate" => PathChange::shift([&self.x, &self.y, &self.z].map(Option::as_deref)),
+            "renumber" => PathChange::renumber(self.start.unwrap_or(10), self.step.unwrap_or(10)),
+            name => PathChange::named(name).ok_or_else(|| format!("there is no change `{name}`")),
+        }
+    }
+}
+
+/// What a change came to.
+#[derive(Debug, Serialize)]
+pub(crate) struct Changed {
+    /// What is proved, a sentence without a capital and a full stop.
+    claim: String,
+    /// The program is changed, and not as it was before.
+    changes: bool,
+}
+
+/// Changes that ask for figures: how the client's command knows them, and their titles.
+const WITH_FIGURES: [(&str, &str); 2] =
+    [("translate", "Shift the path"), ("renumber", "Number the blocks again")];
+
 /// A change that is proved when it is chosen.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 struct Asked {
@@ -44,6 +82,11 @@ struct Asked {
     version: i32,
     name: String,
     range: Option<[u32; 2]>,
+}
+
+/// No change has this name.
+fn unknown_change() -> Error {
+    Error::invalid_params("there is no such change")
 }
 
 impl Owner {
@@ -124,7 +167,7 @@ impl Owner {
         &self,
         params: &CodeActionParams,
         snapshot: &Snapshot,
-        range: &Range<u32>,
+        range: &std::ops::Range<u32>,
         out: &mut CodeActionResponse,
     ) {
         let kind = CodeActionKind::REFACTOR_REWRITE;
@@ -153,6 +196,63 @@ impl Owner {
                 ..CodeAction::default()
             }));
         }
+        // The client asks for the figures, and then for the change.
+        let Some(command) = self.abilities.change_command.as_ref().filter(|_| is_asked || !range.is_empty())
+        else {
+            return;
+        };
+        let selected = (!range.is_empty()).then_some(params.range);
+        for (name, title) in WITH_FIGURES {
+            // Blocks are numbered in the whole file.
+            let selected = selected.filter(|_| name != "renumber");
+            let part = if selected.is_some() { " in the selected lines" } else { "" };
+            let title = format!("{title}{part} …, with proof");
+            let argument = serde_json::json!({ "uri": uri, "range": selected, "change": name });
+            let command =
+                Command { title: title.clone(), command: command.clone(), arguments: Some(vec![argument]) };
+            out.push(CodeActionOrCommand::CodeAction(CodeAction {
+                title,
+                kind: Some(kind.clone()),
+                command: Some(command),
+                ..CodeAction::default()
+            }));
+        }
+    }
+
+    /// Makes a change of a program with its proof, and has the client write it; the error is the reason why it is not made.
+    pub(crate) fn change_path(&mut self, asked: &ChangePath, reply: Reply<Option<Value>>) {
+        let uri = asked.uri.clone();
+        if self.is_configuration(&uri) {
+            return reply.send(Err(refused("a configuration has no path".to_owned())));
+        }
+        let change = match asked.asked() {
+            Ok(change) => change,
+            Err(reason) => return reply.send(Err(refused(reason))),
+        };
+        self.choose_settings(&uri);
+        let found = self.document(&uri).map(|document| (document.id, document.version));
+        let (id, version, snapshot) = match (found, self.snapshot(&uri)) {
+            (Ok((id, version)), Ok(snapshot)) => (id, version, snapshot),
+            (Err(error), _) | (_, Err(error)) => return reply.send(Err(error)),
+        };
+        let range = asked.range.map(|range| self.places(&snapshot).bytes(range));
+        let range = range.filter(|range| !range.is_empty());
+        let range = range.map(|range| gcheck_ide::whole_lines(&snapshot, &range));
+        let files = Addressed::of(&uri, id, version, document_name(self, &uri), snapshot.clone());
+        let (encoding, versioned) = (self.abilities.encoding, self.abilities.versioned_edits);
+        let outbox = std::sync::Arc::clone(&self.outbox);
+        self.answer_elsewhere(&uri, true, reply, move |stop| {
+            let proved = gcheck_ide::proved(&snapshot, &change, range, PROOF_FUEL, stop).map_err(given_up)?;
+            let proved = proved.map_err(refused)?;
+            let changes = !proved.edits.is_empty();
+            if changes && !stop() {
+                let edits = vec![FileEdits { file: id, edits: proved.edits }];
+                let edit = workspace_edit(&files, edits, encoding, versioned);
+                let params = ApplyWorkspaceEditParams { label: Some(proved.claim.clone()), edit };
+                outbox.ask::<ApplyWorkspaceEdit>(params, |_| ());
+            }
+            Ok(serde_json::to_value(Changed { claim: proved.claim, changes }).ok())
+        });
     }
 
     /// Proves a change that was chosen, and answers with its edits; the error is the reason why it is not made.
@@ -173,8 +273,8 @@ impl Owner {
         let (encoding, versioned) = (self.abilities.encoding, self.abilities.versioned_edits);
         self.answer_elsewhere(&uri, true, reply, move |stop| {
             let range = asked.range.map(|[start, end]| start..end);
-            let proved =
-                gcheck_ide::proved(&snapshot, &asked.name, range, PROOF_FUEL, stop).map_err(given_up)?;
+            let change = PathChange::named(&asked.name).ok_or_else(unknown_change)?;
+            let proved = gcheck_ide::proved(&snapshot, &change, range, PROOF_FUEL, stop).map_err(given_up)?;
             let proved = proved.map_err(refused)?;
             if proved.edits.is_empty() {
                 return Err(refused(proved.claim));

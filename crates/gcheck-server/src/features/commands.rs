@@ -9,6 +9,7 @@ use serde::Deserialize;
 use serde_json::Value;
 
 use super::navigating::workspace_edit;
+use crate::mailbox::Reply;
 use crate::owner::{Addressed, Owner};
 use crate::proto::{
     ApplyWorkspaceEdit, ApplyWorkspaceEditParams, Error, ExecuteCommandParams, MessageType, Result,
@@ -17,11 +18,13 @@ use crate::proto::{
 
 /// Writes into a program which control it is for.
 const SET_CONTROL: &str = "gcheck.setControl";
+/// Makes a change of a program with its proof.
+const CHANGE_PATH: &str = "gcheck.changePath";
 /// Opens a page of the documentation.
 pub(super) const OPEN_PAGE: &str = "gcheck.openPage";
 
 /// All of them.
-pub(crate) const COMMANDS: [&str; 2] = [SET_CONTROL, OPEN_PAGE];
+pub(crate) const COMMANDS: [&str; 3] = [SET_CONTROL, OPEN_PAGE, CHANGE_PATH];
 
 /// Lines in which a comment may name the control.
 const HEAD_LINES: u32 = 50;
@@ -34,7 +37,19 @@ struct SetControl {
 }
 
 impl Owner {
-    pub(crate) fn execute_command(&mut self, params: ExecuteCommandParams) -> Result<Option<Value>> {
+    pub(crate) fn execute_command(&mut self, params: ExecuteCommandParams, reply: Reply<Option<Value>>) {
+        if params.command != CHANGE_PATH {
+            return reply.send(self.execute(params));
+        }
+        let argument = params.arguments.into_iter().next().unwrap_or_default();
+        match serde_json::from_value(argument) {
+            Ok(asked) => self.change_path(&asked, reply),
+            Err(error) => reply.send(Err(Error::invalid_params(error.to_string()))),
+        }
+    }
+
+    /// A command that is done at once.
+    fn execute(&mut self, params: ExecuteCommandParams) -> Result<Option<Value>> {
         let argument = params.arguments.into_iter().next().unwrap_or_default();
         let unreadable = |error: serde_json::Error| Error::invalid_params(error.to_string());
         match params.command.as_str() {

@@ -49,8 +49,13 @@ impl Owner {
         stop: &dyn Fn() -> bool,
     ) -> Result<CompletionList> {
         let at = &params.text_document_position;
-        let (id, offset) = self.place(at)?;
         let uri = &at.text_document.uri;
+        let Some((id, offset)) = self.place(at)? else {
+            let found = self.configuration_offers(at)?;
+            let snapshot = self.snapshot(uri)?;
+            let number = self.document(uri)?.number;
+            return Ok(list(&self.abilities, &snapshot, found, number));
+        };
         let files = self.workspace_of(uri)?;
         let trigger = params.context.as_ref().and_then(|context| context.trigger_character.as_deref());
         let trigger = trigger.and_then(|trigger| trigger.chars().next());
@@ -68,6 +73,11 @@ impl Owner {
         let Some(snapshot) = document.and_then(|document| self.database.snapshot(document.id)) else {
             return item;
         };
+        if document.is_some_and(|document| !document.is_program) {
+            let details = self.offered_details(&item.label);
+            item.documentation = details.map(|text| Documentation::MarkupContent(markdown(text)));
+            return item;
+        }
         let kind = KINDS.iter().find(|(_, kind)| Some(*kind) == item.kind).map(|(kind, _)| *kind);
         let details = kind.and_then(|kind| gcheck_ide::completion_details(&snapshot, kind, &item.label));
         item.documentation = details.map(|text| Documentation::MarkupContent(markdown(text)));

@@ -21,7 +21,9 @@ const STATE_GIVEN_UP: &str = "*The state here is not known: the analysis of this
 impl Owner {
     pub(crate) fn hover(&mut self, params: &HoverParams, stop: &dyn Fn() -> bool) -> Result<Option<Hover>> {
         let uri = &params.text_document_position_params.text_document.uri;
-        let (id, offset) = self.place(&params.text_document_position_params)?;
+        let Some((id, offset)) = self.place(&params.text_document_position_params)? else {
+            return self.configuration_hover(&params.text_document_position_params);
+        };
         let clock = self.document(uri)?.clock.now();
         if let Some(known) = self.late_hover.as_ref().and_then(|late| late.answer(id, clock, offset)) {
             return Ok(Some(known.clone()));
@@ -77,7 +79,7 @@ impl Owner {
         stop: &dyn Fn() -> bool,
     ) -> Result<Option<SignatureHelp>> {
         let at = &params.text_document_position_params;
-        let (id, offset) = self.place(at)?;
+        let Some((id, offset)) = self.place(at)? else { return Ok(None) };
         let files = self.workspace_of(&at.text_document.uri)?;
         // A client that says nothing of why it asks does so because its user does.
         let kind = params.context.as_ref().map(|context| &context.trigger_kind);
@@ -117,7 +119,7 @@ impl Owner {
         params: &DocumentHighlightParams,
     ) -> Result<Option<Vec<DocumentHighlight>>> {
         let at = &params.text_document_position_params;
-        let (_, offset) = self.place(at)?;
+        let Some((_, offset)) = self.place(at)? else { return Ok(None) };
         let snapshot = self.indexed(&at.text_document.uri)?;
         let mut places = self.places(&snapshot);
         let found =

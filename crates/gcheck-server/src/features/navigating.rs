@@ -28,12 +28,15 @@ impl Owner {
     ) -> Result<Option<GotoDefinitionResponse>> {
         let at = &params.text_document_position_params;
         let uri = &at.text_document.uri;
-        let (id, offset) = self.place(at)?;
+        let Some((id, offset)) = self.place(at)? else { return Ok(None) };
         let files = self.workspace_of(uri)?;
         let found = gcheck_ide::definition(&files.workspace, id, offset);
+        // A code of the shop that calls a program leads to both.
+        let entries = self.configured(uri, offset)?;
         let encoding = self.abilities.encoding;
         if !self.abilities.location_links {
             let places = found.iter().filter_map(|target| files.location(&target.name, encoding));
+            let places = places.chain(entries.into_iter().map(|entry| entry.location));
             return Ok(Some(GotoDefinitionResponse::Array(places.collect())));
         }
         let snapshot = self.snapshot(uri)?;
@@ -47,17 +50,32 @@ impl Owner {
                 target_selection_range: places.range(&target.name.range),
             })
         });
-        Ok(Some(GotoDefinitionResponse::Link(links.collect())))
+        let mut links: Vec<LocationLink> = links.collect();
+        links.extend(entries.into_iter().map(|entry| LocationLink {
+            origin_selection_range: Some(own.range(&entry.from)),
+            target_uri: entry.location.uri,
+            target_range: entry.location.range,
+            target_selection_range: entry.location.range,
+        }));
+        Ok(Some(GotoDefinitionResponse::Link(links)))
     }
 
     pub(crate) fn references(&mut self, params: &ReferenceParams, reply: Reply<Option<Vec<Location>>>) {
         let at = &params.text_document_position;
         let uri = &at.text_document.uri;
-        let prepared = self.place(at).and_then(|place| Ok((place, self.workspace_of(uri)?)));
+        let prepared = self.place(at).and_then(|place| {
+            // Of a configuration nothing is looked for.
+            let Some(place) = place else { return Ok(None) };
+            Ok(Some((place, self.workspace_of(uri)?)))
+        });
         let ((id, offset), files) = match prepared {
-            Ok(prepared) => prepared,
+            Ok(Some(prepared)) => prepared,
+            Ok(None) => return reply.send(Ok(None)),
             Err(error) => return reply.send(Err(error)),
         };
+        let entries =
+            if params.context.include_declaration { self.configured(uri, offset) } else { Ok(Vec::new()) };
+        let entries = entries.unwrap_or_default();
         let (encoding, declarations) = (self.abilities.encoding, params.context.include_declaration);
         self.answer_elsewhere(uri, is_large(&files), reply, move |_| {
             let found = gcheck_ide::references(&files.workspace, id, offset, declarations);
@@ -72,6 +90,7 @@ impl Owner {
                     out.push(Location::new(uri.clone(), places.range(&reference.place.range)));
                 }
             }
+            out.extend(entries.into_iter().map(|entry| entry.location));
             Ok(Some(out))
         });
     }
@@ -81,7 +100,7 @@ impl Owner {
         params: &TextDocumentPositionParams,
     ) -> Result<Option<PrepareRenameResponse>> {
         let uri = &params.text_document.uri;
-        let (id, offset) = self.place(params)?;
+        let Some((id, offset)) = self.place(params)? else { return Ok(None) };
         let files = self.workspace_of(uri)?;
         let target =
             gcheck_ide::prepare_rename(&files.workspace, id, offset).map_err(|why| refused(why.0))?;
@@ -92,7 +111,7 @@ impl Owner {
 
     pub(crate) fn rename(&mut self, params: &RenameParams) -> Result<Option<WorkspaceEdit>> {
         let at = &params.text_document_position;
-        let (id, offset) = self.place(at)?;
+        let Some((id, offset)) = self.place(at)? else { return Ok(None) };
         let files = self.workspace_of(&at.text_document.uri)?;
         let edits = gcheck_ide::rename(&files.workspace, id, offset, &params.new_name)
             .map_err(|why| refused(why.0))?;
@@ -127,7 +146,7 @@ impl Owner {
         params: &CallHierarchyPrepareParams,
     ) -> Result<Option<Vec<CallHierarchyItem>>> {
         let at = &params.text_document_position_params;
-        let (id, offset) = self.place(at)?;
+        let Some((id, offset)) = self.place(at)? else { return Ok(None) };
         let files = self.workspace_of(&at.text_document.uri)?;
         let items = gcheck_ide::call_items(&files.workspace, id, offset);
         let encoding = self.abilities.encoding;

@@ -55,7 +55,7 @@ impl Owner {
         let uri = params.text_document.uri.clone();
         let position = params.position.unwrap_or_default();
         let at = TextDocumentPositionParams { text_document: params.text_document, position };
-        let (id, offset) = self.place(&at)?;
+        let Some((id, offset)) = self.place(&at)? else { return Ok(Value::Null) };
         let state = gcheck_ide::state_at(&mut self.database, id, offset, stop).map_err(given_up)?;
         let snapshot = self.snapshot(&uri)?;
         let mut value = serde_json::to_value(state).unwrap_or_default();

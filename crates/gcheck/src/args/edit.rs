@@ -6,7 +6,6 @@ use std::path::PathBuf;
 
 use clap::{Args, Subcommand, ValueEnum};
 use gcheck_edit::Amount;
-use gcheck_engine::Units;
 use gcheck_format::Numbering;
 
 use super::values::{Assignment, BlockSkip, FUEL, Switch, assignment, block_skip, numbering, tolerance};
@@ -43,13 +42,13 @@ pub enum EditCommand {
     /// moves to places of the machine (`G53`, `G28`). A computed word gets a sum: `X#1` becomes `X[#1+10.]`.
     Translate {
         /// Along X; on a lathe as the program counts X, so usually a diameter
-        #[arg(long, value_name = "LENGTH", value_parser = amount, allow_hyphen_values = true)]
+        #[arg(long, value_name = "LENGTH", value_parser = Amount::parse, allow_hyphen_values = true)]
         x: Option<Amount>,
         /// Along Y
-        #[arg(long, value_name = "LENGTH", value_parser = amount, allow_hyphen_values = true)]
+        #[arg(long, value_name = "LENGTH", value_parser = Amount::parse, allow_hyphen_values = true)]
         y: Option<Amount>,
         /// Along Z
-        #[arg(long, value_name = "LENGTH", value_parser = amount, allow_hyphen_values = true)]
+        #[arg(long, value_name = "LENGTH", value_parser = Amount::parse, allow_hyphen_values = true)]
         z: Option<Amount>,
         /// The program and the part of it that changes.
         #[command(flatten)]
@@ -63,7 +62,7 @@ pub enum EditCommand {
         #[arg(value_enum, ignore_case = true, value_name = "X|Y|Z")]
         axis: MirrorAxis,
         /// The coordinate that stays where it is; 0 without it
-        #[arg(long, value_name = "LENGTH", value_parser = amount, allow_hyphen_values = true)]
+        #[arg(long, value_name = "LENGTH", value_parser = Amount::parse, allow_hyphen_values = true)]
         at: Option<Amount>,
         /// The program and the part of it that changes.
         #[command(flatten)]
@@ -253,20 +252,9 @@ fn factor(text: &str) -> Result<f64, String> {
     }
 }
 
-fn amount(text: &str) -> Result<Amount, String> {
-    let text = text.trim();
-    let units = [("mm", Units::Mm), ("inch", Units::Inch), ("in", Units::Inch)];
-    let with_unit = units.into_iter().find_map(|(name, unit)| Some((text.strip_suffix(name)?, unit)));
-    let (number, units) = with_unit.map_or((text, None), |(number, unit)| (number, Some(unit)));
-    match number.trim().parse::<f64>() {
-        Ok(number) if number.is_finite() => Ok(Amount { number, units }),
-        _ => Err("write a length such as 10, -2.5, 10mm or 0.5in".to_owned()),
-    }
-}
-
 fn about(text: &str) -> Result<About, String> {
     let (x, y) = text.split_once(',').ok_or("write X and Y with a comma between them, such as 50,20")?;
-    Ok(About([amount(x)?, amount(y)?]))
+    Ok(About([Amount::parse(x)?, Amount::parse(y)?]))
 }
 
 fn lines(text: &str) -> Result<Lines, String> {

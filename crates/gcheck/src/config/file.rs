@@ -11,6 +11,7 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{self, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 
+use super::listed_names::{ControlName, RuleSelector, list_rules};
 use super::{FormatTable, Placed, PresetName};
 
 /// Configuration of gcheck: `gcheck.toml` or `.gcheck.toml` in the folder of the programs or above it.
@@ -21,6 +22,7 @@ pub struct ConfigFile {
     /// Another configuration that this one builds on; a path from this file's folder. What is here wins.
     pub extend: Option<Placed<String>>,
     /// The control that runs the programs. `gcheck controls` lists the names. Without it the control is detected.
+    #[schemars(with = "Option<ControlName>")]
     pub control: Option<Placed<String>>,
     /// The machine: axes, travels, limits.
     pub machine: MachineTable,
@@ -40,6 +42,7 @@ pub struct ConfigFile {
     pub rules: RulesTable,
     /// Rules that are off for some files: `"legacy/**" = ["words"]`. Patterns count from this file's folder; one without
     /// a slash fits file names in any folder.
+    #[schemars(with = "BTreeMap<String, Vec<RuleSelector>>")]
     pub per_file_ignores: BTreeMap<Placed<String>, Vec<Placed<String>>>,
     /// Differences for some files, the later ones over the earlier.
     pub overrides: Vec<OverrideTable>,
@@ -57,25 +60,26 @@ pub struct OverrideTable {
     /// Patterns as in `per-file-ignores`.
     #[schemars(required)]
     pub files: Vec<Placed<String>>,
-    /// As above.
+    /// The control that runs the programs. `gcheck controls` lists the names. Without it the control is detected.
+    #[schemars(with = "Option<ControlName>")]
     pub control: Option<Placed<String>>,
-    /// As above.
+    /// The machine: axes, travels, limits.
     pub machine: MachineTable,
-    /// As above.
+    /// The control's own numbered settings, values as its page words them: `162 = false`, `34 = 6.0`, `40 = "diameter"`.
     pub settings: BTreeMap<Placed<String>, Placed<Scalar>>,
-    /// As above.
+    /// Macro variables and named parameters set before a program starts: `"#3100" = 2.5`, `"#<name>" = 1`.
     pub variables: BTreeMap<Placed<String>, f64>,
-    /// As above.
+    /// Work offsets in machine coordinates: `G54 = { X = -400.0, Y = -200.0 }`. An axis that is left out is zero.
     pub offsets: BTreeMap<Placed<String>, BTreeMap<Placed<String>, f64>>,
-    /// As above.
+    /// Tools by number, or `table = "tool.tbl"`: then there are no others.
     pub tools: ToolsTable,
-    /// As above.
+    /// Codes of the shop: M codes of the builder, aliases of macros.
     pub codes: BTreeMap<Placed<String>, CodeTable>,
-    /// As above.
+    /// Where called programs live.
     pub search: SearchTable,
-    /// As above.
+    /// Which rules run, and how severe they are.
     pub rules: RulesTable,
-    /// As above.
+    /// How `gcheck fmt` writes programs.
     pub format: FormatTable,
 }
 
@@ -94,7 +98,7 @@ pub struct MachineTable {
     pub units: Option<Units>,
     /// Unit in which the control keeps its offsets and tools, and in which a tool table on disk is read; `units` without it.
     pub table_units: Option<Units>,
-    /// Ends of travel by axis, in machine coordinates: `travel.X = [-762.0, 0.0]`.
+    /// Ends of travel by axis, in machine coordinates and `units`: `travel.X = [-762.0, 0.0]`.
     pub travel: BTreeMap<Placed<String>, Placed<[f64; 2]>>,
     /// Highest spindle speed, in 1/min.
     pub max_rpm: Option<Placed<f64>>,
@@ -139,13 +143,13 @@ pub struct MachineTable {
     pub rotary_order: Option<Vec<Placed<String>>>,
     /// Sense of rotation by axis, 1 or -1.
     pub rotary_sign: BTreeMap<Placed<String>, Placed<i8>>,
-    /// From the pivot of a tilting head to the spindle nose.
+    /// From the pivot of a tilting head to the spindle nose, in `units`.
     pub pivot_length: Option<Placed<f64>>,
     /// Where the rotary axes of the table meet, in machine coordinates: `{ X = -381.0, Y = -203.2, Z = -550.0 }`.
     pub rotary_centre: BTreeMap<Placed<String>, Placed<f64>>,
     /// Rotary axes that reach an angle the shorter way round.
     pub rotary_shorter_way: Option<Vec<Placed<String>>>,
-    /// Length of a new bar, for a lathe with a bar feeder.
+    /// Length of a new bar in `units`, for a lathe with a bar feeder.
     pub bar_length: Option<Placed<f64>>,
     /// Bars to be used up, the one in the chuck among them: `run` and `stats` repeat a main program that feeds bar until then.
     pub bars: Option<Placed<u32>>,
@@ -276,15 +280,16 @@ pub struct FilesTable {
 
 /// `[rules]`: `select`, `ignore`, `extend-select`, and severities by rule or group.
 #[derive(Debug, Clone, Default, JsonSchema)]
-#[schemars(rename = "Rules", rename_all = "kebab-case")]
+#[schemars(rename = "Rules", rename_all = "kebab-case", transform = list_rules)]
 pub struct RulesTable {
     /// Rules, groups and sets that run, in place of `["recommended"]`.
+    #[schemars(with = "Option<Vec<RuleSelector>>")]
     pub select: Option<Vec<Placed<String>>>,
     /// Rules, groups and sets that do not run.
-    #[schemars(with = "Option<Vec<String>>")]
+    #[schemars(with = "Option<Vec<RuleSelector>>")]
     pub ignore: Vec<Placed<String>>,
     /// Rules, groups and sets that run as well.
-    #[schemars(with = "Option<Vec<String>>")]
+    #[schemars(with = "Option<Vec<RuleSelector>>")]
     pub extend_select: Vec<Placed<String>>,
     /// A rule or group that runs with this severity, or is `"off"`.
     #[schemars(flatten)]
@@ -368,15 +373,15 @@ pub struct ToolsTable {
 #[serde(deny_unknown_fields, default)]
 #[schemars(rename = "Tool")]
 pub struct ToolTable {
-    /// Length offset.
+    /// Length offset, in `units`.
     pub length: Option<f64>,
     /// Offsets by axis, in place of `length`: the geometry of a turning tool, `{ X = -3.0, Z = 120.0 }`.
     pub offset: BTreeMap<Placed<String>, f64>,
     /// Length of the tool that programs were posted for, where `length` corrects for another one along a tilting head.
     pub posted_length: Option<f64>,
-    /// Diameter.
+    /// Diameter, in `units`.
     pub diameter: Option<f64>,
-    /// Radius at the corner of the tip.
+    /// Radius at the corner of the tip, in `units`.
     pub corner_radius: Option<f64>,
     /// Where the tip of a turning tool points, 0 to 9 as the control numbers it.
     pub orientation: Option<Placed<u8>>,

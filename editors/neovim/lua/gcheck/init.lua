@@ -19,6 +19,12 @@ M.options = {
 
 local markers = { "gcheck.toml", ".gcheck.toml", ".git" }
 
+--- Is a buffer for the server: a program, or the configuration of gcheck?
+function M.wants(buffer)
+  local name = vim.fn.fnamemodify(vim.api.nvim_buf_get_name(buffer), ":t")
+  return vim.bo[buffer].filetype == "gcode" or name == "gcheck.toml" or name == ".gcheck.toml"
+end
+
 --- The command that starts the server.
 function M.command()
   return M.options.cmd or { vim.env.GCHECK_PATH or "gcheck", "lsp" }
@@ -105,8 +111,12 @@ function M.setup(options)
   if vim.lsp.config and vim.lsp.enable then
     vim.lsp.config("gcheck", {
       cmd = M.command(),
-      filetypes = { "gcode" },
-      root_markers = markers,
+      filetypes = { "gcode", "toml" },
+      root_dir = function(buffer, start)
+        if M.wants(buffer) then
+          start(M.root(vim.api.nvim_buf_get_name(buffer)))
+        end
+      end,
       settings = { gcheck = M.options.settings },
       init_options = { settings = M.options.settings },
       capabilities = M.options.capabilities,
@@ -118,13 +128,15 @@ function M.setup(options)
   local group = vim.api.nvim_create_augroup("gcheck", { clear = true })
   vim.api.nvim_create_autocmd("FileType", {
     group = group,
-    pattern = "gcode",
+    pattern = { "gcode", "toml" },
     callback = function(event)
-      M.attach(event.buf)
+      if M.wants(event.buf) then
+        M.attach(event.buf)
+      end
     end,
   })
   for _, buffer in ipairs(vim.api.nvim_list_bufs()) do
-    if vim.api.nvim_buf_is_loaded(buffer) and vim.bo[buffer].filetype == "gcode" then
+    if vim.api.nvim_buf_is_loaded(buffer) and M.wants(buffer) then
       M.attach(buffer)
     end
   end

@@ -413,6 +413,128 @@ export const commands: Test[] = [
     },
   ],
   [
+    "Shift Path asks how far, and changes the selected lines or the program with its proof",
+    async () => {
+      const text = ACTIONS.replace("X10 Y5", "X10. Y5.").replace("Z50\n", "Z50.\n").replace(/^IF .*\n/m, "");
+      const editor = await create("shift.nc", text);
+      const { document } = editor;
+      await focus();
+      void vscode.commands.executeCommand("gcheck.shiftPath");
+      await until("the question", async () => ((await widgets()).dialog ? true : undefined));
+      await pause(500);
+      await press([...characters("X10 Y-0.1in"), "Enter"]);
+      await until("the shift", () => (document.getText().includes("G0 X20. Y2.46") ? true : undefined));
+      assert.match(document.getText(), /^G2 X30\. Y12\.46 R20\.$[^]*^G98 G81 X40\. Y2\.46 Z-3\. R1\. F50\.$/m);
+      await vscode.commands.executeCommand("undo");
+      assert.equal(document.getText(), text);
+      const cycle = document.lineAt(place(document, "G98 G81").line).range;
+      editor.selection = new vscode.Selection(cycle.start, cycle.end);
+      // As somebody takes the action: its command asks.
+      const kind = vscode.CodeActionKind.RefactorRewrite.value;
+      const offered = await askList<vscode.CodeAction>("vscode.executeCodeActionProvider", document, cycle, kind);
+      const action = offered.find(({ title }) => title.startsWith("Shift the path in the selected lines"));
+      assert.ok(action?.command, offered.map(({ title }) => title).join("; "));
+      void vscode.commands.executeCommand(action.command.command, ...(action.command.arguments ?? []));
+      await until("the question", async () => ((await widgets()).dialog ? true : undefined));
+      await pause(500);
+      await picture("vscode-shift");
+      await press([...characters("Z-1"), "Enter"]);
+      await until("the shift", () => (document.getText().includes("Z-4. R0.") ? true : undefined));
+      assert.equal(document.getText().replace("Z-4. R0.", "Z-3. R1."), text, "nothing else changes");
+      await noComplaint();
+      await vscode.commands.executeCommand("workbench.action.files.revert");
+      await closeAll();
+    },
+  ],
+  [
+    "a shift that cannot be proved says why, and changes nothing",
+    async () => {
+      const text = "%\nO1016\n(gcheck: control=haas-mill)\nG21 G17 G40 G49 G80 G90 G54\nG0 X1.\nGOTO 77\nM30\n%\n";
+      const { document } = await create("unproved.nc", text);
+      await focus();
+      void vscode.commands.executeCommand("gcheck.shiftPath");
+      await until("the question", async () => ((await widgets()).dialog ? true : undefined));
+      await pause(500);
+      await press([...characters("X10"), "Enter"]);
+      await until("the reason", async () => ((await widgets()).messages.includes("cannot shift the path") ? true : undefined));
+      assert.equal(document.getText(), text);
+      await vscode.commands.executeCommand("notifications.clearAll");
+      await closeAll();
+    },
+  ],
+  [
+    "Renumber Blocks asks for the first number and the step",
+    async () => {
+      const text = "%\nO1017\n(gcheck: control=haas-mill)\nG21 G17 G40 G49 G80 G90 G54\nGOTO 7\nN3 G0 X5.\nN7 G0 X1.\nM30\n%\n";
+      const { document } = await create("numbers.nc", text);
+      await focus();
+      void vscode.commands.executeCommand("gcheck.renumber");
+      await until("the question", async () => ((await widgets()).dialog ? true : undefined));
+      await pause(500);
+      await press([...characters("100:5"), "Enter"]);
+      await until("the numbers", () => (document.getText().includes("N105 G0 X1.") ? true : undefined));
+      assert.match(document.getText(), /^GOTO 105\nN100 G0 X5\.\nN105 G0 X1\.$/m);
+      await noComplaint();
+      await vscode.commands.executeCommand("workbench.action.files.revert");
+      await closeAll();
+    },
+  ],
+  [
+    "gcheck.toml has hover, completion and findings, without any other extension",
+    async () => {
+      const text = 'control = "haas-mill"\n\n[machine]\nunits = "mm"\nmax_rpm = 8000\n\n[tools]\n3 = { length = 80.0 }\n\n[offsets]\nG54 = { X = -400.0 }\n\n[codes]\nM51 = { title = "door" }\n';
+      const editor = await create("shop/gcheck.toml", text);
+      const { document } = editor;
+      assert.match(await hoverText(document, place(document, "max_rpm", 1)), /machine\.max_rpm[^]*number[^]*Highest spindle speed, in 1\/min/);
+      assert.match(await hoverText(document, place(document, "haas-mill", 1)), /Haas mill/);
+      // Typed as somebody types, with the list open: what is typed stays, and Tab takes a row.
+      goTo(editor, "max_rpm");
+      await focus();
+      await press(["End", "Enter", ...characters("tool_changer = ")], [100, 180]);
+      await press(['"', "a"], [200, 300]);
+      const { rows } = await until<Widgets>("the list", async () => {
+        const seen = await widgets();
+        return seen.rows.some((row) => row.startsWith("arm")) ? seen : undefined;
+      });
+      await picture("vscode-configuration");
+      assert.ok(!rows.some((row) => row.startsWith("carousel") && rows.indexOf(row) === 0), rows.join("; "));
+      await press(["Tab", "End", "Enter", ...characters("max_fe")], [200, 300]);
+      await until("the keys", async () => ((await widgets()).rows.some((row) => row.startsWith("max_feed")) ? true : undefined));
+      await press(["Tab"], [200, 300]);
+      await until("the key", () => (document.getText().includes("max_feed = ") ? true : undefined));
+      await press([...characters("fast"), "Escape"], [100, 180]);
+      assert.match(document.getText(), /^max_rpm = 8000\ntool_changer = "arm"\nmax_feed = fast$/m);
+      const wrong = () => vscode.languages.getDiagnostics(document.uri);
+      await until("the finding", () => wrong().find(({ range }) => range.start.line === 6));
+      await press(["Backspace", "Backspace", "Backspace", "Backspace", ...characters("5000")], [100, 180]);
+      await until("the finding to go", () => (wrong().length === 0 ? true : undefined));
+      assert.ok(await document.save());
+      await noComplaint();
+    },
+  ],
+  [
+    "tools, work offsets and codes of the shop lead to their entries in gcheck.toml",
+    async () => {
+      const { document } = await create("shop/part.nc", "%\nO1018\nT3 M6\nG90 G54 G0 X0.\nG43 H3 Z5.\nM51\nM30\n%\n");
+      for (const [word, key] of [["T3", "3"], ["H3", "3"], ["G54", "G54"], ["M51", "M51"]] as const) {
+        const target = await until(`the entry of ${word}`, async () => {
+          const found = await vscode.commands.executeCommand<(vscode.Location | vscode.LocationLink)[]>(
+            "vscode.executeDefinitionProvider",
+            document.uri,
+            place(document, word, 1),
+          );
+          return found[0];
+        });
+        const [uri, range] = "targetUri" in target ? [target.targetUri, target.targetRange] : [target.uri, target.range];
+        assert.equal(path.basename(uri.fsPath), "gcheck.toml");
+        const configuration = await vscode.workspace.openTextDocument(uri);
+        assert.equal(configuration.getText(range), key);
+      }
+      await closeAll();
+      fs.rmSync(path.join(folder(), "shop"), { recursive: true });
+    },
+  ],
+  [
     "lenses stand above the tools, and go with their setting",
     async () => {
       const { document } = await open("pocket.nc");

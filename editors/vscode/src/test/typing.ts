@@ -38,6 +38,36 @@ N90 G28 G91 Z0.
 M30
 %`;
 
+/** A configuration that is typed, with keys and values of every kind. */
+const CONFIGURATION = `control = "haas-mill"
+# the mill in the corner
+[machine]
+units = "mm"
+axes = ["X", "Y", "Z"]
+travel.X = [-762.0, 0.0]
+rapid = { X = 25400.0, Y = 25400.0, Z = 18000.0 }
+max_rpm = 8100
+[settings]
+162 = false
+"34" = 6.0
+[variables]
+"#500" = 2.5
+[tools]
+3 = { length = 80.0, diameter = 10 }
+[offsets]
+G54 = { X = -400.0, Y = -200.0 }
+"G154 P2" = { X = 1.0 }
+[codes]
+M51 = { title = "door" }
+[rules]
+select = ["recommended", "strict"]
+unknown-code = "off"
+words = "hint"
+[[overrides]]
+files = ["lathe/**"]
+control = "haas-lathe"
+`;
+
 /**
  * The programs to type. Blanks at the start of a line are left out, because VS Code puts them there itself; a comment that
  * is never closed too, because VS Code closes it.
@@ -126,6 +156,15 @@ export const typing: Test[] = [
       const { document } = await empty("haas-mill/corrected.nc");
       await press(withSlips(text), HUMAN);
       checkText(document, text);
+      await closeAll();
+    },
+  ],
+  [
+    "a configuration is typed, and stands there as it was typed",
+    async () => {
+      const { document } = await empty("configuration/gcheck.toml");
+      await press(characters(CONFIGURATION), HUMAN);
+      checkText(document, CONFIGURATION);
       await closeAll();
     },
   ],
