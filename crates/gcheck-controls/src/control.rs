@@ -408,6 +408,7 @@ impl Control {
                 recommends: Vec::new(),
                 forbids: Vec::new(),
                 conflicts: Vec::new(),
+                conflicts_when_later: false,
                 cancels: Vec::new(),
                 cancelled_by: Vec::new(),
                 motion: Motion::None,

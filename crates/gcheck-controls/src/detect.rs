@@ -204,7 +204,6 @@ mod tests {
             "Estlcam",
             "Marlin 2.1",
             "Duet 3",
-            "FluidNC 3.7",
         ] {
             assert!(named(text).is_some(), "{text}");
         }
@@ -217,8 +216,8 @@ mod tests {
         };
         assert_eq!(control("PathPilot", &[]).as_deref(), Some("linuxcnc"));
         // They read more than grbl does, and would get its findings for what is right on them.
-        assert_eq!(control("FOR grblHAL", &[]), None);
-        assert_eq!(control("FluidNC, grbl", &["M6"]), None);
+        assert_eq!(control("FOR grblHAL", &[]).as_deref(), Some("grblhal"));
+        assert_eq!(control("FluidNC, grbl", &["M6"]).as_deref(), Some("fluidnc"));
     }
 
     #[test]

@@ -345,6 +345,14 @@ impl Effect {
         matches!(self, Self::ArcClockwise | Self::ArcCounterClockwise)
     }
 
+    /// A move toward or away from the work until the probe changes (`G38`).
+    pub const fn is_probing_move(self) -> bool {
+        matches!(
+            self,
+            Self::ProbeToward | Self::ProbeTowardOptional | Self::ProbeAway | Self::ProbeAwayOptional
+        )
+    }
+
     /// Starts the spindle, either way round; with coolant too.
     pub const fn starts_spindle(self) -> bool {
         matches!(
@@ -541,6 +549,9 @@ pub struct Semantics {
     pub zero_length_number_cancels: bool,
     /// `G53` moves in rapid whatever motion is in effect; else as `G0` or `G1` in effect says, and not under another one.
     pub machine_coordinates_rapid: bool,
+    /// `G53` beside a probing code reads the limit of its move in machine coordinates.
+    #[serde(default)]
+    pub machine_coordinates_in_probing: bool,
     /// Dwell words: letter to kind.
     pub dwell: BTreeMap<String, DwellWord>,
     /// Computed jumps and `GOTO` look forward first, then from the head of the program.
@@ -718,6 +729,9 @@ pub struct ArcRules {
     pub zero_radius: f64,
     /// `P` counts turns.
     pub turns: bool,
+    /// `P0` is one turn as well; else it is refused.
+    #[serde(default)]
+    pub zero_turns: bool,
     /// Centre words beside `R`: `R` wins, else refused.
     pub radius_wins: bool,
     /// The centre word of the axis across the plane is passed over where other centre words stand, else refused.

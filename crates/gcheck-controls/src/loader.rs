@@ -220,7 +220,11 @@ fn add_layer(layers: &mut Layers, source: &Source) -> Result<(), LoadError> {
             of: a.of,
             entry: AlarmEntry { number: a.number, text: a.text, confidence: a.confidence },
         });
-        put_all(&mut layers.alarms, alarms.collect(), |alarm| (alarm.rule.clone(), alarm.of.clone()));
+        // The first row that names a code is taken: a control's own rows come before those of its base.
+        let mut own: Vec<AlarmOfRule> = alarms.collect();
+        layers.alarms.retain(|base| !own.iter().any(|row| row.rule == base.rule && row.of == base.of));
+        own.append(&mut layers.alarms);
+        layers.alarms = own;
     }
     if let Some(file) = parse_file::<ExecutionFile>(source, "execution.toml")? {
         layers.effects.extend(file.effects);

@@ -561,6 +561,10 @@ pub struct CodeEntry {
     /// Codes, or groups as `@motion`, that must not be in the same block.
     #[serde(default)]
     pub conflicts: Vec<String>,
+    /// The control refuses those only where they come before this code in the block; after it they are read, and one of the
+    /// two is lost.
+    #[serde(default)]
+    pub conflicts_when_later: bool,
     /// Codes that this one ends.
     #[serde(default)]
     pub cancels: Vec<String>,

@@ -59,6 +59,9 @@ pub enum Certainty {
 }
 
 impl Certainty {
+    /// Both.
+    pub const ALL: [Self; 2] = [Self::Always, Self::Maybe];
+
     /// The name used in every format.
     pub fn name(self) -> &'static str {
         match self {

@@ -2,6 +2,7 @@
 //!
 //! Knows: how much of a finding an editor shows, how many findings it takes. Must not know: how rules find them.
 
+use std::collections::BTreeMap;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -10,6 +11,9 @@ use gcheck_diagnostics::{Finding, Severity};
 
 /// Most diagnostics of a document; the rest are counted.
 pub const MAX_DIAGNOSTICS: usize = 1_000;
+
+/// So many findings of one rule and severity are shown one by one where repeats are folded.
+pub const SHOWN_OF_A_RULE: usize = 5;
 
 /// The rule whose findings lie on text that can never run.
 const UNREACHABLE: &str = "unreachable-block";
@@ -42,6 +46,27 @@ pub struct Diagnostic {
     pub unnecessary: bool,
     /// The finding has a fix.
     pub fixable: bool,
+    /// It is in the place of this many repeats of its rule.
+    pub repeats: Option<Repeats>,
+}
+
+/// Findings of one rule and severity that are told as one.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Repeats {
+    /// How many.
+    pub count: usize,
+    /// Where the last of them begins, in bytes of the file; the first is at the diagnostic itself.
+    pub last: u32,
+}
+
+/// Are repeats of a rule shown one by one, or as one?
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ShownRepeats {
+    /// All of them, one by one.
+    All,
+    /// [`SHOWN_OF_A_RULE`], and one more that counts the others. Text that can never run is always shown, because editors
+    /// fade it.
+    Folded,
 }
 
 /// Another place involved in a finding.
@@ -67,31 +92,83 @@ pub struct Omitted {
 }
 
 /// What is published of an analysis.
-pub fn diagnostics(analysis: &Analysis) -> Diagnostics {
-    let findings = &analysis.findings;
+pub fn diagnostics(analysis: &Analysis, shown: ShownRepeats) -> Diagnostics {
+    let (findings, repeats) = match shown {
+        ShownRepeats::All => (analysis.findings.iter().collect(), BTreeMap::new()),
+        ShownRepeats::Folded => folded(&analysis.findings),
+    };
     let mut omitted: Vec<Omitted> = analysis
         .omitted
         .iter()
         .map(|(rule, severity, count)| Omitted { rule: rule.id, severity: *severity, count: *count })
         .collect();
-    let mut listed: Vec<&Finding> = findings.iter().collect();
+    let mut listed: Vec<(usize, &Finding)> = findings.into_iter().enumerate().collect();
     if listed.len() > MAX_DIAGNOSTICS {
         // Stable: of one severity the first in the text stay.
-        listed.sort_by_key(|finding| std::cmp::Reverse(finding.severity));
-        for finding in listed.split_off(MAX_DIAGNOSTICS) {
+        listed.sort_by_key(|(_, finding)| std::cmp::Reverse(finding.severity));
+        for (ix, finding) in listed.split_off(MAX_DIAGNOSTICS) {
+            let count = repeats.get(&ix).map_or(1, |repeats| repeats.count);
             let same = |o: &&mut Omitted| o.rule == finding.rule.id && o.severity == finding.severity;
             match omitted.iter_mut().find(same) {
-                Some(known) => known.count += 1,
+                Some(known) => known.count += count,
                 None => {
                     let (rule, severity) = (finding.rule.id, finding.severity);
-                    omitted.push(Omitted { rule, severity, count: 1 });
+                    omitted.push(Omitted { rule, severity, count });
                 }
             }
         }
-        listed.sort_by_key(|finding| (finding.range.start, finding.range.end));
+        listed.sort_by_key(|(_, finding)| (finding.range.start, finding.range.end));
     }
     omitted.sort_by_key(|o| (std::cmp::Reverse(o.count), o.rule));
-    Diagnostics { list: listed.into_iter().map(diagnostic).collect(), omitted }
+    let list = listed.into_iter().map(|(ix, finding)| match repeats.get(&ix) {
+        Some(repeats) => of_repeats(finding, repeats.clone()),
+        None => diagnostic(finding),
+    });
+    Diagnostics { list: list.collect(), omitted }
+}
+
+/// The findings that are shown, and which of them, by their place among those, are in the place of repeats.
+fn folded(findings: &[Finding]) -> (Vec<&Finding>, BTreeMap<usize, Repeats>) {
+    let key = |finding: &Finding| (finding.rule.id, finding.severity);
+    let mut totals: BTreeMap<(&str, Severity), usize> = BTreeMap::new();
+    for finding in findings {
+        *totals.entry(key(finding)).or_default() += 1;
+    }
+    let mut seen: BTreeMap<(&str, Severity), usize> = BTreeMap::new();
+    let mut shown = Vec::new();
+    let mut places: BTreeMap<(&str, Severity), usize> = BTreeMap::new();
+    let mut repeats: BTreeMap<usize, Repeats> = BTreeMap::new();
+    for finding in findings {
+        let key = key(finding);
+        let before = seen.entry(key).or_default();
+        let total = totals.get(&key).copied().unwrap_or_default();
+        // One more than are shown takes no more room than the line that would count it.
+        let is_shown = *before < SHOWN_OF_A_RULE || total == SHOWN_OF_A_RULE + 1;
+        *before += 1;
+        if is_shown || finding.rule.id == UNREACHABLE {
+            shown.push(finding);
+            continue;
+        }
+        let place = *places.entry(key).or_insert_with(|| {
+            shown.push(finding);
+            shown.len() - 1
+        });
+        let fold = repeats.entry(place).or_insert(Repeats { count: 0, last: finding.range.start });
+        fold.count += 1;
+        fold.last = fold.last.max(finding.range.start);
+    }
+    (shown, repeats)
+}
+
+/// The first of several repeats, in the place of all of them. What it says of its own spot is left out; how many they are is
+/// for those who know lines.
+fn of_repeats(finding: &Finding, repeats: Repeats) -> Diagnostic {
+    Diagnostic {
+        message: finding.rule.summary.to_owned(),
+        related: Vec::new(),
+        repeats: Some(repeats),
+        ..diagnostic(finding)
+    }
 }
 
 fn diagnostic(finding: &Finding) -> Diagnostic {
@@ -112,6 +189,7 @@ fn diagnostic(finding: &Finding) -> Diagnostic {
         docs: finding.rule.page(),
         unnecessary: finding.rule.id == UNREACHABLE,
         fixable: !finding.fixes.is_empty(),
+        repeats: None,
     }
 }
 
@@ -151,7 +229,7 @@ mod tests {
 
     use expect_test::{Expect, expect};
 
-    use super::{MAX_DIAGNOSTICS, diagnostics, unreachable_ranges};
+    use super::{MAX_DIAGNOSTICS, SHOWN_OF_A_RULE, ShownRepeats, diagnostics, unreachable_ranges};
     use crate::fixture::{Fixture, shown};
 
     fn check(control: &str, text: &str, expected: &Expect) {
@@ -159,7 +237,7 @@ mod tests {
         let analysis = fixture.analysis();
         let snapshot = fixture.snapshot();
         let mut lines = String::new();
-        for found in diagnostics(&analysis).list {
+        for found in diagnostics(&analysis, ShownRepeats::Folded).list {
             let faded = if found.unnecessary { " (faded)" } else { "" };
             let _ = writeln!(
                 lines,
@@ -215,10 +293,48 @@ mod tests {
     }
 
     #[test]
+    fn repeats_of_a_rule_are_one_after_the_first_five() {
+        let program = |count| format!("%\nO1\nG20 G90 G54\n{}G0 X\nM30\n%\n", "X1. ]\n".repeat(count));
+        for (count, listed, hidden) in [(5, 5, None), (6, 6, None), (7, 6, Some(2)), (500, 6, Some(495))] {
+            let text = program(count);
+            let mut fixture = Fixture::new("haas-mill", &text);
+            let analysis = fixture.analysis();
+            let published = diagnostics(&analysis, ShownRepeats::Folded);
+            let repeated: Vec<_> =
+                published.list.iter().filter(|found| found.rule == "stray-bracket").collect();
+            assert_eq!(repeated.len(), listed, "{count}");
+            let fold = repeated.get(SHOWN_OF_A_RULE).and_then(|found| found.repeats.as_ref());
+            assert_eq!(fold.map(|fold| fold.count), hidden, "{count}");
+            if let Some(fold) = fold {
+                assert_eq!(fold.last as usize, text.rfind(']').unwrap(), "{count}");
+            }
+            // Another rule's finding after them is not hidden.
+            assert!(published.list.iter().any(|found| found.rule == "address-without-value"), "{count}");
+            assert!(published.omitted.is_empty(), "{:?}", published.omitted);
+            let all = diagnostics(&analysis, ShownRepeats::All);
+            assert_eq!(all.list.iter().filter(|found| found.rule == "stray-bracket").count(), count);
+        }
+    }
+
+    #[test]
+    fn text_that_never_runs_stays_faded_however_much_it_is() {
+        let blocks: String = (1..=9).fold(String::new(), |mut blocks, n| {
+            let _ = writeln!(blocks, "GOTO {n}\nX2.\nN{n} X3.");
+            blocks
+        });
+        let text = format!("%\nO1\nG20 G90 G54 G0 X1.\n{blocks}M30\n%\n");
+        let mut fixture = Fixture::new("haas-mill", &text);
+        let analysis = fixture.analysis();
+        let faded =
+            diagnostics(&analysis, ShownRepeats::Folded).list.into_iter().filter(|found| found.unnecessary);
+        assert_eq!(faded.count(), 9);
+    }
+
+    #[test]
     fn more_than_an_editor_takes_are_counted() {
         let text = format!("%\nO1\nG20 G90 G54\n{}M30\n%\n", "X1. ]\n".repeat(MAX_DIAGNOSTICS + 20));
         let mut fixture = Fixture::new("haas-mill", &text);
-        let published = diagnostics(&fixture.analysis());
+        let published = diagnostics(&fixture.analysis(), ShownRepeats::All);
         assert_eq!(published.list.len(), MAX_DIAGNOSTICS);
         assert!(published.list.is_sorted_by_key(|found| found.range.start));
         assert!(published.omitted.iter().map(|o| o.count).sum::<usize>() >= 20, "{:?}", published.omitted);

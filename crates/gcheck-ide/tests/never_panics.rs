@@ -96,7 +96,7 @@ fn ask_everything(world: &mut World, offset: u32, other: u32, new_name: &str) {
     let analysis = world.database.analysis(id, &go).unwrap();
     let range = offset.min(other)..offset.max(other);
 
-    for found in gcheck_ide::diagnostics(&analysis).list {
+    for found in gcheck_ide::diagnostics(&analysis, gcheck_ide::ShownRepeats::Folded).list {
         world.inside(id, &found.range);
     }
     let unreachable = gcheck_ide::unreachable_ranges(&analysis);

@@ -22,10 +22,27 @@ fn headers_of_senders_and_lines_for_the_firmware_speak_for_their_control() {
         "; LightBurn 1.4.00\n; Marlin device profile\nG0 X1\n",
         "(for grblHAL)\nG81 X1 Z-1 R1 F100\n",
         "(FluidNC, grbl)\nT1 M6\n",
+        "(for Grbl_ESP32)\nT1 M6\n",
         "(carbide end mill)\nO1\nT1 M6\nG43 H1\n",
         "$1 S100 M3\n",
     ] {
         assert_ne!(guess(program).as_deref(), Some("grbl"), "{program}");
+    }
+}
+
+/// A program that names one of them is its own; codes alone, which several firmwares read, speak for none.
+#[test]
+fn descendants_of_a_firmware_are_told_by_their_names() {
+    for (program, control) in [
+        ("(for grblHAL)\nG81 X1 Z-1 R1 F100\n", Some("grblhal")),
+        ("; grblHAL 1.1f\nT1 M6\nG0 X1\n", Some("grblhal")),
+        ("(FluidNC, grbl)\nT1 M6\n", Some("fluidnc")),
+        ("(FluidNC)\n#<depth>=2\nG1 Z[-#<depth>] F100\n", Some("fluidnc")),
+        ("(grblHAL)\n#<depth>=2\no100 if [1]\no100 endif\n", Some("grblhal")),
+        ("(for grblHAL or FluidNC)\nG0 X1\n", None),
+        ("T1 M6\nG0 X1\n", None),
+    ] {
+        assert_eq!(guess(program).as_deref(), control, "{program}");
     }
 }
 

@@ -5,7 +5,7 @@
 use serde::Serialize;
 
 /// The control a file was checked for.
-#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize, schemars::JsonSchema)]
 pub struct ControlChoice {
     /// Its name, e.g. `haas-mill`.
     pub name: String,
@@ -16,7 +16,7 @@ pub struct ControlChoice {
 }
 
 /// Where the choice of a control came from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, schemars::JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum ControlSource {
     /// `control = …` of a configuration file.

@@ -16,7 +16,10 @@ mod list;
 mod rdjson;
 mod remarks;
 mod sarif;
+mod schema;
 mod xml;
+
+pub use schema::findings_schema;
 
 use std::io::{self, Write};
 

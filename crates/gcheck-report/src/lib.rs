@@ -30,7 +30,7 @@ pub use control::{ControlChoice, ControlSource};
 pub use control_lines::control_lines;
 pub use fingerprint::{Fingerprint, Fingerprinter};
 pub use fold::folded;
-pub use formats::{Format, write};
+pub use formats::{Format, findings_schema, write};
 pub use line_index::{LineIndex, Position};
 pub use path_base::PathBase;
 pub use report::{Assumed, FailedRule, FileReport, RelatedFile, Report, Skipped, Summary};

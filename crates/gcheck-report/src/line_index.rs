@@ -10,7 +10,7 @@ use serde::Serialize;
 const BLOCK: usize = 1_024;
 
 /// A place in a text, as people and formats name it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, schemars::JsonSchema)]
 pub struct Position {
     /// From 1.
     pub line: u32,

@@ -135,7 +135,7 @@ fn fold_files(files: &mut [File]) {
 }
 
 /// A file that was to be checked and could not be.
-#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize, schemars::JsonSchema)]
 pub struct Skipped {
     /// As shown; empty when the problem is not one of a single file.
     pub file: String,
@@ -176,7 +176,7 @@ pub(crate) struct File {
 }
 
 /// Sums over all files.
-#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, schemars::JsonSchema)]
 pub struct Summary {
     /// Files checked.
     pub files: usize,
@@ -209,7 +209,7 @@ pub struct Summary {
 }
 
 /// A rule that failed in a file.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, schemars::JsonSchema)]
 pub struct FailedRule {
     /// The file, as shown.
     pub file: String,
@@ -218,7 +218,7 @@ pub struct FailedRule {
 }
 
 /// Something taken for granted.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, schemars::JsonSchema)]
 pub struct Assumed {
     /// One sentence without an end.
     pub text: String,

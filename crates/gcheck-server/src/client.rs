@@ -5,7 +5,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 
-use gcheck_ide::InlayOptions;
+use gcheck_ide::{InlayOptions, ShownRepeats};
 use serde::Deserialize;
 use serde_json::Value;
 
@@ -132,6 +132,8 @@ pub(crate) struct ClientSettings {
     pub(crate) run: Moment,
     pub(crate) hints: InlayOptions,
     pub(crate) lenses: bool,
+    /// Repeats of a rule are told as one.
+    pub(crate) folds_repeats: bool,
     /// Messages are written to the log.
     pub(crate) trace: bool,
 }
@@ -154,7 +156,7 @@ impl ClientSettings {
     pub(crate) fn read(value: &Value) -> (Self, Vec<String>) {
         let value = value.get("gcheck").unwrap_or(value);
         let mut complaints = Vec::new();
-        let mut settings = Self { lenses: true, ..Self::default() };
+        let mut settings = Self { lenses: true, folds_repeats: true, ..Self::default() };
         let mut text = |name: &str| match value.get(name) {
             None | Some(Value::Null) => None,
             Some(Value::String(text)) => Some(text.trim().to_owned()).filter(|text| !text.is_empty()),
@@ -182,8 +184,16 @@ impl ClientSettings {
         settings.lenses = switch(value, "codeLens", "enable")
             .or(value.get("codeLens").and_then(Value::as_bool))
             .unwrap_or(true);
+        settings.folds_repeats = value.get("foldRepeats").and_then(Value::as_bool).unwrap_or(true);
         settings.hints = hints(value);
         (settings, complaints)
+    }
+}
+
+impl ClientSettings {
+    /// Are repeats of a rule shown one by one?
+    pub(crate) fn shown_repeats(&self) -> ShownRepeats {
+        if self.folds_repeats { ShownRepeats::Folded } else { ShownRepeats::All }
     }
 }
 
@@ -217,7 +227,8 @@ mod tests {
         assert_eq!(complaints, [""; 0]);
         assert_eq!(ClientSettings::read(&json!({ "gcheck": inner })).0, settings);
         assert_eq!((settings.control.as_deref(), settings.run), (Some("linuxcnc"), Moment::OnSave));
-        assert!(!settings.hints.feed && settings.hints.speed && settings.lenses);
+        assert!(!settings.hints.feed && settings.hints.speed && settings.lenses && settings.folds_repeats);
+        assert!(!ClientSettings::read(&json!({ "foldRepeats": false })).0.folds_repeats);
     }
 
     #[test]

@@ -57,7 +57,14 @@ pub(crate) fn convert(
             code: Some(NumberOrString::String(found.rule.to_owned())),
             code_description: docs.map(|href| CodeDescription { href }),
             source: Some(SOURCE.to_owned()),
-            message: found.message.clone(),
+            message: match &found.repeats {
+                None => found.message.clone(),
+                Some(repeats) => {
+                    let lines = [found.range.start, repeats.last]
+                        .map(|byte| places.range(&(byte..byte)).start.line + 1);
+                    folded(repeats.count, lines, found.rule, &found.message)
+                }
+            },
             related_information: related.filter(|related| !related.is_empty()),
             tags: (abilities.diagnostic_tags && found.unnecessary).then(|| vec![DiagnosticTag::UNNECESSARY]),
             data: None,
@@ -76,6 +83,14 @@ fn severity(severity: Severity) -> DiagnosticSeverity {
         Severity::Info => DiagnosticSeverity::INFORMATION,
         Severity::Hint => DiagnosticSeverity::HINT,
     }
+}
+
+/// Says how often a rule repeats, between which lines, and how each of its findings is shown.
+fn folded(count: usize, [first, last]: [u32; 2], rule: &str, summary: &str) -> String {
+    let lines = if first == last { format!("line {first}") } else { format!("lines {first} to {last}") };
+    format!(
+        "… and {count} more of {rule}, {lines}\n{summary}\nhelp: the setting `gcheck.foldRepeats` set to `false` shows each of them"
+    )
 }
 
 /// Says how many findings are not shown.

@@ -53,6 +53,16 @@ pub struct Global {
     pub quiet: bool,
 }
 
+/// What a JSON schema describes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+pub enum SchemaOf {
+    /// `gcheck.toml`
+    #[default]
+    Configuration,
+    /// The output of `--output-format json`; a line of `jsonl` is its `$defs/Line`
+    Findings,
+}
+
 /// When colours are used.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
 pub enum When {
@@ -109,8 +119,12 @@ pub enum Command {
     /// The machine in `gcheck.toml`
     #[command(subcommand)]
     Machine(MachineCommand),
-    /// Print the JSON schema of `gcheck.toml`
-    Schema,
+    /// Print a JSON schema: that of `gcheck.toml`, or of the findings as `json` and `jsonl` have them
+    Schema {
+        /// What it describes
+        #[arg(value_enum, default_value_t)]
+        of: SchemaOf,
+    },
     /// Serve an editor: the language server on standard input and output
     Lsp(LspOptions),
     /// Print completions for a shell

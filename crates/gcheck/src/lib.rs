@@ -45,7 +45,7 @@ use clap::Parser as _;
 
 pub use problem::Problem;
 
-use args::{Arguments, Command, MachineCommand};
+use args::{Arguments, Command, MachineCommand, SchemaOf};
 use containment::guarded;
 
 /// Runs the program with the arguments of the process.
@@ -105,7 +105,8 @@ fn run(arguments: &Arguments) -> Result<u8, Problem> {
         }
         Command::Machine(MachineCommand::List(options)) => commands::models::list(options),
         Command::Machine(MachineCommand::Show { name }) => commands::models::show(name),
-        Command::Schema => output::print(&config::schema()),
+        Command::Schema { of: SchemaOf::Configuration } => output::print(&config::schema()),
+        Command::Schema { of: SchemaOf::Findings } => output::print(&gcheck_report::findings_schema()),
         Command::Lsp(_) => lsp::run(&arguments.global),
         Command::Completions { shell } => commands::completions::run(*shell),
     }

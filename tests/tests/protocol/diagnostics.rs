@@ -95,7 +95,7 @@ fn a_document_that_is_closed_has_no_findings() {
 
 #[test]
 fn no_more_than_a_thousand_are_shown_and_the_rest_counted() {
-    let mut session = Session::new(&[]);
+    let mut session = Session::told(&usual(), &json!({ "foldRepeats": false }), &[]);
     let text = format!("(gcheck: control=haas-mill)\n%\nO1\n{}M30\n%\n", "G0 G1 X1. F100.\n".repeat(1_500));
     session.open("a.nc", &text);
     let all = session.published_whole("a.nc", 1);
@@ -104,6 +104,28 @@ fn no_more_than_a_thousand_are_shown_and_the_rest_counted() {
     assert_eq!(last["severity"], 3);
     let message = last["message"].as_str().unwrap();
     assert!(message.contains("not shown: two-codes-of-one-group"), "{message}");
+}
+
+#[test]
+fn repeats_of_a_rule_are_one_finding_unless_the_user_wants_all() {
+    let text = format!("(gcheck: control=haas-mill)\n%\nO1\n{}M30\n%\n", "G0 G1 X1. F100.\n".repeat(40));
+    let of_the_rule = |session: &mut Session| -> Vec<Value> {
+        let mut all = session.published_whole("a.nc", 1);
+        all.retain(|found| found["code"] == "two-codes-of-one-group");
+        all
+    };
+    let mut session = Session::new(&[]);
+    session.open("a.nc", &text);
+    let folded = of_the_rule(&mut session);
+    assert_eq!(folded.len(), 6);
+    let last = &folded[5];
+    let message = last["message"].as_str().unwrap();
+    assert!(message.starts_with("… and 35 more of two-codes-of-one-group, lines 9 to 43\n"), "{message}");
+    assert_eq!((&last["severity"], &last["range"]["start"]["line"]), (&folded[0]["severity"], &json!(8)));
+    // What is set takes effect at once.
+    session.client.settings = json!({ "foldRepeats": false });
+    session.client.notify("workspace/didChangeConfiguration", json!({ "settings": null }));
+    assert_eq!(of_the_rule(&mut session).len(), 40);
 }
 
 #[test]

@@ -207,6 +207,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         match self.count(Letter::of('P')) {
             Ok(None) => Ok(1),
             Ok(Some(Count::Known(turns))) if turns >= 1 => Ok(turns),
+            Ok(Some(Count::Known(0))) if self.model.semantics().arcs.zero_turns => Ok(1),
             // Whatever their number, they end where one ends.
             Ok(Some(Count::Unknown)) => self.refuse(Fault::Undecidable).map(|()| 1),
             _ => Err(Fault::Arc(ArcFault::Turns)),

@@ -92,7 +92,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         }
         let Some(mode) = state.mode(Role::Motion).only() else { return self.lose_motion(state) };
         let effect = self.model.effect(mode);
-        if to_machine_point && !matches!(effect, Effect::Rapid | Effect::Linear) {
+        let probes = self.model.semantics().machine_coordinates_in_probing
+            && effect.is_probing_move()
+            && self.words.codes().contains(&mode);
+        if to_machine_point && !probes && !matches!(effect, Effect::Rapid | Effect::Linear) {
             return Err(Fault::NoMotionMode);
         }
         match effect {

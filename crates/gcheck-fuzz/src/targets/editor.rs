@@ -61,7 +61,7 @@ impl World {
         let id = self.main;
         let Some(snapshot) = self.workspace.file(id).map(|file| file.snapshot.clone()) else { return };
         let Ok(analysis) = self.database.analysis(id, &go) else { panic!("nobody cancelled the analysis") };
-        for found in gcheck_ide::diagnostics(&analysis).list {
+        for found in gcheck_ide::diagnostics(&analysis, gcheck_ide::ShownRepeats::Folded).list {
             self.inside(id, &found.range);
         }
         if let Some(hover) = gcheck_ide::hover(&mut self.database, id, offset, &go) {

@@ -6,67 +6,125 @@
 
 use std::io::{self, Write};
 
-use gcheck_diagnostics::Finding;
+use gcheck_diagnostics::{Certainty, Finding, Severity};
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::list::List;
 use crate::report::File;
 use crate::source::Source;
-use crate::{ControlChoice, Fingerprint, Position, Report};
+use crate::{ControlChoice, Fingerprint, Position, Report, Summary};
 
 /// Version of the object.
 const VERSION: u32 = 1;
 
-#[derive(Serialize)]
+// The object is written in parts; this says only which parts there are.
+/// What `gcheck check --output-format json` prints.
+#[derive(JsonSchema)]
+#[schemars(title = "findings of gcheck", rename = "Report")]
+#[expect(dead_code, reason = "it describes what `write` writes part by part")]
+pub(super) struct JsonReport<'r> {
+    /// 1. It changes only when a member goes away or means something else; new members keep it.
+    #[schemars(extend("const" = VERSION))]
+    version: u32,
+    /// The files that were checked, in the order of their names.
+    files: Vec<JsonFile<'r>>,
+    /// The findings, by file and in the order of its text.
+    findings: Vec<JsonFinding<'r>>,
+    /// Counts over all files, and what keeps the verdict from being complete.
+    summary: Summary,
+}
+
+/// A file that was checked.
+#[derive(Serialize, JsonSchema)]
+#[schemars(rename = "File")]
 struct JsonFile<'r> {
+    /// As it was named, or as it is called from the current folder.
     file: &'r str,
+    /// The control that it was read for.
     control: &'r ControlChoice,
 }
 
-#[derive(Serialize)]
+/// A finding.
+#[derive(Serialize, JsonSchema)]
+#[schemars(rename = "Finding")]
 pub(super) struct JsonFinding<'r> {
+    /// The rule's id, which never changes.
     rule: &'r str,
+    /// How bad it is.
+    #[schemars(extend("enum" = Severity::ALL.map(Severity::name)))]
     severity: &'r str,
+    /// On every path of the program, or on some.
+    #[schemars(extend("enum" = Certainty::ALL.map(Certainty::name)))]
     certainty: &'r str,
+    /// One line that makes sense by itself.
     message: &'r str,
+    /// The file, as in `files`.
     file: &'r str,
+    /// The place.
     range: JsonRange,
-    /// What the range itself contributes.
+    /// What the place itself contributes.
     label: Option<&'r str>,
+    /// Other places involved.
     labels: Vec<JsonLabel<'r>>,
+    /// Facts, and what the control does, with sources.
     notes: &'r [String],
+    /// What to do.
     help: Option<&'r str>,
+    /// The alarm or error that the control answers with.
     alarm: Option<&'r str>,
+    /// What the finding takes for granted.
     assumptions: &'r [String],
+    /// Changes that settle it.
     fixes: Vec<JsonFix<'r>>,
+    /// 32 hexadecimal digits by which the finding is known again when lines around it change.
+    #[schemars(with = "String", extend("pattern" = "^[0-9a-f]{32}$"))]
     fingerprint: Fingerprint,
 }
 
-#[derive(Serialize)]
+/// A part of a file; the end is not part of it.
+#[derive(Serialize, JsonSchema)]
+#[schemars(rename = "Range")]
 struct JsonRange {
+    /// Its first character.
     start: Position,
+    /// The place after its last character.
     end: Position,
 }
 
-#[derive(Serialize)]
+/// Another place involved in a finding.
+#[derive(Serialize, JsonSchema)]
+#[schemars(rename = "Label")]
 struct JsonLabel<'r> {
+    /// What the place contributes.
     message: &'r str,
+    /// Its file.
     file: &'r str,
-    /// `null` if the other file's text is not at hand.
+    /// The place; `null` if the other file's text is not at hand.
     range: Option<JsonRange>,
 }
 
-#[derive(Serialize)]
+/// A change that settles a finding.
+#[derive(Serialize, JsonSchema)]
+#[schemars(rename = "Fix")]
 struct JsonFix<'r> {
+    /// What it does.
     title: &'r str,
+    /// It changes no move of the machine.
     safe: bool,
+    /// Its edits, which do not overlap.
     edits: Vec<JsonEdit<'r>>,
 }
 
-#[derive(Serialize)]
+/// A text in the place of another.
+#[derive(Serialize, JsonSchema)]
+#[schemars(rename = "Edit")]
 struct JsonEdit<'r> {
+    /// The file.
     file: &'r str,
+    /// What is replaced; nothing where it is empty.
     range: JsonRange,
+    /// The new text.
     text: &'r str,
 }
 

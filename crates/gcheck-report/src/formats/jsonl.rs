@@ -4,15 +4,18 @@
 
 use std::io::{self, Write};
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::json::{JsonFinding, json_finding};
 use crate::{ControlChoice, Report};
 
-#[derive(Serialize)]
-struct Line<'r> {
+/// A line of `jsonl`: a finding, and the control of its file.
+#[derive(Serialize, JsonSchema)]
+pub(super) struct Line<'r> {
     #[serde(flatten)]
     finding: JsonFinding<'r>,
+    /// The control that the file was read for.
     control: &'r ControlChoice,
 }
 

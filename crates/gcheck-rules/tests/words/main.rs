@@ -22,7 +22,7 @@ use case::{Case, Kind};
 use judge::{Answer, Judge};
 
 /// The controls whose codes are tried.
-const CONTROLS: [&str; 10] = [
+const CONTROLS: [&str; 12] = [
     "haas-mill",
     "haas-lathe",
     "fanuc-mill",
@@ -31,6 +31,8 @@ const CONTROLS: [&str; 10] = [
     "fanuc-lathe-c",
     "linuxcnc",
     "grbl",
+    "grblhal",
+    "fluidnc",
     "generic-mill",
     "tsnc-yh-a1m",
 ];

@@ -154,7 +154,7 @@ impl Unopened {
         let id = database.open(&text, settings);
         let analysis = database.analysis(id, stop).ok()?;
         let snapshot = database.snapshot(id)?;
-        let shown = gcheck_ide::diagnostics(&analysis);
+        let shown = gcheck_ide::diagnostics(&analysis, self.shown_repeats(path));
         let abilities = Arc::clone(&self.abilities);
         // Places in other files would have to be looked up by the owner.
         Some(crate::diagnostics::convert(&abilities, uri, &snapshot, &shown, &mut |_, _| None))

@@ -154,9 +154,11 @@ impl Owner {
     /// What the client is shown of an analysis, and of what kept it from being made.
     pub(crate) fn diagnostics_of(&mut self, uri: &Uri, analysis: Option<&Analysis>) -> Vec<Diagnostic> {
         let Ok(snapshot) = self.snapshot(uri) else { return Vec::new() };
+        let Some(document) = self.documents.get(uri) else { return Vec::new() };
+        let repeats = self.client_settings(document).shown_repeats();
         let mut list = match analysis {
             Some(analysis) => {
-                let shown = gcheck_ide::diagnostics(analysis);
+                let shown = gcheck_ide::diagnostics(analysis, repeats);
                 let abilities = self.abilities.clone();
                 let mut elsewhere = |path: &std::path::Path, bytes: &_| self.location_in(path, bytes);
                 diagnostics::convert(&abilities, uri, &snapshot, &shown, &mut elsewhere)

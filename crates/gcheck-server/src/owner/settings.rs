@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use gcheck_db::Settings;
+use gcheck_ide::ShownRepeats;
 use serde::Serialize;
 use serde_json::Value;
 
@@ -255,6 +256,11 @@ impl Owner {
 }
 
 impl Unopened {
+    /// Are repeats of a rule shown one by one in a program?
+    pub(crate) fn shown_repeats(&self, path: &Path) -> ShownRepeats {
+        ClientSettings::nearest(&self.client_settings, path).shown_repeats()
+    }
+
     /// The settings of a program on disk.
     pub(crate) fn settings(&self, path: &Path, text: &str) -> Option<Settings> {
         let client = ClientSettings::nearest(&self.client_settings, path);

@@ -481,9 +481,9 @@ fn an_unknown_control_among_the_arguments() {
     check_arguments(
         "check --control nonsense",
         &expect![[r#"
-        ! error: no control is called `nonsense`; there are fanuc-lathe, fanuc-lathe-b, fanuc-lathe-c, fanuc-mill, generic-mill, grbl, haas-lathe, haas-mill, linuxcnc, tsnc-yh-a1m
-        exit 2
-    "#]],
+            ! error: no control is called `nonsense`; there are fanuc-lathe, fanuc-lathe-b, fanuc-lathe-c, fanuc-mill, fluidnc, generic-mill, grbl, grblhal, haas-lathe, haas-mill, linuxcnc, tsnc-yh-a1m
+            exit 2
+        "#]],
     );
 }
 
@@ -525,7 +525,7 @@ fn an_unknown_control_in_a_program() {
         Shop::with(&[("part.nc", "%\nO0001\n(gcheck: control=nonsense)\nM30\n%\n"), ("other.nc", BAD)]);
     expect![[r#"
         other.nc:3:1: info[unknown-code] unknown code `G999`
-        ! error: part.nc:3:18: no control is called `nonsense`; there are fanuc-lathe, fanuc-lathe-b, fanuc-lathe-c, fanuc-mill, generic-mill, grbl, haas-lathe, haas-mill, linuxcnc, tsnc-yh-a1m
+        ! error: part.nc:3:18: no control is called `nonsense`; there are fanuc-lathe, fanuc-lathe-b, fanuc-lathe-c, fanuc-mill, fluidnc, generic-mill, grbl, grblhal, haas-lathe, haas-mill, linuxcnc, tsnc-yh-a1m
         !   |
         ! 3 | (gcheck: control=nonsense)
         !   |                  ^^^^^^^^

@@ -188,6 +188,127 @@ fn recipes_name_options_that_exist() {
     }
 }
 
+/// The blocks of a language on a page.
+fn blocks(page: &str, language: &str) -> Vec<String> {
+    let text = text(page);
+    let open = format!("```{language}\n");
+    text.split(&open).skip(1).map(|rest| rest.split("```").next().unwrap().to_owned()).collect()
+}
+
+/// Runs a command line of a recipe in a shell, in the folder of a shop and with the program on the search path.
+#[cfg(unix)]
+fn shell(shop: &Shop, line: &str, input: &[u8]) -> Run {
+    let mut command = Command::new("bash");
+    command.args(["-c", line]).current_dir(shop.path(""));
+    let bin = Path::new(env!("CARGO_BIN_EXE_gcheck")).parent().unwrap().to_string_lossy().into_owned();
+    command.env("PATH", format!("{bin}:{}", std::env::var("PATH").unwrap()));
+    shop.finish(&mut command, input)
+}
+
+/// The words of a finding as other programs take the line apart: file, line, column, severity, rule, message.
+#[cfg(unix)]
+fn taken_apart(line: &str) -> Option<[&str; 6]> {
+    let mut parts = line.splitn(4, ':');
+    let (file, row, column, rest) = (parts.next()?, parts.next()?, parts.next()?, parts.next()?);
+    let (severity, rest) = rest.trim_start().split_once('[')?;
+    let (rule, message) = rest.split_once("] ")?;
+    Some([file, row, column, severity, rule, message])
+}
+
+#[cfg(unix)]
+#[test]
+fn recipes_for_hooks_and_linters_find_what_is_wrong() {
+    let shop =
+        Shop::with(&[("gcheck.toml", "control = \"haas-mill\"\n"), ("bad one.nc", BAD), ("good.nc", GOOD)]);
+    let lefthook =
+        blocks("docs/ci.md", "yaml").into_iter().find(|block| block.contains("{staged_files}")).unwrap();
+    let lefthook: Value = serde_saphyr::from_str(&lefthook).unwrap();
+    let line = lefthook["pre-commit"]["commands"]["gcheck"]["run"].as_str().unwrap();
+    let run = |files: &str| shell(&shop, &line.replace("{staged_files}", files), b"");
+    assert_eq!(run("'good.nc'").code, 0);
+    let bad = run("'bad one.nc' good.nc");
+    assert!(bad.code == 1 && bad.stdout.contains("unknown-code"), "{bad}");
+
+    let path = "packages/mega-linter-plugin-gcheck/gcheck.megalinter-descriptor.yml";
+    let linter = &yaml(path)["linters"][0];
+    let words = |member: &str| -> Vec<String> {
+        linter[member].as_array().unwrap().iter().map(|word| word.as_str().unwrap().to_owned()).collect()
+    };
+    let call = [linter["cli_executable"].as_str().unwrap().to_owned()];
+    let call = call.into_iter().chain(words("cli_lint_extra_args")).collect::<Vec<_>>().join(" ");
+    let run = shell(&shop, &format!("{call} 'bad one.nc' good.nc"), b"");
+    assert!(run.code == 1 && run.stdout.starts_with("bad one.nc:"), "{run}");
+    let sarif = words("cli_sarif_args").join(" ").replace("{{SARIF_OUTPUT_FILE}}", "out.sarif");
+    let run = shell(&shop, &format!("gcheck check {sarif} 'bad one.nc'"), b"");
+    assert!(run.code == 1 && shop.read("out.sarif").contains("\"2.1.0\""), "{run}");
+    for argument in ["cli_version_arg_name", "cli_help_arg_name"] {
+        assert_eq!(shell(&shop, &format!("gcheck {}", linter[argument].as_str().unwrap()), b"").code, 0);
+    }
+    for example in words("examples") {
+        assert!(shell(&shop, &example.replace("part.nc", "good.nc"), b"").code == 0, "{example}");
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn recipes_for_editors_without_the_server_print_findings_a_line() {
+    let shop = Shop::with(&[("gcheck.toml", "control = \"haas-mill\"\n"), ("bad.nc", BAD)]);
+    let lua =
+        blocks("docs/editors.md", "lua").into_iter().find(|block| block.contains("linters.gcheck")).unwrap();
+    let arguments = lua.split("args = {").nth(1).unwrap().split('}').next().unwrap().replace(['"', ','], " ");
+    let efm: Value = serde_saphyr::from_str(&blocks("docs/editors.md", "yaml")[0]).unwrap();
+    let efm = efm["tools"]["gcheck"]["lint-command"].as_str().unwrap().replace("${INPUT}", "bad.nc");
+    let by_name = shell(&shop, &format!("gcheck {arguments} bad.nc"), b"");
+    let by_text = shell(&shop, &efm, BAD.as_bytes());
+    assert_eq!(by_name.stdout, by_text.stdout);
+    let lines: Vec<[&str; 6]> = by_name.stdout.lines().filter_map(taken_apart).collect();
+    assert_eq!(lines.len(), by_name.stdout.lines().count(), "{by_name}");
+    assert!(
+        lines.iter().any(|line| line[0] == "bad.nc" && line[3] == "error" && line[4] == "unknown-code"),
+        "{lines:?}"
+    );
+}
+
+/// Settings of editors and containers are JSON, and what they start and install exists.
+#[test]
+fn settings_of_editors_start_the_server() {
+    let mut starts = 0;
+    for page in ["docs/editors.md", "docs/ci.md"] {
+        for block in blocks(page, "json") {
+            let value: Value =
+                serde_json::from_str(&block).unwrap_or_else(|error| panic!("{page}: {error}: {block}"));
+            let mut waiting = vec![&value];
+            while let Some(value) = waiting.pop() {
+                if let Some(command) = value.get("command") {
+                    assert_eq!(*command, serde_json::json!(["gcheck", "lsp"]));
+                    starts += 1;
+                }
+                if value.get("path").is_some() {
+                    let call = (&value["path"], &value["arguments"]);
+                    assert_eq!(call, (&Value::from("gcheck"), &serde_json::json!(["lsp"])));
+                    starts += 1;
+                }
+                waiting.extend(value.as_object().into_iter().flat_map(|object| object.values()));
+            }
+            if let Some(install) = value.get("postCreateCommand") {
+                assert_eq!(*install, "pip install gcheck");
+                let extension: Value = serde_json::from_str(&text("editors/vscode/package.json")).unwrap();
+                let id = format!(
+                    "{}.{}",
+                    extension["publisher"].as_str().unwrap(),
+                    extension["name"].as_str().unwrap()
+                );
+                assert_eq!(value["customizations"]["vscode"]["extensions"], serde_json::json!([id]));
+            }
+        }
+    }
+    assert_eq!(starts, 3, "Zed, Kate, Sublime Text");
+    let toml = blocks("docs/editors.md", "toml");
+    let helix: toml::Table =
+        toml.iter().find(|block| block.contains("language-server")).unwrap().parse().unwrap();
+    assert_eq!(helix["language-server"]["gcheck"]["command"].as_str(), Some("gcheck"));
+}
+
 /// What a registry asks of a crate before it takes it.
 #[test]
 fn crates_say_what_a_registry_asks_for() {

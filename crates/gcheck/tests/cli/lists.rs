@@ -64,9 +64,10 @@ fn a_code_without_a_control_has_a_line_for_each_meaning() {
         `gcheck explain M98 --control fanuc-lathe` prints its words, alarms and source there.
     "#]].assert_eq(&shop.gcheck("explain M98").stdout);
     expect![[r#"
-        G43 on 6 controls
+        G43 on 7 controls
 
           tool length compensation, positive  fanuc-mill, generic-mill, haas-mill, tsnc-yh-a1m
+          tool length of the tool table       grblhal
           tool length compensation plus       haas-lathe
           tool length offset on               linuxcnc
 
@@ -83,8 +84,10 @@ fn an_address_is_explained_and_a_bare_number_is_taken_for_a_code() {
 
           tool and offset: T0203 is tool 2 with offset 3       fanuc-lathe, fanuc-lathe-b, fanuc-lathe-c
           tool to make ready                                   fanuc-mill
+          tool number; without M6 it is only kept              fluidnc
           tool                                                 generic-mill
           tool number; only reported, nothing is changed       grbl
+          tool number; without a tool change it is only kept   grblhal
           turret station and offset, T0101; offset 00 cancels  haas-lathe
           tool, or tool group from 1000 on                     haas-mill
           tool to prepare; M6 loads it                         linuxcnc
@@ -188,9 +191,9 @@ fn what_cannot_be_explained() {
     check_refusal(
         "explain G0 --control nonsense",
         &expect![[r#"
-        ! error: no control is called `nonsense`; there are fanuc-lathe, fanuc-lathe-b, fanuc-lathe-c, fanuc-mill, generic-mill, grbl, haas-lathe, haas-mill, linuxcnc, tsnc-yh-a1m
-        exit 2
-    "#]],
+            ! error: no control is called `nonsense`; there are fanuc-lathe, fanuc-lathe-b, fanuc-lathe-c, fanuc-mill, fluidnc, generic-mill, grbl, grblhal, haas-lathe, haas-mill, linuxcnc, tsnc-yh-a1m
+            exit 2
+        "#]],
     );
     assert_eq!(Shop::new().gcheck("explain").code, 2);
 }
@@ -222,9 +225,9 @@ fn codes_are_listed() {
     check_refusal(
         "codes --control nonsense",
         &expect![[r#"
-        ! error: no control is called `nonsense`; there are fanuc-lathe, fanuc-lathe-b, fanuc-lathe-c, fanuc-mill, generic-mill, grbl, haas-lathe, haas-mill, linuxcnc, tsnc-yh-a1m
-        exit 2
-    "#]],
+            ! error: no control is called `nonsense`; there are fanuc-lathe, fanuc-lathe-b, fanuc-lathe-c, fanuc-mill, fluidnc, generic-mill, grbl, grblhal, haas-lathe, haas-mill, linuxcnc, tsnc-yh-a1m
+            exit 2
+        "#]],
     );
 }
 
@@ -311,9 +314,9 @@ fn init_writes_over_nothing() {
     check_refusal(
         "init --control nonsense",
         &expect![[r#"
-        ! error: no control is called `nonsense`; there are fanuc-lathe, fanuc-lathe-b, fanuc-lathe-c, fanuc-mill, generic-mill, grbl, haas-lathe, haas-mill, linuxcnc, tsnc-yh-a1m
-        exit 2
-    "#]],
+            ! error: no control is called `nonsense`; there are fanuc-lathe, fanuc-lathe-b, fanuc-lathe-c, fanuc-mill, fluidnc, generic-mill, grbl, grblhal, haas-lathe, haas-mill, linuxcnc, tsnc-yh-a1m
+            exit 2
+        "#]],
     );
 }
 

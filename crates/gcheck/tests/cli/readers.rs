@@ -319,3 +319,141 @@ fn json_lines() {
         assert_eq!(line, *finding, "the rest is as the whole document has it");
     }
 }
+
+/// Where a value is not as a schema says, with the path to it. It knows the keywords that our schema has and refuses others; an
+/// object may have no member that the schema does not name, so that a new one is described before it is written.
+fn misfits(schema: &Value, root: &Value, value: &Value, path: &str, found: &mut Vec<String>) {
+    let Some(rules) = schema.as_object() else { panic!("not a schema: {schema}") };
+    for (keyword, rule) in rules {
+        let fits = match keyword.as_str() {
+            "$schema" | "$defs" | "title" | "description" | "required" | "format" => true,
+            "type" => {
+                let names: Vec<&str> = match rule {
+                    Value::Array(names) => names.iter().filter_map(Value::as_str).collect(),
+                    name => name.as_str().into_iter().collect(),
+                };
+                names.iter().any(|name| match *name {
+                    "object" => value.is_object(),
+                    "array" => value.is_array(),
+                    "string" => value.is_string(),
+                    "boolean" => value.is_boolean(),
+                    "integer" => value.is_u64() || value.is_i64(),
+                    "null" => value.is_null(),
+                    other => panic!("type {other}"),
+                })
+            }
+            "const" => rule == value,
+            "enum" => rule.as_array().unwrap().contains(value),
+            "minimum" => value.as_i64() >= rule.as_i64(),
+            "maximum" => value.as_i64() <= rule.as_i64(),
+            "pattern" => {
+                assert_eq!(rule, "^[0-9a-f]{32}$");
+                let text = value.as_str().unwrap();
+                text.len() == 32 && text.bytes().all(|b| b.is_ascii_digit() || (b'a'..=b'f').contains(&b))
+            }
+            "items" => {
+                for (ix, item) in value.as_array().into_iter().flatten().enumerate() {
+                    misfits(rule, root, item, &format!("{path}/{ix}"), found);
+                }
+                true
+            }
+            "anyOf" | "oneOf" => {
+                let fit = rule.as_array().unwrap().iter().filter(|one| {
+                    let mut misses = Vec::new();
+                    misfits(one, root, value, path, &mut misses);
+                    misses.is_empty()
+                });
+                fit.count() == 1
+            }
+            "$ref" => {
+                let place = rule.as_str().unwrap().strip_prefix('#').unwrap();
+                misfits(root.pointer(place).unwrap(), root, value, path, found);
+                true
+            }
+            "properties" => {
+                let known = rule.as_object().unwrap();
+                let required: Vec<&Value> =
+                    rules.get("required").and_then(Value::as_array).into_iter().flatten().collect();
+                for name in required.iter().filter_map(|name| name.as_str()) {
+                    if value.get(name).is_none() {
+                        found.push(format!("{path}: `{name}` is missing"));
+                    }
+                }
+                for (name, member) in value.as_object().into_iter().flatten() {
+                    match known.get(name) {
+                        Some(rule) => misfits(rule, root, member, &format!("{path}/{name}"), found),
+                        None => found.push(format!("{path}: the schema does not know `{name}`")),
+                    }
+                }
+                // All members are always there, so a program need not ask whether they are.
+                assert_eq!(required.len(), known.len(), "{path}: members that may be missing");
+                true
+            }
+            other => panic!("keyword {other}"),
+        };
+        if !fits {
+            found.push(format!("{path}: not as `{keyword}` says: {value}"));
+        }
+    }
+}
+
+fn schema_of_findings() -> Value {
+    Shop::new().gcheck("schema findings").json()
+}
+
+#[test]
+fn json_and_each_line_of_jsonl_are_as_their_schema_says() {
+    let schema = schema_of_findings();
+    let shop = shop();
+    let mut found = Vec::new();
+    let (whole, findings) = output(&shop, "json");
+    let whole: Value = serde_json::from_str(&whole).unwrap();
+    misfits(&schema, &schema, &whole, "", &mut found);
+    // Every member is met with something in it.
+    for member in ["labels", "notes", "assumptions", "fixes"] {
+        let is_used =
+            findings.iter().any(|finding| finding[member].as_array().is_some_and(|all| !all.is_empty()));
+        assert!(is_used, "no finding has {member}");
+    }
+    let (lines, _) = output(&shop, "jsonl");
+    let line = schema.pointer("/$defs/Line").unwrap();
+    for text in lines.lines() {
+        misfits(line, &schema, &serde_json::from_str(text).unwrap(), "", &mut found);
+    }
+    // Nothing found, nothing to check, a file that cannot be read.
+    for arguments in
+        ["check jobs/good.nc --control haas-mill", "check warned.nc missing.nc --control haas-mill"]
+    {
+        let run = shop.gcheck(&format!("{arguments} --output-format json"));
+        misfits(&schema, &schema, &serde_json::from_str(&run.stdout).unwrap(), arguments, &mut found);
+    }
+    assert_eq!(found, [""; 0], "{}", found.join("\n"));
+}
+
+#[test]
+fn what_is_not_as_the_schema_says_is_found() {
+    let schema = schema_of_findings();
+    let (whole, _) = output(&shop(), "json");
+    let whole: Value = serde_json::from_str(&whole).unwrap();
+    let spoilt: [(&str, Value); 6] = [
+        ("/version", Value::from(2)),
+        ("/findings/0/severity", Value::from("fatal")),
+        ("/findings/0/range/start/line", Value::from("one")),
+        ("/findings/0/fingerprint", Value::from("12")),
+        ("/findings/0/labels", Value::Null),
+        ("/files/0/control/source", Value::from("somewhere")),
+    ];
+    for (place, value) in spoilt {
+        let mut copy = whole.clone();
+        *copy.pointer_mut(place).unwrap() = value;
+        let mut found = Vec::new();
+        misfits(&schema, &schema, &copy, "", &mut found);
+        assert!(!found.is_empty(), "{place}");
+    }
+    let mut copy = whole;
+    copy["findings"][0]["new"] = Value::Null;
+    copy["summary"].as_object_mut().unwrap().remove("hints");
+    let mut found = Vec::new();
+    misfits(&schema, &schema, &copy, "", &mut found);
+    assert_eq!(found.len(), 2, "{found:?}");
+}

@@ -9,7 +9,7 @@ local M = {}
 M.options = {
   --- The program, with its arguments.
   cmd = nil,
-  --- Settings as the server knows them: control, configPath, run, inlayHints, codeLens.
+  --- Settings as the server knows them: control, configPath, run, inlayHints, codeLens, foldRepeats.
   settings = {},
   --- Called with client and buffer when the server is attached.
   on_attach = nil,

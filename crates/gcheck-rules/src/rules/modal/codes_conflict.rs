@@ -58,10 +58,22 @@ fn excludes(code: Code<'_>, other: Code<'_>) -> bool {
 fn finding(cx: &BlockCx<'_>, first: (&Word, Code<'_>), second: (&Word, Code<'_>)) -> Finding {
     let (a, b) = (cx.text(first.0), cx.text(second.0));
     let by = if excludes(first.1, second.1) { first.1 } else { second.1 };
+    let is_later = by.number() == second.1.number();
     let by = by.entry();
-    Finding::new(&META, cx.range(second.0), format!("`{a}` and `{b}` cannot share a block"))
+    let finding = Finding::new(&META, cx.range(second.0), format!("`{a}` and `{b}` cannot share a block"))
         .label(second.1.entry().title.as_str())
-        .also(cx.range(first.0), first.1.entry().title.as_str())
+        .also(cx.range(first.0), first.1.entry().title.as_str());
+    if by.conflicts_when_later && !is_later {
+        return finding
+            .note(format!(
+                "the control refuses the codes in the other order, and loses one of them in this one  [{}]",
+                by.source
+            ))
+            .help("put the two codes in separate blocks")
+            .at_most(crate::Severity::Warning)
+            .at_most(limit(by.confidence));
+    }
+    finding
         .note(format!(
             "`{}` ({}) cannot be in a block with the other code  [{}]",
             by.code, by.title, by.source

@@ -114,13 +114,14 @@ impl ToolLengthMissing {
         if cx.definitions().set_by(Fact::Tool) != Some(at) {
             return;
         }
-        let compensates = |effect| {
-            matches!(
-                effect,
-                Effect::LengthPlus | Effect::LengthMinus | Effect::LengthFromBlock | Effect::ToolCentrePoint
-            )
-        };
+        // A control that only takes lengths from the program, without a table, has the tool measured when it is changed.
+        let compensates =
+            |effect| matches!(effect, Effect::LengthPlus | Effect::LengthMinus | Effect::ToolCentrePoint);
         let Some(on) = cx.control().codes().find(|code| compensates(code.effect())) else { return };
+        // Where the code is an option, machines without it measure the tool when it is changed.
+        if on.entry().option.is_some() {
+            return;
+        }
         let on = on.number().to_string();
         // A work offset is measured with the length off, and the probe moves to its place without it.
         if cx.file_uses(|effect| matches!(effect, Effect::ProbeOffset | Effect::ProbeCentre)) {
