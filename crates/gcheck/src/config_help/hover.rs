@@ -231,7 +231,7 @@ mod tests {
 
             Rules, groups and sets that run, in place of `["recommended"]`.
 
-            There are 451 values; completion lists them.
+            There are 456 values; completion lists them.
         "#]],
         );
     }

@@ -78,8 +78,11 @@ impl PathRule for SubprogramWithoutReturn {
         };
         // A bar feed has a rule of its own for its cutoff program.
         let is_bar_feed = cx.find_word(frame.caller, |word| cx.model.effect(word.code) == Effect::BarFeed);
+        // A control without a return ends the programs that it calls in other ways.
+        let has_return = cx.name_of_effect(Effect::Return).is_some();
         // If the called program has a return anywhere, this end is one of several.
         if !is_program
+            || !has_return
             || is_bar_feed.is_some()
             || ProgramEnds::of(cx, frame.entry).is_none_or(|ends| ends.returns)
         {

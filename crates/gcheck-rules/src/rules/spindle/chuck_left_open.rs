@@ -1,7 +1,7 @@
 //! A spindle that starts with the chuck open.
 
 use gcheck_controls::{Code, Effect};
-use gcheck_engine::{Event, Fact, Truth};
+use gcheck_engine::{Event, Fact, Spindle, Truth};
 use gcheck_program::Word;
 
 use crate::declare::declare_rule;
@@ -53,8 +53,9 @@ declare_rule! {
 
 #[derive(Default, Clone, PartialEq)]
 struct ChuckLeftOpen {
-    /// The operator or a code of the machine builder may have closed the chuck since the program opened it.
-    may_be_closed: bool,
+    /// The operator or a code of the machine builder may have closed the chuck since the program opened it, or what is wrong with
+    /// the open chuck is told.
+    is_settled: bool,
 }
 
 remembers!(ChuckLeftOpen);
@@ -68,17 +69,18 @@ impl PathRule for ChuckLeftOpen {
         program.may(opens) && !has_second_spindle(program)
     }
 
-    fn changed(&mut self, _: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
+    fn changed(&mut self, cx: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
         match event {
-            Event::Chuck(_) => self.may_be_closed = false,
-            Event::Stop(_) => self.may_be_closed = true,
+            // That it opens while the spindle turns is a finding of its own, and the worse one.
+            Event::Chuck(_) => self.is_settled = cx.state().spindle() != Some(Spindle::Stopped),
+            Event::Stop(_) => self.is_settled = true,
             _ => {}
         }
     }
 
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
-        self.may_be_closed |= cx.codes().iter().filter_map(|ix| cx.code_of(*ix)).any(Code::is_user);
-        let is_open = cx.state().bar().clamped() == Truth::False && !self.may_be_closed;
+        self.is_settled |= cx.codes().iter().filter_map(|ix| cx.code_of(*ix)).any(Code::is_user);
+        let is_open = cx.state().bar().clamped() == Truth::False && !self.is_settled;
         // The block may close it first.
         let closes = cx.has_effect(|effect| matches!(effect, Effect::ChuckClamp | Effect::BarFeed));
         if !is_open || closes || !cx.has_effect(Effect::starts_spindle) || !cx.is_certain() {
@@ -93,7 +95,7 @@ impl PathRule for ChuckLeftOpen {
             return;
         }
         // Told once.
-        self.may_be_closed = true;
+        self.is_settled = true;
         let close = cx.name_of_effect(Effect::ChuckClamp).unwrap_or_default();
         let finding = cx
             .finding(&META, cx.effect_range(Effect::starts_spindle), "the spindle starts with the chuck open")
@@ -130,6 +132,9 @@ mod tests {
               help: close the chuck with `M10` before this block, and give it time
         "#]]
         .assert_eq(&found.iter().map(words).collect::<String>());
+        // Opened while the spindle turns: another rule tells it.
+        let turning = "G20 T909\nG97 S1200 M3\nM11\nG97 S900 M3\nM30\n";
+        check_rule(&RULE, "haas-lathe", turning, &expect![[""]]);
         for between in ["M10\n", "M0\n", "G105 J1.\n", "G65 P9077\n", "M110\n"] {
             check_rule(&RULE, "haas-lathe", &program(between), &expect![[""]]);
         }
