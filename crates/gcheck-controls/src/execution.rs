@@ -345,7 +345,7 @@ impl Effect {
         matches!(self, Self::ArcClockwise | Self::ArcCounterClockwise)
     }
 
-    /// A move toward or away from the work until the probe changes (`G38`).
+    /// A move toward or away from the work until the probe changes, which stays the motion mode (`G38`).
     pub const fn is_probing_move(self) -> bool {
         matches!(
             self,

@@ -11,6 +11,7 @@ mod edit;
 mod example;
 mod finding;
 mod fix;
+mod repeats;
 mod rule;
 mod severity;
 
@@ -19,5 +20,6 @@ pub use edit::{Edit, apply, apply_to_bytes};
 pub use example::DocExample;
 pub use finding::{Finding, Label, alarm_name};
 pub use fix::{Fix, FixKinds};
+pub use repeats::{SHOWN_OF_A_RULE, Told, fold_repeats};
 pub use rule::{Fixability, RuleMeta, RuleSet, Tier};
 pub use severity::{Certainty, Severity};

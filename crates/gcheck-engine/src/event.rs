@@ -438,6 +438,13 @@ pub enum Spindle {
     Stopped,
 }
 
+impl Spindle {
+    /// Turns, either way round.
+    pub const fn turns(self) -> bool {
+        matches!(self, Self::Clockwise | Self::CounterClockwise)
+    }
+}
+
 /// Kinds of coolant.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Coolant {

@@ -48,16 +48,7 @@ fn missing(snapshot: &Snapshot, before: u32) -> Option<String> {
 
 fn probe(snapshot: &Snapshot, before: u32) -> Option<String> {
     let control = snapshot.control();
-    let is_probe = |effect| {
-        matches!(
-            effect,
-            Effect::ProbeToward
-                | Effect::ProbeTowardOptional
-                | Effect::ProbeAway
-                | Effect::ProbeAwayOptional
-                | Effect::Skip
-        )
-    };
+    let is_probe = |effect: Effect| effect.is_probing_move() || effect == Effect::Skip;
     let mut codes = snapshot.file_index().codes.iter().take_while(|(_, range)| range.start < before);
     let found = codes.any(|(number, _)| control.code(*number).is_some_and(|code| is_probe(code.effect())));
     found.then(|| "the probe touches at its target".to_owned())

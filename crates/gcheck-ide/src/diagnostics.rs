@@ -2,18 +2,14 @@
 //!
 //! Knows: how much of a finding an editor shows, how many findings it takes. Must not know: how rules find them.
 
-use std::collections::BTreeMap;
 use std::ops::Range;
 use std::sync::Arc;
 
 use gcheck_db::Analysis;
-use gcheck_diagnostics::{Finding, Severity};
+use gcheck_diagnostics::{Finding, Severity, Told, fold_repeats};
 
 /// Most diagnostics of a document; the rest are counted.
 pub const MAX_DIAGNOSTICS: usize = 1_000;
-
-/// So many findings of one rule and severity are shown one by one where repeats are folded.
-pub const SHOWN_OF_A_RULE: usize = 5;
 
 /// The rule whose findings lie on text that can never run.
 const UNREACHABLE: &str = "unreachable-block";
@@ -64,8 +60,8 @@ pub struct Repeats {
 pub enum ShownRepeats {
     /// All of them, one by one.
     All,
-    /// [`SHOWN_OF_A_RULE`], and one more that counts the others. Text that can never run is always shown, because editors
-    /// fade it.
+    /// The first few ([`gcheck_diagnostics::SHOWN_OF_A_RULE`]), and one more that counts the others. Text that can never run is
+    /// always shown, because editors fade it.
     Folded,
 }
 
@@ -93,21 +89,21 @@ pub struct Omitted {
 
 /// What is published of an analysis.
 pub fn diagnostics(analysis: &Analysis, shown: ShownRepeats) -> Diagnostics {
-    let (findings, repeats) = match shown {
-        ShownRepeats::All => (analysis.findings.iter().collect(), BTreeMap::new()),
-        ShownRepeats::Folded => folded(&analysis.findings),
+    let findings = analysis.findings.iter();
+    let mut told = match shown {
+        ShownRepeats::All => findings.map(Told::One).collect(),
+        ShownRepeats::Folded => fold_repeats(&analysis.findings, |finding| finding.rule.id == UNREACHABLE),
     };
     let mut omitted: Vec<Omitted> = analysis
         .omitted
         .iter()
         .map(|(rule, severity, count)| Omitted { rule: rule.id, severity: *severity, count: *count })
         .collect();
-    let mut listed: Vec<(usize, &Finding)> = findings.into_iter().enumerate().collect();
-    if listed.len() > MAX_DIAGNOSTICS {
+    if told.len() > MAX_DIAGNOSTICS {
         // Stable: of one severity the first in the text stay.
-        listed.sort_by_key(|(_, finding)| std::cmp::Reverse(finding.severity));
-        for (ix, finding) in listed.split_off(MAX_DIAGNOSTICS) {
-            let count = repeats.get(&ix).map_or(1, |repeats| repeats.count);
+        told.sort_by_key(|told| std::cmp::Reverse(told.first().map(|finding| finding.severity)));
+        for told in told.split_off(MAX_DIAGNOSTICS) {
+            let (Some(finding), count) = (told.first(), told.count()) else { continue };
             let same = |o: &&mut Omitted| o.rule == finding.rule.id && o.severity == finding.severity;
             match omitted.iter_mut().find(same) {
                 Some(known) => known.count += count,
@@ -117,47 +113,21 @@ pub fn diagnostics(analysis: &Analysis, shown: ShownRepeats) -> Diagnostics {
                 }
             }
         }
-        listed.sort_by_key(|(_, finding)| (finding.range.start, finding.range.end));
+        told.sort_by_key(|told| told.first().map(|finding| (finding.range.start, finding.range.end)));
     }
     omitted.sort_by_key(|o| (std::cmp::Reverse(o.count), o.rule));
-    let list = listed.into_iter().map(|(ix, finding)| match repeats.get(&ix) {
-        Some(repeats) => of_repeats(finding, repeats.clone()),
-        None => diagnostic(finding),
+    let list = told.into_iter().filter_map(|told| {
+        let first = told.first()?;
+        // One repeat takes no more room than the line that would count it.
+        Some(match told {
+            Told::Repeats(all) if all.len() > 1 => {
+                let last = all.iter().map(|finding| finding.range.start).max().unwrap_or_default();
+                of_repeats(first, Repeats { count: all.len(), last })
+            }
+            Told::One(_) | Told::Repeats(_) => diagnostic(first),
+        })
     });
     Diagnostics { list: list.collect(), omitted }
-}
-
-/// The findings that are shown, and which of them, by their place among those, are in the place of repeats.
-fn folded(findings: &[Finding]) -> (Vec<&Finding>, BTreeMap<usize, Repeats>) {
-    let key = |finding: &Finding| (finding.rule.id, finding.severity);
-    let mut totals: BTreeMap<(&str, Severity), usize> = BTreeMap::new();
-    for finding in findings {
-        *totals.entry(key(finding)).or_default() += 1;
-    }
-    let mut seen: BTreeMap<(&str, Severity), usize> = BTreeMap::new();
-    let mut shown = Vec::new();
-    let mut places: BTreeMap<(&str, Severity), usize> = BTreeMap::new();
-    let mut repeats: BTreeMap<usize, Repeats> = BTreeMap::new();
-    for finding in findings {
-        let key = key(finding);
-        let before = seen.entry(key).or_default();
-        let total = totals.get(&key).copied().unwrap_or_default();
-        // One more than are shown takes no more room than the line that would count it.
-        let is_shown = *before < SHOWN_OF_A_RULE || total == SHOWN_OF_A_RULE + 1;
-        *before += 1;
-        if is_shown || finding.rule.id == UNREACHABLE {
-            shown.push(finding);
-            continue;
-        }
-        let place = *places.entry(key).or_insert_with(|| {
-            shown.push(finding);
-            shown.len() - 1
-        });
-        let fold = repeats.entry(place).or_insert(Repeats { count: 0, last: finding.range.start });
-        fold.count += 1;
-        fold.last = fold.last.max(finding.range.start);
-    }
-    (shown, repeats)
 }
 
 /// The first of several repeats, in the place of all of them. What it says of its own spot is left out; how many they are is
@@ -229,7 +199,9 @@ mod tests {
 
     use expect_test::{Expect, expect};
 
-    use super::{MAX_DIAGNOSTICS, SHOWN_OF_A_RULE, ShownRepeats, diagnostics, unreachable_ranges};
+    use gcheck_diagnostics::SHOWN_OF_A_RULE;
+
+    use super::{MAX_DIAGNOSTICS, ShownRepeats, diagnostics, unreachable_ranges};
     use crate::fixture::{Fixture, shown};
 
     fn check(control: &str, text: &str, expected: &Expect) {

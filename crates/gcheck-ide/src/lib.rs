@@ -67,8 +67,8 @@ pub use completion::{
 pub use configured::{Configured, configured_at};
 pub use definition::{Target, definition};
 pub use diagnostics::{
-    Diagnostic, Diagnostics, MAX_DIAGNOSTICS, Omitted, Related, Repeats, SHOWN_OF_A_RULE, ShownRepeats,
-    diagnostics, unreachable_ranges,
+    Diagnostic, Diagnostics, MAX_DIAGNOSTICS, Omitted, Related, Repeats, ShownRepeats, diagnostics,
+    unreachable_ranges,
 };
 pub use document_links::{DocumentLink, document_links};
 pub use document_symbols::{Symbol, SymbolKind, document_symbols};

@@ -215,11 +215,20 @@ impl<'a> PathCx<'a> {
 
     /// Bytes of the first word of a block of the main file that `is` accepts.
     pub fn find_word(&self, at: At, is: impl Fn(&Word) -> bool) -> Option<Range<u32>> {
+        self.search(at, |word| is(word).then_some(())).map(|((), range)| range)
+    }
+
+    /// The first code of a block of the main file that `is` accepts, with its bytes.
+    pub fn find_code(&self, at: At, is: impl Fn(Code<'a>) -> bool) -> Option<(Code<'a>, Range<u32>)> {
+        self.search(at, |word| self.code_of(word.code).filter(|code| is(*code)))
+    }
+
+    fn search<T>(&self, at: At, found: impl Fn(&Word) -> Option<T>) -> Option<(T, Range<u32>)> {
         let place = self.place_of(at).filter(|_| at.file == 0)?;
         let known = self.read_block().filter(|_| at == self.flow.origin.at);
         let words = known.map_or_else(|| place.table.words(place.block()), ReadBlock::words);
-        let word = words.iter().find(|word| is(word))?;
-        Some(place.base + word.range().start..place.base + word.range().end)
+        let (found, word) = words.iter().find_map(|word| Some((found(word)?, word)))?;
+        Some((found, place.base + word.range().start..place.base + word.range().end))
     }
 
     /// The codes of the block.
@@ -256,6 +265,11 @@ impl<'a> PathCx<'a> {
             Some(read) => read.effects.iter().any(|effect| is(*effect)),
             None => self.codes().iter().any(|code| is(self.model.effect(*code))),
         }
+    }
+
+    /// Does the block have a code that `is` accepts?
+    pub fn has_code(&self, is: impl Fn(Code<'a>) -> bool) -> bool {
+        self.codes().iter().filter_map(|ix| self.code_of(*ix)).any(is)
     }
 
     /// The code in effect for a role as programs write it; `None` when it may be several.

@@ -2,12 +2,10 @@
 //!
 //! Knows: which findings of a file are shown one by one, and how the others are counted. Must not know: any format.
 
-use std::collections::BTreeMap;
-
-use gcheck_diagnostics::{Finding, Severity};
+use gcheck_diagnostics::{self as diagnostics, Finding, fold_repeats};
 
 use crate::Report;
-use crate::report::{File, InFold, SHOWN};
+use crate::report::{File, InFold};
 use crate::shown::number;
 
 /// What a format for people tells next.
@@ -46,27 +44,17 @@ pub(crate) fn told<'r>(report: &Report, file: &'r File) -> Vec<Told<'r>> {
         (InFold::First(count), [finding]) => return vec![Told::Files(finding, of_files(*count, finding))],
         _ => {}
     }
-    if !report.folds() || file.findings.len() <= SHOWN {
+    if !report.folds() {
         return file.findings.iter().map(Told::One).collect();
     }
-    let mut repeats: BTreeMap<(&str, Severity), Vec<&Finding>> = BTreeMap::new();
-    for finding in &file.findings {
-        repeats.entry((finding.rule.id, finding.severity)).or_default().push(finding);
-    }
-    let mut told = Vec::new();
-    let mut seen: BTreeMap<(&str, Severity), usize> = BTreeMap::new();
-    for finding in &file.findings {
-        let key = (finding.rule.id, finding.severity);
-        let count = seen.entry(key).or_default();
-        *count += 1;
-        if *count <= SHOWN {
-            told.push(Told::One(finding));
-        } else if *count == SHOWN + 1 {
-            let folded = repeats.get(&key).and_then(|all| all.get(SHOWN..)).unwrap_or_default();
-            told.push(Told::Fold(fold(file, finding, folded, key)));
-        }
-    }
-    told
+    let told = fold_repeats(&file.findings, |_| false).into_iter();
+    told.filter_map(|told| {
+        Some(match told {
+            diagnostics::Told::One(finding) => Told::One(finding),
+            diagnostics::Told::Repeats(repeats) => Told::Fold(fold(file, &repeats)?),
+        })
+    })
+    .collect()
 }
 
 /// `… and 19,995 more files: the file is for a 3-D printer, which gcheck does not read`
@@ -81,31 +69,24 @@ pub fn folded(report: &Report) -> usize {
 }
 
 fn hidden(file: &File) -> usize {
-    let mut repeats: BTreeMap<(&str, Severity), usize> = BTreeMap::new();
-    for finding in &file.findings {
-        *repeats.entry((finding.rule.id, finding.severity)).or_default() += 1;
-    }
-    repeats.values().map(|count| count.saturating_sub(SHOWN)).sum()
+    let told = fold_repeats(&file.findings, |_| false).into_iter();
+    told.map(|told| if let diagnostics::Told::Repeats(repeats) = told { repeats.len() } else { 0 }).sum()
 }
 
-fn fold<'r>(
-    file: &File,
-    first: &'r Finding,
-    folded: &[&Finding],
-    (rule, severity): (&str, Severity),
-) -> Fold<'r> {
+fn fold<'r>(file: &File, repeats: &[&'r Finding]) -> Option<Fold<'r>> {
+    let (first, last) = (*repeats.first()?, *repeats.last()?);
     // What was counted and not kept comes after what was kept.
-    let omitted = file.omitted.iter().filter(|(of, level, _)| of.id == rule && *level == severity);
+    let omitted =
+        file.omitted.iter().filter(|(of, level, _)| of.id == first.rule.id && *level == first.severity);
     let omitted: usize = omitted.map(|(.., count)| count).sum();
-    let line = |finding: &&Finding| file.source.position(finding.range.start).line as usize;
-    let from = line(&first);
-    let to = folded.last().map_or(from, line);
+    let line = |finding: &Finding| file.source.position(finding.range.start).line as usize;
+    let (from, to) = (line(first), line(last));
     let lines = match () {
         () if omitted > 0 => format!("from line {} on", number(from)),
         () if to == from => format!("line {}", number(from)),
         () => format!("lines {} to {}", number(from), number(to)),
     };
-    Fold { first, count: format!("… and {} more", number(folded.len() + omitted)), lines }
+    Some(Fold { first, count: format!("… and {} more", number(repeats.len() + omitted)), lines })
 }
 
 #[cfg(test)]

@@ -95,9 +95,8 @@ const INCOMPLETE: &str = "analysis-incomplete";
 /// The rule that reports a file as one that is for no control of ours.
 const UNSUPPORTED: &str = "unsupported-dialect";
 
-/// Findings of one rule and severity that a file shows one by one, and files that show the same finding; with more of them, the
-/// others are folded.
-pub(crate) const SHOWN: usize = 5;
+/// So many files show the same finding; with more of them, the others are folded.
+const SHOWN: usize = 5;
 
 /// A file among others that have the same only finding.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -96,7 +96,7 @@ impl World<'_> {
         }
         if group == "bar_feeder" {
             world.machine.engine.bar.new_bar = Some(Mm(1000.0));
-            world.programs = &OtherFile;
+            world.programs = &CUTOFF;
         }
         world
     }
@@ -136,23 +136,8 @@ impl Programs for Called {
     }
 }
 
-/// A file with the program 9099.
-struct OtherFile;
-
-impl Programs for OtherFile {
-    fn has_number(&self, number: u32) -> bool {
-        number == 9099
-    }
-
-    fn has_name(&self, _: &str) -> bool {
-        false
-    }
-
-    fn source_of_number(&self, number: u32) -> Option<SourceFile> {
-        let text = "O9099\nG1 X0. F0.004\nM30\n".to_owned();
-        (number == 9099).then(|| SourceFile { name: "O9099.nc".into(), text })
-    }
-}
+/// The cutoff program of the examples, in a file of its own.
+const CUTOFF: Called = Called(9099, "O9099\nG1 X0. F0.004\nM30\n");
 
 /// One rule alone.
 pub(crate) fn only(rule: &RuleEntry) -> Selection {

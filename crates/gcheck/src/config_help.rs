@@ -1,6 +1,7 @@
 //! Help for who writes a configuration: what a key means, what may be written, where an entry is.
 //!
-//! Knows: the text as it is, half-typed and broken too, and the schema. Must not know: files, editors.
+//! Knows: the text as it is, half-typed and broken too, the schema, and the forms in which the server is answered. Must not know: files,
+//! editors.
 
 mod completion;
 mod entries;
@@ -10,5 +11,5 @@ mod outline;
 mod shape;
 
 pub(crate) use completion::completion;
-pub(crate) use entries::{Named, entries};
+pub(crate) use entries::entries;
 pub(crate) use hover::hover;

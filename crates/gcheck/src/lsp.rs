@@ -21,7 +21,7 @@ use gcheck_syntax::SourceText;
 
 use crate::args::{FUEL, Global};
 use crate::config::{Config, Configs, FILE_NAMES, RuleWishes, unknown_rule, validate_control};
-use crate::config_help::{self, Named};
+use crate::config_help;
 use crate::control_choice::choose;
 use crate::discovery::{self, EXTENSIONS, is_program_name};
 use crate::in_force::{self, Controls};
@@ -197,26 +197,11 @@ impl Host for Surroundings {
     }
 
     fn configuration_hover(&self, path: &Path, text: &str, offset: usize) -> Option<ConfigurationHover> {
-        let hover = config_help::hover(text, offset).filter(|_| is_configuration(path))?;
-        Some(ConfigurationHover { markdown: hover.markdown, range: hover.range })
+        if is_configuration(path) { config_help::hover(text, offset) } else { None }
     }
 
     fn configuration_completion(&self, path: &Path, text: &str, offset: usize) -> Vec<ConfigurationOffer> {
-        if !is_configuration(path) {
-            return Vec::new();
-        }
-        let offers = config_help::completion(text, offset).into_iter();
-        offers
-            .map(|offer| ConfigurationOffer {
-                label: offer.label,
-                description: offer.description,
-                is_key: offer.is_key,
-                range: offer.range,
-                filter: offer.filter,
-                text: offer.text,
-                snippet: offer.snippet,
-            })
-            .collect()
+        if is_configuration(path) { config_help::completion(text, offset) } else { Vec::new() }
     }
 
     fn configured(
@@ -226,11 +211,6 @@ impl Host for Surroundings {
         named: Configured,
         open: &dyn Fn(&Path) -> Option<String>,
     ) -> Vec<ConfiguredPlace> {
-        let named = match named {
-            Configured::Tool(number) => Named::Tool(number),
-            Configured::Offset(number) => Named::Offset(number),
-            Configured::Code(number) => Named::Code(number),
-        };
         let mut found = Vec::new();
         for path in self.configuration_files(program) {
             let on_disk = || reading::regular(&path, MOST_CONFIGURATION).ok();

@@ -591,10 +591,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         }
         self.check_polar(state)?;
         if has(Effect::MachineCoordinates) {
-            let motion = acting.code().map(|ix| self.model.effect(ix));
-            let probes = self.model.semantics().machine_coordinates_in_probing
-                && motion.is_some_and(|effect| effect.is_probing_move() && has(effect));
-            if !probes && !matches!(motion, Some(Effect::Rapid | Effect::Linear)) {
+            if !acting.code().is_some_and(|motion| self.moves_to_machine_point(motion)) {
                 return Err(Fault::NoMotionMode);
             }
             let incremental = if has(Effect::Absolute) {

@@ -92,10 +92,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         }
         let Some(mode) = state.mode(Role::Motion).only() else { return self.lose_motion(state) };
         let effect = self.model.effect(mode);
-        let probes = self.model.semantics().machine_coordinates_in_probing
-            && effect.is_probing_move()
-            && self.words.codes().contains(&mode);
-        if to_machine_point && !probes && !matches!(effect, Effect::Rapid | Effect::Linear) {
+        if to_machine_point && !self.moves_to_machine_point(mode) {
             return Err(Fault::NoMotionMode);
         }
         match effect {
@@ -112,14 +109,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 }
             }
             Effect::Thread | Effect::RigidTap if has_axes => self.thread_move(effect, state),
-            Effect::ProbeToward
-            | Effect::ProbeTowardOptional
-            | Effect::ProbeAway
-            | Effect::ProbeAwayOptional
-                if has_axes =>
-            {
-                self.probe_move(effect, state)
-            }
+            effect if has_axes && effect.is_probing_move() => self.probe_move(effect, state),
             Effect::TurningPass | Effect::ThreadingPass | Effect::FacingPass if has_axes => {
                 self.turning_pass(effect, state)
             }
@@ -195,20 +185,22 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     /// What a block without a known mode of motion does: it may be a move of any kind that the modes allow, or a cycle, with
     /// the words that each keeps.
+    /// May the motion go to a point in machine coordinates (`G53`)? A probing code may where the control reads the limit of its
+    /// move so, in its own block.
+    pub(super) fn moves_to_machine_point(&self, motion: CodeIx) -> bool {
+        let effect = self.model.effect(motion);
+        let probes = self.model.semantics().machine_coordinates_in_probing
+            && effect.is_probing_move()
+            && self.words.codes().contains(&motion);
+        probes || matches!(effect, Effect::Rapid | Effect::Linear)
+    }
+
     fn lose_motion(&mut self, state: &mut State<D>) -> Step {
         let may_be = |role: Role, is: &dyn Fn(Effect) -> bool| {
             let modes = state.mode(role);
             modes.alternatives().is_empty() || modes.may(|code| is(self.model.effect(code)))
         };
-        let probes = may_be(Role::Motion, &|effect| {
-            matches!(
-                effect,
-                Effect::ProbeToward
-                    | Effect::ProbeTowardOptional
-                    | Effect::ProbeAway
-                    | Effect::ProbeAwayOptional
-            )
-        });
+        let probes = may_be(Role::Motion, &Effect::is_probing_move);
         let turns = may_be(Role::Motion, &|effect| {
             matches!(effect, Effect::TurningPass | Effect::ThreadingPass | Effect::FacingPass)
         });

@@ -6,7 +6,6 @@ use gcheck_controls::{Effect, Letter};
 use gcheck_engine::{At, Event, Fact, Role, TravelKind};
 
 use crate::PathCx;
-use crate::facts::probing::is_probing_mode;
 
 /// What a number of `F` `meaning_of_feed`; `None` for codes that choose no meaning of it.
 pub(crate) fn meaning_of_feed(mode: Effect) -> Option<&'static str> {
@@ -36,5 +35,5 @@ pub(crate) fn zero_feed_given(cx: &PathCx<'_>) -> Option<At> {
 
 /// Is probing the motion mode?
 pub(crate) fn is_probing_motion(cx: &PathCx<'_>) -> bool {
-    cx.state().effect(Role::Motion, cx.model).is_some_and(is_probing_mode)
+    cx.state().effect(Role::Motion, cx.model).is_some_and(Effect::is_probing_move)
 }

@@ -65,22 +65,14 @@ pub(crate) fn driven(ways: Ways) -> impl Iterator<Item = (Axis, Way)> {
     Axis::ALL.into_iter().map(move |axis| (axis, ways.of(axis))).filter(|(_, way)| *way != Way::Still)
 }
 
-/// Is it a motion that ends when something is touched, or is let go, and stays the motion mode?
-pub(crate) fn is_probing_mode(effect: Effect) -> bool {
-    matches!(
-        effect,
-        Effect::ProbeToward | Effect::ProbeTowardOptional | Effect::ProbeAway | Effect::ProbeAwayOptional
-    )
-}
-
 /// Does it move until something is touched, or until it is let go, and measure nothing by itself?
 pub(crate) fn probes(effect: Effect) -> bool {
-    effect == Effect::Skip || is_probing_mode(effect)
+    effect == Effect::Skip || effect.is_probing_move()
 }
 
 /// Does it touch the work with a probe, whatever comes of it?
 pub(crate) fn touches_work(effect: Effect) -> bool {
-    is_probing_mode(effect) || is_touch(effect)
+    effect.is_probing_move() || is_touch(effect)
 }
 
 /// Is the move one that the probe ends?

@@ -4,6 +4,7 @@
 
 use gcheck_controls::Code;
 
+use crate::facts::workholding::Moved;
 use crate::{PathCx, Uses};
 
 /// The modal group of the codes that let another spindle be the main one.
@@ -14,7 +15,7 @@ const SECOND: [&str; 5] =
 
 /// Does the block make another spindle the main one? Then the part is another one, or the other side of it.
 pub(crate) fn swaps(cx: &PathCx<'_>) -> bool {
-    cx.codes().iter().filter_map(|ix| cx.code_of(*ix)).any(|code| code.entry().group == SWAP)
+    cx.has_code(|code| code.entry().group == SWAP)
 }
 
 /// Does the file have a code for a second spindle? The code that only gives the work back to the first one is in the safe line of
@@ -32,5 +33,5 @@ fn is_second(code: Code<'_>) -> bool {
 
 /// Nothing ends a code that only ends another one.
 fn gives_back(code: Code<'_>) -> bool {
-    code.entry().group == SWAP && code.entry().cancelled_by.is_empty()
+    code.entry().group == SWAP && Moved::by(code) == Moved::Back
 }

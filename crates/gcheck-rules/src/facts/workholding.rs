@@ -3,8 +3,8 @@
 //! Knows: effects for the main chuck, modal groups of the devices around the part, words of comments that name other devices. Must not
 //! know: any rule, where the part is.
 
-use gcheck_controls::{Code, Confidence, Effect};
-use gcheck_engine::At;
+use gcheck_controls::{Code, Confidence, Control, Effect};
+use gcheck_engine::{At, Event};
 
 use crate::PathCx;
 use crate::facts::tool_comment::comments_in;
@@ -23,11 +23,43 @@ pub(crate) enum Moved {
     Back,
 }
 
+impl Moved {
+    /// By a code of such a group.
+    pub(crate) fn by(code: Code<'_>) -> Self {
+        if code.entry().cancelled_by.is_empty() { Self::Back } else { Self::Out }
+    }
+}
+
 /// What the block does to the device of the modal group.
 pub(crate) fn moved(cx: &PathCx<'_>, group: &str) -> Option<Moved> {
     let codes = cx.codes();
     let own = codes.iter().rev().filter_map(|ix| cx.code_of(*ix)).find(|code| code.entry().group == group)?;
-    Some(if own.entry().cancelled_by.is_empty() { Moved::Back } else { Moved::Out })
+    Some(Moved::by(own))
+}
+
+/// The control's code that moves the device of the modal group so.
+pub(crate) fn code_that<'c>(control: &'c Control, group: &str, moved: Moved) -> Option<Code<'c>> {
+    control.codes().find(|code| code.entry().group == group && Moved::by(*code) == moved)
+}
+
+/// The spindle may be at rest although the program has not stopped it: it is oriented, or the operator may have stopped it.
+#[derive(Debug, Default, Clone, PartialEq)]
+pub(crate) struct MayRest(bool);
+
+impl MayRest {
+    /// Takes note of an event.
+    pub(crate) fn see(&mut self, event: &Event) {
+        match event {
+            Event::OrientSpindle { .. } | Event::Stop(_) => self.0 = true,
+            Event::Spindle(_) => self.0 = false,
+            _ => {}
+        }
+    }
+
+    /// May it be at rest?
+    pub(crate) fn is_so(&self) -> bool {
+        self.0
+    }
 }
 
 /// Does the machine builder decide what the code does?

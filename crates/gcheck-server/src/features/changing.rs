@@ -86,7 +86,7 @@ struct Asked {
 
 /// No change has this name.
 fn unknown_change() -> Error {
-    Error::invalid_params("there is no such change")
+    Error::invalid_params("the name of the change is not known")
 }
 
 impl Owner {

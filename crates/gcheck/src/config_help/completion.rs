@@ -5,6 +5,8 @@
 use std::collections::BTreeSet;
 use std::ops::Range;
 
+use gcheck_server::ConfigurationOffer;
+
 use super::open_keys::{Name, control_at, names};
 use super::outline::{Form, KeyPlace, Outline, Spot, Step, ValuePlace};
 use super::shape::{Kind, Shape};
@@ -12,26 +14,8 @@ use super::shape::{Kind, Shape};
 /// Of more values a key lists none: they are offered where the value is written.
 const MOST_CHOICES: usize = 12;
 
-/// Something that may be written.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Offer {
-    /// Shown in the list, and what it is known by.
-    pub(crate) label: String,
-    /// What it is.
-    pub(crate) description: String,
-    pub(crate) is_key: bool,
-    /// Bytes in whose place it is written.
-    pub(crate) range: Range<usize>,
-    /// What editors compare with what is typed.
-    pub(crate) filter: String,
-    /// What is written.
-    pub(crate) text: String,
-    /// The same with places for the cursor, for editors that know snippets.
-    pub(crate) snippet: Option<String>,
-}
-
 /// All that may be written at a byte, what fits best first.
-pub(crate) fn completion(text: &str, offset: usize) -> Vec<Offer> {
+pub(crate) fn completion(text: &str, offset: usize) -> Vec<ConfigurationOffer> {
     let outline = Outline::read(text);
     let asked = Asked { text, outline: &outline, offset };
     let (mut offers, typed) = match outline.at(offset) {
@@ -67,7 +51,7 @@ impl<'a> Asked<'a> {
         self.text.get(offset..).unwrap_or_default().trim_start_matches([' ', '\t']).starts_with(by)
     }
 
-    fn keys(&self, table: &[Step], form: Form, typed: Option<&KeyPlace>) -> Vec<Offer> {
+    fn keys(&self, table: &[Step], form: Form, typed: Option<&KeyPlace>) -> Vec<ConfigurationOffer> {
         let Some(shape) = Shape::at(table) else { return Vec::new() };
         let range = typed.map_or(self.offset..self.offset, |key| key.range.clone());
         let others = self.outline.keys_of(table).filter(|(_, place)| place.range != range);
@@ -96,7 +80,15 @@ impl<'a> Asked<'a> {
             let quote = self.before(&range).chars().next().filter(|first| ['"', '\''].contains(first));
             let filter = quote.map_or_else(|| name.clone(), |quote| format!("{quote}{name}"));
             let range = range.clone();
-            offers.push(Offer { label: name, description, is_key: true, range, filter, text, snippet });
+            offers.push(ConfigurationOffer {
+                label: name,
+                description,
+                is_key: true,
+                range,
+                filter,
+                text,
+                snippet,
+            });
         }
         offers
     }
@@ -137,7 +129,7 @@ impl<'a> Asked<'a> {
         (format!("{key} = "), Some(format!("{key} = {after}")))
     }
 
-    fn values(&self, path: &[Step], typed: Option<&ValuePlace>) -> Vec<Offer> {
+    fn values(&self, path: &[Step], typed: Option<&ValuePlace>) -> Vec<ConfigurationOffer> {
         let Some(shape) = Shape::at(path) else { return Vec::new() };
         let control = control_at(self.outline, self.text, path);
         let list = path.split_last().filter(|(last, _)| last.key().is_none()).map(|(_, list)| list);
@@ -169,7 +161,7 @@ impl<'a> Asked<'a> {
                     None => format!("{}{label}", gap.blank),
                 };
                 let (range, filter) = (gap.range.clone(), label.clone());
-                Offer { label, description, is_key: false, range, filter, text, snippet: None }
+                ConfigurationOffer { label, description, is_key: false, range, filter, text, snippet: None }
             })
             .collect()
     }
@@ -213,9 +205,11 @@ mod tests {
     use std::fmt::Write as _;
     use std::time::{Duration, Instant};
 
-    use super::{Offer, completion};
+    use gcheck_server::ConfigurationOffer;
 
-    fn offers(text: &str) -> Vec<Offer> {
+    use super::completion;
+
+    fn offers(text: &str) -> Vec<ConfigurationOffer> {
         let offset = text.find("$0").unwrap();
         completion(&text.replace("$0", ""), offset)
     }

@@ -6,20 +6,10 @@ use std::ops::Range;
 use std::path::Path;
 
 use gcheck_controls::{CodeNumber, Control};
+use gcheck_server::Configured;
 
 use super::outline::{Outline, Step};
 use crate::config::{PathPattern, work_offset};
-
-/// What a program names.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Named {
-    /// A tool by its number.
-    Tool(u32),
-    /// A work offset, counted from 1.
-    Offset(u16),
-    /// A code.
-    Code(CodeNumber),
-}
 
 /// The keys of the entries for what a program names, those that win first.
 pub(crate) fn entries(
@@ -27,19 +17,19 @@ pub(crate) fn entries(
     folder: &Path,
     program: &Path,
     control: &Control,
-    named: Named,
+    named: Configured,
 ) -> Vec<Range<usize>> {
     let outline = Outline::read(text);
     let key = |name: &str| Step::Key(name.to_owned());
     let table = match named {
-        Named::Tool(_) => "tools",
-        Named::Offset(_) => "offsets",
-        Named::Code(_) => "codes",
+        Configured::Tool(_) => "tools",
+        Configured::Offset(_) => "offsets",
+        Configured::Code(_) => "codes",
     };
     let fits = |name: &str| match named {
-        Named::Tool(number) => name.parse() == Ok(number),
-        Named::Offset(number) => work_offset(name, control) == Some(number),
-        Named::Code(number) => CodeNumber::parse(&name.to_ascii_uppercase()) == Some(number),
+        Configured::Tool(number) => name.parse() == Ok(number),
+        Configured::Offset(number) => work_offset(name, control) == Some(number),
+        Configured::Code(number) => CodeNumber::parse(&name.to_ascii_uppercase()) == Some(number),
     };
     let rules_over = |item: &[Step]| {
         let files = [item, &[key("files")]].concat();
@@ -63,11 +53,12 @@ mod tests {
     use std::path::Path;
 
     use gcheck_controls::CodeNumber;
+    use gcheck_server::Configured;
 
-    use super::{Named, entries};
+    use super::entries;
 
     /// Lines of the entries, counted from 1, with the key.
-    fn found(text: &str, program: &str, named: Named) -> Vec<String> {
+    fn found(text: &str, program: &str, named: Configured) -> Vec<String> {
         let control = gcheck_controls::load("haas-mill").unwrap();
         let ranges = entries(text, Path::new("/shop"), Path::new(program), &control, named);
         let line = |range: &std::ops::Range<usize>| text[..range.start].matches('\n').count() + 1;
@@ -78,26 +69,29 @@ mod tests {
     fn tools_offsets_and_codes_by_any_way_of_writing() {
         let text = "[tools]\n3 = { length = 1 }\n[tools.7]\nlength = 2\n[tools.7.offset]\nX = 1\n[offsets]\nG54 = { X = 1 }\n\"g154 p2\" = { X = 1 }\n[codes]\nm51 = { title = \"door\" }\n";
         let at = |named| found(text, "/shop/a.nc", named);
-        assert_eq!(at(Named::Tool(3)), ["2: 3"]);
-        assert_eq!(at(Named::Tool(7)), ["3: 7"]);
-        assert_eq!(at(Named::Tool(4)), [] as [&str; 0]);
-        assert_eq!(at(Named::Offset(1)), ["8: G54"]);
+        assert_eq!(at(Configured::Tool(3)), ["2: 3"]);
+        assert_eq!(at(Configured::Tool(7)), ["3: 7"]);
+        assert_eq!(at(Configured::Tool(4)), [] as [&str; 0]);
+        assert_eq!(at(Configured::Offset(1)), ["8: G54"]);
         let control = gcheck_controls::load("haas-mill").unwrap();
         let number = crate::config::work_offset("G154 P2", &control).unwrap();
-        assert_eq!(at(Named::Offset(number)), ["9: \"g154 p2\""]);
-        assert_eq!(at(Named::Code(CodeNumber::m(51))), ["11: m51"]);
-        assert_eq!(at(Named::Code(CodeNumber::m(52))), [] as [&str; 0]);
+        assert_eq!(at(Configured::Offset(number)), ["9: \"g154 p2\""]);
+        assert_eq!(at(Configured::Code(CodeNumber::m(51))), ["11: m51"]);
+        assert_eq!(at(Configured::Code(CodeNumber::m(52))), [] as [&str; 0]);
     }
 
     #[test]
     fn what_overrides_comes_first_where_it_rules() {
         let text = "[tools]\n3 = { length = 1 }\n[[overrides]]\nfiles = [\"lathe/**\"]\n[overrides.tools]\n3 = { length = 2 }\n";
-        assert_eq!(found(text, "/shop/lathe/a.nc", Named::Tool(3)), ["6: 3", "2: 3"]);
-        assert_eq!(found(text, "/shop/mill/a.nc", Named::Tool(3)), ["2: 3"]);
+        assert_eq!(found(text, "/shop/lathe/a.nc", Configured::Tool(3)), ["6: 3", "2: 3"]);
+        assert_eq!(found(text, "/shop/mill/a.nc", Configured::Tool(3)), ["2: 3"]);
     }
 
     #[test]
     fn a_broken_text_has_the_entries_that_can_be_read() {
-        assert_eq!(found("control = \n[tools\n[tools]\n3 = {\n", "/shop/a.nc", Named::Tool(3)), ["4: 3"]);
+        assert_eq!(
+            found("control = \n[tools\n[tools]\n3 = {\n", "/shop/a.nc", Configured::Tool(3)),
+            ["4: 3"]
+        );
     }
 }

@@ -3,31 +3,24 @@
 //! Knows: how it is worded. Must not know: any key.
 
 use std::fmt::Write as _;
-use std::ops::Range;
 
-use super::open_keys::{control_at, told};
+use gcheck_server::ConfigurationHover;
+
+use super::open_keys::{control_at, texts_for, told};
 use super::outline::{Outline, Spot, Step};
 use super::shape::Shape;
 
 /// Values that a hover lists; of more it says only how many there are.
 const MOST_VALUES: usize = 12;
 
-/// What is told of a place.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Hover {
-    pub(crate) markdown: String,
-    /// Bytes that it is about.
-    pub(crate) range: Range<usize>,
-}
-
 /// All about the key or value at a byte.
-pub(crate) fn hover(text: &str, offset: usize) -> Option<Hover> {
+pub(crate) fn hover(text: &str, offset: usize) -> Option<ConfigurationHover> {
     let outline = Outline::read(text);
     match outline.at(offset) {
         Spot::Key(key) => {
             let shape = Shape::at(&key.path)?;
             let markdown = of_key(&outline, text, &key.path, &shape);
-            Some(Hover { markdown, range: key.range.clone() })
+            Some(ConfigurationHover { markdown, range: key.range.clone() })
         }
         Spot::Value(value) => {
             let shape = Shape::at(&value.path)?;
@@ -37,7 +30,7 @@ pub(crate) fn hover(text: &str, offset: usize) -> Option<Hover> {
                 Some(allowed) => format!("**{}**\n\n{}", allowed.text, flowing(allowed.description)),
                 None => of_key(&outline, text, &value.path, &shape),
             };
-            Some(Hover { markdown, range: value.range.clone() })
+            Some(ConfigurationHover { markdown, range: value.range.clone() })
         }
         Spot::NewKey(..) | Spot::NewValue(_) | Spot::Nothing => None,
     }
@@ -81,18 +74,7 @@ fn shown(path: &[Step]) -> String {
 
 /// The unit of lengths in this file.
 fn units(outline: &Outline, text: &str, path: &[Step]) -> String {
-    let key = |name: &str| Step::Key(name.to_owned());
-    let own = match path {
-        [list, item @ Step::Item(_), ..] => {
-            Some(vec![list.clone(), item.clone(), key("machine"), key("units")])
-        }
-        _ => None,
-    };
-    let paths = own.into_iter().chain([vec![key("machine"), key("units")]]);
-    let written = paths.into_iter().find_map(|path| {
-        let value = outline.values_of(&path).next()?;
-        Some(text.get(value.range.clone())?.trim_matches(['"', '\'']))
-    });
+    let written = texts_for(outline, text, path, &["machine", "units"]).next();
     match written {
         Some(units) => format!("`units` of this file: {units}."),
         None => {

@@ -77,18 +77,27 @@ pub(super) fn told(path: &[Step], control: Option<&Control>) -> Option<String> {
 
 /// The control that a place of the text is for, where the text names it.
 pub(super) fn control_at(outline: &Outline, text: &str, path: &[Step]) -> Option<Arc<Control>> {
-    let key = |name: &str| Step::Key(name.to_owned());
+    texts_for(outline, text, path, &["control"]).find_map(|name| gcheck_controls::load(name).ok())
+}
+
+/// What the text writes for a key that counts at `path`: in the item of `[[overrides]]` that the path leads through, then for all
+/// programs.
+pub(super) fn texts_for<'t>(
+    outline: &Outline,
+    text: &'t str,
+    path: &[Step],
+    keys: &[&str],
+) -> impl Iterator<Item = &'t str> {
     let own = match path {
-        [list, item @ Step::Item(_), ..] if *list == key("overrides") => {
-            Some(vec![list.clone(), item.clone(), key("control")])
+        [list @ Step::Key(name), item @ Step::Item(_), ..] if name == "overrides" => {
+            Some(vec![list.clone(), item.clone()])
         }
         _ => None,
     };
-    let paths = own.into_iter().chain([vec![key("control")]]);
-    paths.into_iter().find_map(|path| {
+    own.into_iter().chain([Vec::new()]).filter_map(move |mut path| {
+        path.extend(keys.iter().map(|key| Step::Key((*key).to_owned())));
         let value = outline.values_of(&path).next()?;
-        let name = text.get(value.range.clone())?.trim_matches(['"', '\'']);
-        gcheck_controls::load(name).ok()
+        Some(text.get(value.range.clone())?.trim_matches(['"', '\'']))
     })
 }
 

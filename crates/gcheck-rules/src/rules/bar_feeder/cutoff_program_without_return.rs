@@ -69,35 +69,13 @@ impl PathRule for CutoffProgramWithoutReturn {
 
 #[cfg(test)]
 mod tests {
-    use std::rc::Rc;
-
     use expect_test::{Expect, expect};
-    use gcheck_engine::SourceFile;
 
     use super::RULE;
-    use crate::Programs;
-    use crate::testing::{World, check_rule_in};
-
-    /// Program 2.
-    struct Cutoff(&'static str);
-
-    impl Programs for Cutoff {
-        fn has_number(&self, number: u32) -> bool {
-            number == 2
-        }
-
-        fn has_name(&self, _: &str) -> bool {
-            false
-        }
-
-        fn source_of_number(&self, number: u32) -> Option<SourceFile> {
-            (number == 2).then(|| SourceFile { name: Rc::from("O0002.nc"), text: self.0.to_owned() })
-        }
-    }
+    use crate::testing::{Called, World, check_rule_in};
 
     fn check(cutoff: &'static str, expected: &Expect) {
-        let programs = Cutoff(cutoff);
-        let world = World { programs: &programs, ..World::default() };
+        let world = World { programs: &Called(2, cutoff), ..World::default() };
         check_rule_in(&RULE, "haas-lathe", "O1\nM5\nG105 J1.75 P2\nM99\n", &world, expected);
     }
 

@@ -61,7 +61,7 @@ impl PathRule for DrilledBesideTheCentre {
         if travel.kind != TravelKind::Feed || !cycle.is_some_and(|code| drills(cx.model.effect(code))) {
             return;
         }
-        let turns = matches!(cx.state().spindle(), Some(Spindle::Clockwise | Spindle::CounterClockwise));
+        let turns = cx.state().spindle().is_some_and(Spindle::turns);
         let (from, to) = (&travel.from, &travel.to);
         let goes_along = (from.raw(Axis::X) - to.raw(Axis::X)).abs() < f64::EPSILON
             && (from.raw(Axis::Z) - to.raw(Axis::Z)).abs() > f64::EPSILON;

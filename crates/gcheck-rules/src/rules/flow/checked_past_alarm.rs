@@ -69,9 +69,7 @@ impl PathRule for CheckedPastAlarm {
             && cx.file_index.is_called_from_elsewhere()
             && cx.state().frames().len() <= 1;
         // What the machine's builder or user added is not in the file.
-        let is_users =
-            cx.codes().iter().any(|ix| cx.code_of(*ix).is_some_and(gcheck_controls::Code::is_user));
-        if is_elsewhere || is_users {
+        if is_elsewhere || cx.has_code(gcheck_controls::Code::is_user) {
             return;
         }
         self.told = true;

@@ -166,35 +166,13 @@ fn check(cx: &PathCx<'_>, at_end_of_text: bool, report: &mut Report<'_>) {
 
 #[cfg(test)]
 mod tests {
-    use std::rc::Rc;
-
     use expect_test::{Expect, expect};
-    use gcheck_engine::SourceFile;
 
     use super::RULE;
-    use crate::Programs;
-    use crate::testing::{World, check_rule, check_rule_in};
-
-    /// Program 2, in a file of its own.
-    struct Beside(&'static str);
-
-    impl Programs for Beside {
-        fn has_number(&self, number: u32) -> bool {
-            number == 2
-        }
-
-        fn has_name(&self, _: &str) -> bool {
-            false
-        }
-
-        fn source_of_number(&self, number: u32) -> Option<SourceFile> {
-            self.has_number(number)
-                .then(|| SourceFile { name: Rc::from("O0002.nc"), text: self.0.to_owned() })
-        }
-    }
+    use crate::testing::{Called, World, check_rule, check_rule_in};
 
     fn check_beside(program: &str, beside: &'static str, expected: &Expect) {
-        let world = World { programs: &Beside(beside), ..World::default() };
+        let world = World { programs: &Called(2, beside), ..World::default() };
         check_rule_in(&RULE, "fanuc-mill", program, &world, expected);
     }
 

@@ -187,7 +187,7 @@ impl FeedImplausible {
     /// A feed per minute that is too fast for the speed of the spindle.
     fn judge_at_speed(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
         let state = cx.state();
-        let turns = matches!(state.spindle(), Some(Spindle::Clockwise | Spindle::CounterClockwise));
+        let turns = state.spindle().is_some_and(Spindle::turns);
         let (Some(feed), Some(speed)) = (Abstract::known(state.feed()), Abstract::known(state.speed()))
         else {
             return;

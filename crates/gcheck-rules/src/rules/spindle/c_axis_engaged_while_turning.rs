@@ -1,6 +1,6 @@
 //! A C axis that is engaged while the spindle turns.
 
-use gcheck_controls::{Effect, Machine};
+use gcheck_controls::{Code, Effect, Machine};
 use gcheck_engine::{Fact, Spindle};
 
 use crate::declare::declare_rule;
@@ -60,19 +60,14 @@ impl PathRule for CAxisEngagedWhileTurning {
     }
 
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
-        let turns = matches!(cx.state().spindle(), Some(Spindle::Clockwise | Spindle::CounterClockwise));
+        let turns = cx.state().spindle().is_some_and(Spindle::turns);
         // The block may stop the spindle first.
         let stops = |effect| matches!(effect, Effect::SpindleStop | Effect::SpindleOrient);
         if moved(cx, GROUP) != Some(Moved::Out) || !turns || cx.has_effect(stops) || !cx.is_certain() {
             return;
         }
-        let range =
-            cx.word_range(|word| cx.code_of(word.code).is_some_and(|code| code.entry().group == GROUP));
-        let Some(code) =
-            cx.codes().iter().filter_map(|ix| cx.code_of(*ix)).find(|code| code.entry().group == GROUP)
-        else {
-            return;
-        };
+        let engages = |code: Code<'_>| code.entry().group == GROUP && Moved::by(code) == Moved::Out;
+        let Some((code, range)) = cx.find_code(cx.origin().at, engages) else { return };
         let stop = cx.name_of_effect(Effect::SpindleStop).unwrap_or_default();
         let finding = cx
             .finding(

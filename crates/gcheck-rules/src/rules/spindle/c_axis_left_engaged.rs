@@ -6,6 +6,7 @@ use gcheck_engine::At;
 use crate::declare::declare_rule;
 use crate::facts::cutting::starts_spindle;
 use crate::facts::second_spindle::swaps;
+use crate::facts::workholding::{Moved, code_that};
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 use crate::{Remembers, remembers};
 
@@ -93,13 +94,8 @@ impl PathRule for CAxisLeftEngaged {
             return;
         }
         let Some(engaged) = self.engaged.take() else { return };
-        let is_own = |word: &gcheck_program::Word| {
-            cx.code_of(word.code).is_some_and(|code| code.entry().group == GROUP)
-        };
-        let codes = || cx.control().codes().filter(|code| code.entry().group == GROUP);
-        let on = codes().find(|code| !code.entry().cancelled_by.is_empty());
-        let off = codes().find(|code| code.entry().cancelled_by.is_empty());
-        let (Some(on), Some(off)) = (on, off) else { return };
+        let code = |moved| code_that(cx.control(), GROUP, moved);
+        let (Some(on), Some(off)) = (code(Moved::Out), code(Moved::Back)) else { return };
         let (name, end) = (on.number(), off.number());
         let mut finding = cx
             .finding(
@@ -111,7 +107,7 @@ impl PathRule for CAxisLeftEngaged {
             .note(format!("`{end}`: {}  [{}]", off.entry().summary, off.entry().source))
             .assuming("the start of the spindle does not release the axis by itself")
             .help(format!("release the C axis with `{end}` before this block"));
-        if let Some(range) = cx.find_word(engaged, is_own) {
+        if let Some((_, range)) = cx.find_code(engaged, |code| code.entry().group == GROUP) {
             finding = finding.also(range, "engaged here");
         }
         report.add(finding);

@@ -4,6 +4,7 @@ use gcheck_controls::{Effect, LetterSet, Machine};
 use gcheck_engine::Event;
 
 use crate::declare::declare_rule;
+use crate::facts::workholding::{Moved, code_that};
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 use crate::{Remembers, remembers};
 
@@ -116,11 +117,7 @@ impl CAxisNotEngaged {
         if self.is_engaged || !is_known || std::mem::replace(&mut self.is_told, true) {
             return;
         }
-        let engages = cx
-            .control()
-            .codes()
-            .find(|code| code.entry().group == GROUP && !code.entry().cancelled_by.is_empty());
-        let Some(code) = engages else { return };
+        let Some(code) = code_that(cx.control(), GROUP, Moved::Out) else { return };
         let (name, entry) = (code.number(), code.entry());
         report.add(
             cx.finding(&META, range, format!("{what} (no `{name}`)"))

@@ -2,7 +2,6 @@
 
 use gcheck_controls::{Code, Effect};
 use gcheck_engine::{Event, Fact, Spindle, Truth};
-use gcheck_program::Word;
 
 use crate::declare::declare_rule;
 use crate::facts::second_spindle::has_second_spindle;
@@ -79,7 +78,7 @@ impl PathRule for ChuckLeftOpen {
     }
 
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
-        self.is_settled |= cx.codes().iter().filter_map(|ix| cx.code_of(*ix)).any(Code::is_user);
+        self.is_settled |= cx.has_code(Code::is_user);
         let is_open = cx.state().bar().clamped() == Truth::False && !self.is_settled;
         // The block may close it first.
         let closes = cx.has_effect(|effect| matches!(effect, Effect::ChuckClamp | Effect::BarFeed));
@@ -87,10 +86,8 @@ impl PathRule for ChuckLeftOpen {
             return;
         }
         let Some(at) = cx.definitions().set_by(Fact::Chuck) else { return };
-        let Some(place) = cx.place_of(at).filter(|_| at.file == 0) else { return };
-        let opener = |word: &&Word| word.code.is_some() && opens(cx.model.effect(word.code));
-        let Some(word) = place.table.words(place.block()).iter().find(opener) else { return };
-        let is_sure = cx.code_of(word.code).is_some_and(|code| !is_builders(code));
+        let Some((code, opener)) = cx.find_code(at, |code| opens(code.effect())) else { return };
+        let is_sure = !is_builders(code);
         if !is_sure && names_something_else(cx, at) {
             return;
         }
@@ -100,12 +97,12 @@ impl PathRule for ChuckLeftOpen {
         let finding = cx
             .finding(&META, cx.effect_range(Effect::starts_spindle), "the spindle starts with the chuck open")
             .label("nothing holds the part")
-            .also(place.base + word.range().start..place.base + word.range().end, "opened here")
+            .also(opener, "opened here")
             .help(format!("close the chuck with `{close}` before this block, and give it time"));
         report.add(if is_sure {
             finding
         } else {
-            let name = cx.name_of(word.code);
+            let name = code.number();
             finding.at_most(Severity::Info).assuming(format!("`{name}` opens the chuck on this machine"))
         });
     }

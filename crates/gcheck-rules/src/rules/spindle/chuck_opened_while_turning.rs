@@ -5,7 +5,7 @@ use gcheck_engine::{Event, Fact, Spindle};
 
 use crate::declare::declare_rule;
 use crate::facts::second_spindle::has_second_spindle;
-use crate::facts::workholding::{is_builders, names_something_else, opens};
+use crate::facts::workholding::{MayRest, is_builders, names_something_else, opens};
 use crate::{PathCx, PathRule, Remembers, Report, Run, Severity, Uses, Watch, remembers};
 
 declare_rule! {
@@ -47,8 +47,7 @@ declare_rule! {
 
 #[derive(Default, Clone, PartialEq)]
 struct ChuckOpenedWhileTurning {
-    /// Stopped at an angle, or by a stop of the program.
-    is_oriented: bool,
+    spindle: MayRest,
 }
 
 remembers!(ChuckOpenedWhileTurning);
@@ -63,18 +62,13 @@ impl PathRule for ChuckOpenedWhileTurning {
     }
 
     fn changed(&mut self, _: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
-        match event {
-            // At a stop the operator, or the machine, may have stopped it too.
-            Event::OrientSpindle { .. } | Event::Stop(_) => self.is_oriented = true,
-            Event::Spindle(_) => self.is_oriented = false,
-            _ => {}
-        }
+        self.spindle.see(event);
     }
 
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
-        let turns = matches!(cx.state().spindle(), Some(Spindle::Clockwise | Spindle::CounterClockwise));
+        let turns = cx.state().spindle().is_some_and(Spindle::turns);
         let is_known = cx.is_certain();
-        if !cx.has_effect(opens) || !turns || self.is_oriented || !is_known || stops_in_block(cx) {
+        if !cx.has_effect(opens) || !turns || self.spindle.is_so() || !is_known || stops_in_block(cx) {
             return;
         }
         let codes = cx.codes();
@@ -106,7 +100,7 @@ impl PathRule for ChuckOpenedWhileTurning {
 /// The block may stop the spindle first, or its effect is unknown.
 fn stops_in_block(cx: &PathCx<'_>) -> bool {
     cx.has_effect(|effect| matches!(effect, Effect::SpindleStop | Effect::BarFeed))
-        || cx.codes().iter().filter_map(|ix| cx.code_of(*ix)).any(Code::is_user)
+        || cx.has_code(Code::is_user)
 }
 
 #[cfg(test)]

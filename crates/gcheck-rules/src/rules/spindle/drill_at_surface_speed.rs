@@ -139,7 +139,7 @@ impl PathRule for DrillAtSurfaceSpeed {
 impl DrillAtSurfaceSpeed {
     fn drills(&self, cx: &PathCx<'_>) -> Option<Waiting> {
         let state = cx.state();
-        let turns = matches!(state.spindle(), Some(Spindle::Clockwise | Spindle::CounterClockwise));
+        let turns = state.spindle().is_some_and(Spindle::turns);
         let fact = Fact::Mode(Role::SpindleMode);
         let tool = cx.definitions().set_by(Fact::Tool);
         let is_told = tool.is_some() && tool == self.told;

@@ -4,7 +4,7 @@ use gcheck_controls::{Code, Effect};
 use gcheck_engine::{Event, Fact, Spindle};
 
 use crate::declare::declare_rule;
-use crate::facts::workholding::{Moved, moved};
+use crate::facts::workholding::{MayRest, Moved, code_that, moved};
 use crate::{PathCx, PathRule, Remembers, Report, Run, Uses, Watch, remembers};
 
 declare_rule! {
@@ -53,8 +53,7 @@ declare_rule! {
 struct SecondChuckOutOfStep {
     /// The spindles are tied together, or the second one turns too.
     turns_too: bool,
-    /// The main spindle may have stopped: by an orientation, or by the operator.
-    may_be_stopped: bool,
+    spindle: MayRest,
     /// The part may be in the second chuck alone.
     is_handed_over: bool,
 }
@@ -80,28 +79,23 @@ impl PathRule for SecondChuckOutOfStep {
     }
 
     fn changed(&mut self, _: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
-        match event {
-            Event::OrientSpindle { .. } | Event::Stop(_) => self.may_be_stopped = true,
-            Event::Spindle(_) => self.may_be_stopped = false,
-            _ => {}
-        }
+        self.spindle.see(event);
     }
 
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
         // Any code for the second spindle shows that the program has it in mind; what it then does is not followed.
         let has_it_in_mind = TURNING.iter().any(|group| moved(cx, group) == Some(Moved::Out));
-        let is_user = cx.codes().iter().filter_map(|ix| cx.code_of(*ix)).any(Code::is_user);
+        let is_user = cx.has_code(Code::is_user);
         self.turns_too |= has_it_in_mind || is_user || !cx.is_certain();
         self.is_handed_over |= cx.has_effect(|effect| effect == Effect::ChuckUnclamp);
-        let turns = matches!(cx.state().spindle(), Some(Spindle::Clockwise | Spindle::CounterClockwise));
+        let turns = cx.state().spindle().is_some_and(Spindle::turns);
         let stops = |effect| matches!(effect, Effect::SpindleStop | Effect::SpindleOrient);
-        let is_at_rest = !turns || self.may_be_stopped || cx.has_effect(stops);
+        let is_at_rest = !turns || self.spindle.is_so() || cx.has_effect(stops);
         if !cx.has_effect(closes) || is_at_rest || self.turns_too || self.is_handed_over {
             return;
         }
         let stop = cx.name_of_effect(Effect::SpindleStop).unwrap_or_default();
-        let ties = |code: &Code<'_>| code.entry().group == SYNC && !code.entry().cancelled_by.is_empty();
-        let help = match cx.control().codes().find(ties) {
+        let help = match code_that(cx.control(), SYNC, Moved::Out) {
             Some(tie) => format!(
                 "tie the spindles together with `{}` before this block, or stop the main one with `{stop}`",
                 tie.number()

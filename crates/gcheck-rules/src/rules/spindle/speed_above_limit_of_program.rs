@@ -67,7 +67,7 @@ impl PathRule for SpeedAboveLimitOfProgram {
         let state = cx.state();
         let limit = state.speed_limit();
         let is_constant = state.effect(Role::SpindleMode, cx.model) != Some(Effect::SurfaceSpeed);
-        let turns = matches!(state.spindle(), Some(Spindle::Clockwise | Spindle::CounterClockwise));
+        let turns = state.spindle().is_some_and(Spindle::turns);
         let Some(speed) = Abstract::known(state.speed()).filter(|_| is_constant && turns) else { return };
         if !(limit.is_finite() && limit > 0.0 && speed > limit) || cx.is_called_only() {
             return;

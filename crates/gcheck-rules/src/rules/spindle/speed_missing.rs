@@ -63,7 +63,7 @@ impl PathRule for SpeedMissing {
 
     fn cut(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
         let state = cx.state();
-        let turns = matches!(state.spindle(), Some(Spindle::Clockwise | Spindle::CounterClockwise));
+        let turns = state.spindle().is_some_and(Spindle::turns);
         if !turns || Abstract::known(state.speed()) != Some(0.0) || !is_cut(cx, event) || cx.is_called_only()
         {
             return;

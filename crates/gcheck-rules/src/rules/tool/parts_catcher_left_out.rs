@@ -1,10 +1,11 @@
 //! A parts catcher that stays under the spindle.
 
+use gcheck_controls::Code;
 use gcheck_engine::{At, Ending, Event};
 
 use crate::declare::declare_rule;
 use crate::facts::boundary::{Boundary, boundary, boundary_range, ends_at_tape_mark};
-use crate::facts::workholding::{Moved, moved};
+use crate::facts::workholding::{Moved, code_that, moved};
 use crate::{PathCx, PathRule, Remembers, Report, Run, Uses, Watch, remembers};
 
 declare_rule! {
@@ -71,7 +72,7 @@ impl PathRule for PartsCatcherLeftOut {
     }
 
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
-        let is_user = cx.codes().iter().filter_map(|ix| cx.code_of(*ix)).any(gcheck_controls::Code::is_user);
+        let is_user = cx.has_code(Code::is_user);
         match moved(cx, GROUP) {
             Some(Moved::Out) => self.out = Some(cx.origin().at),
             Some(Moved::Back) => self.out = None,
@@ -100,8 +101,7 @@ impl PathRule for PartsCatcherLeftOut {
 impl PartsCatcherLeftOut {
     fn judge(&mut self, cx: &PathCx<'_>, boundary: Boundary, report: &mut Report<'_>) {
         let Some(at) = self.out.take() else { return };
-        let codes = || cx.control().codes().filter(|code| code.entry().group == GROUP);
-        let Some(back) = codes().find(|code| code.entry().cancelled_by.is_empty()) else { return };
+        let Some(back) = code_that(cx.control(), GROUP, Moved::Back) else { return };
         let back = back.number();
         let mut finding = cx
             .finding(
@@ -112,10 +112,7 @@ impl PartsCatcherLeftOut {
             .label(format!("no `{back}` before this"))
             .assuming("nothing else takes the catcher away")
             .help(format!("take the catcher away with `{back}` after the part is cut off"));
-        let own = |word: &gcheck_program::Word| {
-            cx.code_of(word.code).is_some_and(|code| code.entry().group == GROUP)
-        };
-        if let Some(range) = cx.find_word(at, own) {
+        if let Some((_, range)) = cx.find_code(at, |code| code.entry().group == GROUP) {
             finding = finding.also(range, "brought out here");
         }
         report.add(finding);
