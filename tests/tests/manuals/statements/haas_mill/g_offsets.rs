@@ -6,7 +6,7 @@
 //! Knows: statements in our words, programs, expectations. Must not know: how they are checked.
 
 use super::blocks::cut;
-use super::mill::{gap, held, mill};
+use super::mill::{held, mill};
 use crate::proof::Proof::{Legal, Makes, Rule, Run, Silent, Stands};
 use crate::statements::statement::{Chapter, prove};
 
@@ -334,10 +334,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 at: "MX-10 MY-5",
             }],
         ),
-        gap(
+        held(
             "p. 302",
             "Power-up and zero return of an axis end G92; the end of a program does not.",
-            "`shift-left-on` is an info for G92, with the assumption that a setting decides; the manual says that M30 leaves it: warning, and without that assumption",
+            "rule `shift-left-on`; its words still assume that a setting decides",
             &[Rule {
                 finding: "warning[shift-left-on]",
                 violates: cut!("X2.\nG92 X1.\nX2.\n"),
