@@ -12,7 +12,10 @@ pub(crate) fn run(bytes: &[u8]) {
     let dialect = Dialect::new(case.control);
     let flat = lower(&case.text, &dialect);
     let tree = lower_tree(&parse(&case.text, dialect.profile()), &case.text, &dialect);
-    assert_eq!(flat, tree, "the tree and the tokens give the same blocks");
+    // A label that is not a number is held as NaN, which equals nothing, itself neither; as text it does.
+    if flat != tree {
+        assert_eq!(format!("{flat:?}"), format!("{tree:?}"), "the tree and the tokens give the same blocks");
+    }
     let mut tools = ToolNames::new(case.control);
     let loaded = Loaded::new(&case.text, &dialect, |_, table, text| tools.look(table, text));
     let blocks = loaded.flow_graph().blocks();
