@@ -126,6 +126,24 @@ impl<'c> Code<'c> {
         &self.facts.entry
     }
 
+    /// Are the blocks after one with this code lines of data, as the number that the block gives an address decides?
+    pub fn opens_data(self, number: impl FnOnce(Letter) -> Option<f64>) -> bool {
+        self.facts.entry.opens_data.as_ref().is_some_and(|opens| {
+            let letter = Letter::parse(&opens.letter);
+            #[expect(
+                clippy::float_cmp,
+                reason = "the number is one of the list, or another form of the code"
+            )]
+            letter.and_then(number).is_some_and(|number| opens.values.iter().any(|value| *value == number))
+        })
+    }
+
+    /// Does this code end lines of data that another one opened?
+    pub fn ends_data_of(self, opener: Self) -> bool {
+        opener.facts.entry.opens_data.is_some()
+            && opener.facts.entry.cancelled_by.contains(&self.facts.entry.code)
+    }
+
     /// The code's number.
     pub fn number(self) -> CodeNumber {
         self.facts.number
@@ -411,6 +429,7 @@ impl Control {
                 conflicts_when_later: false,
                 cancels: Vec::new(),
                 cancelled_by: Vec::new(),
+                opens_data: None,
                 motion: Motion::None,
                 takes_axes: true,
                 alone: false,

@@ -504,6 +504,16 @@ pub(crate) struct CodesFile {
     pub(crate) codes: Vec<CodeEntry>,
 }
 
+/// When a code opens lines of data; see [`CodeEntry::opens_data`].
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct OpensData {
+    /// Address of the word that decides: `"L"`.
+    pub letter: String,
+    /// Its values that open them.
+    pub values: Vec<f64>,
+}
+
 /// One G or M code.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
@@ -571,6 +581,10 @@ pub struct CodeEntry {
     /// Codes or words (`H0`) that end this one.
     #[serde(default)]
     pub cancelled_by: Vec<String>,
+    /// Values of a word with which the code opens lines of data: `G10 L50`, `G10 L3`. Up to a code that ends it the blocks are
+    /// rows of a table, not commands.
+    #[serde(default)]
+    pub opens_data: Option<OpensData>,
     /// What moves.
     #[serde(default)]
     pub motion: Motion,

@@ -127,6 +127,13 @@ impl Problems<'_> {
                 self.say(code, format!("is cancelled by `{item}`, which is not a code, group or word here"));
             }
         }
+        if let Some(opens) = &entry.opens_data
+            && (!seen_letter(&opens.letter)
+                || opens.values.is_empty()
+                || !entry.cancelled_by.iter().any(|item| self.resolves(item)))
+        {
+            self.say(code, "opens lines of data by a word that it does not have, or no code ends them");
+        }
         let mut seen = crate::LetterSet::EMPTY;
         for word in &entry.words {
             match Letter::parse(&word.letter) {

@@ -48,6 +48,7 @@ pub(crate) fn start_state<D: Domain>(
         probe: Probe::at_start(machine.fresh),
         tool_shift: ToolShift::NONE,
         bar: Bar::at_start(machine),
+        data_entry: Truth::False,
     };
     start_bar_counters(model, machine, &mut state);
     if machine.is_called {

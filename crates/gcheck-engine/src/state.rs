@@ -102,6 +102,8 @@ lattice! {
         /// Shifts by the tool between the programmed point and the axes.
         pub(crate) tool_shift: ToolShift,
         pub(crate) bar: Bar,
+        /// Are blocks rows of data, not commands?
+        pub(crate) data_entry: Truth,
     }
 }
 
@@ -149,6 +151,7 @@ impl<D: Domain> State<D> {
             probe,
             tool_shift,
             bar,
+            data_entry,
         } = self;
         points.lose();
         points.passed = Position::UNKNOWN;
@@ -176,6 +179,14 @@ impl<D: Domain> State<D> {
         let shift = tool_shift.or_none();
         *tool_shift = shift;
         *bar = Bar::UNKNOWN;
+        if *data_entry != Truth::False {
+            *data_entry = Truth::Unknown;
+        }
+    }
+
+    /// Are blocks lines of data here, not commands?
+    pub fn reads_data(&self) -> bool {
+        self.data_entry == Truth::True
     }
 
     /// How many values of programs and variables it holds: what a copy or a comparison costs.
@@ -539,6 +550,7 @@ impl State<Concrete> {
             probe,
             tool_shift,
             bar,
+            data_entry,
         } = self.clone();
         State {
             points,
@@ -560,6 +572,7 @@ impl State<Concrete> {
             probe,
             tool_shift,
             bar,
+            data_entry,
         }
     }
 }

@@ -389,12 +389,17 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
         state: &mut State<D>,
     ) -> Step<Outcome<D>> {
         let words = self.words_to_come(table, block);
-        if !words.is_empty() {
+        if !words.is_empty() && !self.reads_as_data(words, state) {
+            // Whether the words are data or commands is not known: what was before stays possible.
+            let unread = (state.data_entry == Truth::Unknown).then(|| state.clone());
             self.read_words(place, table, words, state)?;
             let executed = self.execute(place, words, state);
             self.settle_tool_shift(state);
             self.end_increments_of_block(state);
             executed?;
+            if let Some(before) = unread {
+                *state = state.join(&before);
+            }
         }
         if !self.pending.is_empty() {
             let mut pending = std::mem::take(&mut self.pending);

@@ -6,9 +6,10 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use gcheck_controls::{Code, CodeIx, Ends, Letter, LetterSet, Variable, WordKind};
+use gcheck_controls::{CodeIx, Ends, Letter, LetterSet, Variable, WordKind};
 use gcheck_program::{
-    Block, BlockFlags, BlockIx, BlockTable, ControlFlowGraph, Dialect, Loaded, Op, StatementKind, Value, Word,
+    Block, BlockFlags, BlockIx, BlockTable, ControlFlowGraph, Dialect, FileIndex, Loaded, Op, StatementKind,
+    Value, Word,
 };
 
 /// Programs that call one, as far as they are followed.
@@ -94,8 +95,6 @@ struct Found {
     /// Calls with the number of the program.
     calls: Vec<(u32, Option<u32>)>,
     ends: Vec<u32>,
-    /// The last block whose code reads `N` as something else for the blocks after it, with that code.
-    data: Option<(u32, CodeIx)>,
     blocks: u32,
 }
 
@@ -104,9 +103,13 @@ impl Labels {
     pub(crate) fn of(text: &str, dialect: &Dialect<'_>) -> Self {
         let region_end = gcheck_program::code_region(text).end as u32;
         let mut found = Found::default();
+        let mut file_index = FileIndex::default();
         let loaded = Loaded::new(text, dialect, |base, table, part| {
             found.add(table, base, region_end, part, dialect);
+            file_index.add(table, base, region_end, dialect);
         });
+        // `N` of a row of data is the number of something else.
+        found.labels.retain(|(_, label)| !file_index.is_data(label.range.start));
         Self::resolve(found, loaded.flow_graph(), dialect)
     }
 
@@ -284,7 +287,6 @@ impl Found {
         if code.alias().is_some() {
             self.calls.push((place.number, None));
         }
-        self.note_data(place, word.code);
         if !dialect_refers(place.dialect, word.code) {
             return;
         }
@@ -317,27 +319,6 @@ impl Found {
                 Some(_) => Target::Other,
             };
             self.refer(place.number, target, range);
-        }
-    }
-
-    /// Between a code that reads `N` as the number of something else and the code that ends it, no `N` is a label:
-    /// `G10 L50`, `N3032 P1`, `G11`.
-    fn note_data(&mut self, place: &Place<'_>, code: CodeIx) {
-        let control = place.dialect.control();
-        let Some(entry) = control.code_at(code).map(Code::entry) else { return };
-        let reads_n = |word: &gcheck_controls::WordEntry| word.letter == "N" && word.kind != WordKind::Label;
-        if entry.words.iter().any(reads_n) {
-            self.data = Some((place.number, code));
-            return;
-        }
-        let Some((from, data)) = self.data else { return };
-        let ends = control.code_at(data).map(|code| code.entry().cancelled_by.as_slice());
-        if ends.is_some_and(|ends| ends.contains(&entry.code)) {
-            // In text order, so that they are the last ones, but for one that this block may have.
-            let first = self.labels.partition_point(|(block, _)| *block <= from);
-            let own = self.labels.partition_point(|(block, _)| *block < place.number);
-            self.labels.drain(first..own.max(first));
-            self.data = None;
         }
     }
 }

@@ -278,6 +278,15 @@ impl<'c> Collector<'c> {
         }
     }
 
+    /// Lines of data are rows of a table, of which only the form is looked at.
+    fn leave_data(&mut self, file_index: &FileIndex) {
+        if !file_index.data.is_empty() {
+            self.findings.retain(|finding| {
+                finding.rule.tier == Tier::Token || !file_index.is_data(finding.range.start)
+            });
+        }
+    }
+
     /// In text that no run reads, what is wrong with a block is an info, and nothing is an error, unless the user configured
     /// the rule's severity.
     fn soften(&mut self, plan: &Plan, unread_from: u32) {
@@ -369,6 +378,7 @@ pub(crate) fn conclude(
     mut collector: Collector<'_>,
     notes: &FileNotes<'_>,
 ) -> Outcome {
+    collector.leave_data(file_index);
     if let Some(end) = unread_from(file_index) {
         // The rest of the block that ends the program is read with it.
         let (base, chunk) = text.around(end);

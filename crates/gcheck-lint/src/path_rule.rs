@@ -103,10 +103,9 @@ pub trait PathRule {
         let _ = (cx, ending, report);
     }
 
-    /// The job ends in a program of another file: by its code, or at the end of that file's text. What is found belongs to the call
-    /// in this file.
-    fn ended_elsewhere(&mut self, cx: &PathCx<'_>, at_end_of_text: bool, report: &mut Report<'_>) {
-        let _ = (cx, at_end_of_text, report);
+    /// The job ends in a program of another file. What is found belongs to the call in this file.
+    fn ended_elsewhere(&mut self, cx: &PathCx<'_>, ending: Ending, report: &mut Report<'_>) {
+        let _ = (cx, ending, report);
     }
 
     /// The control would stop with an alarm.

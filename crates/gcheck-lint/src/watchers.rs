@@ -370,10 +370,10 @@ impl<'a, 'c> Watchers<'a, 'c> {
     }
 
     /// Shows that the job ends in a program of another file.
-    fn show_end_elsewhere(&mut self, flow: &FlowCx<'_>, at_end_of_text: bool) {
+    fn show_end_elsewhere(&mut self, flow: &FlowCx<'_>, ending: Ending) {
         if flow.origin.at.file != 0 {
             self.show_of_any_file(Watch::ENDS_ELSEWHERE, flow, &Evaluated::default(), |rule, cx, report| {
-                rule.ended_elsewhere(cx, at_end_of_text, report);
+                rule.ended_elsewhere(cx, ending, report);
             });
         }
     }
@@ -462,7 +462,7 @@ impl FlowObserver for Watchers<'_, '_> {
     fn before(&mut self, cx: &FlowCx<'_>) {
         self.current = None;
         self.letters = None;
-        if cx.origin.at.file == 0 && is_read(cx.origin) {
+        if cx.origin.at.file == 0 && is_read(cx.origin) && !cx.state.reads_data() {
             let evaluated = Evaluated::default();
             self.current = self.read_block(cx.origin.at);
             self.read_computed_codes(cx, &evaluated);
@@ -537,16 +537,14 @@ impl FlowObserver for Watchers<'_, '_> {
     fn fault(&mut self, cx: &FlowCx<'_>, fault: &Fault) {
         self.show(Watch::FAULTS, cx, |rule, cx, report| rule.fault(cx, fault, report));
         if *fault == Fault::NoProgramEnd {
-            self.show_end_elsewhere(cx, true);
+            self.show_end_elsewhere(cx, Ending::Text);
         }
     }
 
     fn ended(&mut self, cx: &FlowCx<'_>, ending: Ending) {
         self.changed = true;
         self.show(Watch::ENDS, cx, |rule, cx, report| rule.ended(cx, ending, report));
-        if matches!(ending, Ending::Program | Ending::Tape) {
-            self.show_end_elsewhere(cx, ending == Ending::Tape);
-        }
+        self.show_end_elsewhere(cx, ending);
     }
 
     fn endless(&mut self, cx: &FlowCx<'_>, head: At) {

@@ -187,6 +187,15 @@ pub struct NeverGiven {
     pub range: Range<u32>,
 }
 
+/// A code that opens lines of data (`G10 L50`), or one that may end them (`G11`).
+#[derive(Debug, Clone, PartialEq, Eq)]
+struct DataMark {
+    code: CodeIx,
+    opens: bool,
+    /// Bytes of the file: the block.
+    block: Range<u32>,
+}
+
 /// Everything collected from the chunks of one file.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct FileIndex {
@@ -235,6 +244,13 @@ pub struct FileIndex {
     pub has_speed_in_cuts: bool,
     /// Codes that rely on an earlier value which no block before them gives, in text order.
     pub never_given: Vec<NeverGiven>,
+    /// Lines of data between the block that opens them and the one that ends them, in text order: rows of a table, not
+    /// commands. Their `N` are not labels.
+    pub data: Vec<Range<u32>>,
+    /// Blocks that open or may end lines of data.
+    data_marks: Vec<DataMark>,
+    /// The block that opened lines of data which nothing has ended yet.
+    data_opened: Option<DataMark>,
     /// Levels of block delete that are used: bit 0 for a plain `/`.
     pub block_deletes: u16,
     /// How many blocks there are.
@@ -337,6 +353,9 @@ impl FileIndex {
                 BlockFlags::CODE | BlockFlags::LABEL | BlockFlags::PROGRAM_NUMBER | BlockFlags::STATEMENT;
             if block.flags.intersects(interesting) {
                 self.add_block(table, ix, block, base, dialect);
+                if let Some(mark) = data_mark(table, block, base, dialect) {
+                    self.take_data_mark(mark, dialect);
+                }
             }
             self.letters = self.letters.or(block.letters);
             self.has_speed_in_cuts = self.has_speed_in_cuts || gives_speed_in_cut(table, block, dialect);
@@ -349,7 +368,41 @@ impl FileIndex {
         let mut file_index = Self::default();
         file_index.add(table, 0, end, dialect);
         file_index.seen = Default::default();
+        (file_index.data, file_index.data_opened) = (Vec::new(), None);
         file_index
+    }
+
+    /// Opens lines of data, or ends those that are open. Whether a later block ends them is not known before it comes, so that
+    /// their labels go then.
+    fn take_data_mark(&mut self, mark: DataMark, dialect: &Dialect<'_>) {
+        let code = |mark: &DataMark| dialect.control().code_at(mark.code);
+        match &self.data_opened {
+            // Data in data: the first opening counts.
+            Some(opened) if !mark.opens => {
+                let ends =
+                    code(&mark).zip(code(opened)).is_some_and(|(end, opener)| end.ends_data_of(opener));
+                if ends {
+                    let data = opened.block.end..mark.block.start;
+                    self.labels.retain(|label| !data.contains(&label.range.start));
+                    self.data.push(data);
+                    self.data_opened = None;
+                }
+            }
+            None if mark.opens => self.data_opened = Some(mark.clone()),
+            Some(_) | None => {}
+        }
+        self.data_marks.push(mark);
+    }
+
+    /// The code that opens lines of data which nothing in the file ends, and its block.
+    pub fn data_left_open(&self) -> Option<(CodeIx, &Range<u32>)> {
+        self.data_opened.as_ref().map(|mark| (mark.code, &mark.block))
+    }
+
+    /// Is the place in lines of data?
+    pub fn is_data(&self, at: u32) -> bool {
+        let after = self.data.partition_point(|data| data.end <= at);
+        self.data.get(after).is_some_and(|data| data.contains(&at))
     }
 
     /// Adds the next chunk by what it holds; `base` is its offset in the file.
@@ -363,6 +416,9 @@ impl FileIndex {
         self.loops.extend(chunk.loops.iter().map(|l| Loop { range: moved(&l.range), ..*l }));
         self.o_words.extend(chunk.o_words.iter().map(|o| OWord { range: moved(&o.range), ..o.clone() }));
         self.ends.extend(chunk.ends.iter().map(|e| EndMark { range: moved(&e.range), ..*e }));
+        for mark in &chunk.data_marks {
+            self.take_data_mark(DataMark { block: moved(&mark.block), ..*mark }, dialect);
+        }
         self.tape_marks.extend(chunk.tape_marks.iter().map(moved));
         self.unpointed.extend(chunk.unpointed.iter().map(moved));
         self.long_numbers.extend(chunk.long_numbers.iter().map(moved));
@@ -591,6 +647,21 @@ impl<'t> References<'t> {
     fn first(&self, letter: Letter) -> Option<&'t Word> {
         self.first.get(letter.index()).copied().flatten()
     }
+}
+
+/// Does the block open lines of data, or may it end some? A number that is computed decides nothing here.
+fn data_mark(table: &BlockTable, block: &Block, base: u32, dialect: &Dialect<'_>) -> Option<DataMark> {
+    if !dialect.has_data_codes() || !block.flags.contains(BlockFlags::CODE) {
+        return None;
+    }
+    let words = table.words(block);
+    let number = |letter| words.iter().find(|word| word.letter == letter).and_then(Word::number);
+    words.iter().find_map(|word| {
+        let code = dialect.control().code_at(word.code)?;
+        let opens = code.opens_data(number);
+        let is_mark = opens || dialect.ends_data(word.code);
+        is_mark.then(|| DataMark { code: word.code, opens, block: shift(&block.range, base) })
+    })
 }
 
 fn whole(value: f64) -> Option<u32> {

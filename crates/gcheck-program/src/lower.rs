@@ -44,6 +44,8 @@ pub struct Dialect<'c> {
     block_delete: bool,
     /// By code index: does the code name a label or program?
     refers: Vec<bool>,
+    /// Codes that end lines of data which another code opens.
+    ends_data: Vec<CodeIx>,
     /// By code index: is an `M` after the code in its block an argument of it?
     takes_m: Vec<bool>,
     /// By code index: words that must have been given by the time the code runs, each with those that do instead.
@@ -99,11 +101,19 @@ impl<'c> Dialect<'c> {
         let all = (0..=u8::MAX).filter_map(|b| Letter::new(b).or_else(|| Letter::sign(b)));
         for letter in all.chain([Letter::CORNER_R, Letter::CORNER_C, Letter::CORNER_A]) {
             let Some(entry) = control.letter(letter) else { continue };
-            let integer = matches!(entry.kind, WordKind::Integer | WordKind::Label | WordKind::Program);
+            let is_whole = |kind| matches!(kind, WordKind::Integer | WordKind::Label | WordKind::Program);
+            let integer = is_whole(entry.kind);
+            // With some codes it may be a count: `Q` of `G74` on a lathe. Coordinates and centres are read by the million.
+            let is_coordinate = entry.axis || LetterSet::of("IJKR").contains(letter);
+            let with_a_code = !is_coordinate
+                && control
+                    .codes()
+                    .flat_map(|code| &code.entry().words)
+                    .any(|word| is_whole(word.kind) && Letter::parse(&word.letter) == Some(letter));
             if let Some(facts) = letters.get_mut(letter.index()) {
                 *facts = LetterFacts {
                     known: true,
-                    integer: integer && !control.numbers().integers_take_point,
+                    integer: (integer || with_a_code) && !control.numbers().integers_take_point,
                     whole: integer,
                     count: integer || !entry.scaled,
                     negative: entry.negative,
@@ -147,6 +157,7 @@ impl<'c> Dialect<'c> {
             } else {
                 Vec::new()
             },
+            ends_data: ends_data(control),
             refers: control
                 .codes()
                 .map(|code| {
@@ -182,6 +193,16 @@ impl<'c> Dialect<'c> {
     /// Does the code name a label or a program in one of its words?
     pub(crate) fn refers(&self, code: CodeIx) -> bool {
         self.refers.get(code.index()).copied().unwrap_or(false)
+    }
+
+    /// Does the control have codes that open lines of data?
+    pub(crate) fn has_data_codes(&self) -> bool {
+        !self.ends_data.is_empty()
+    }
+
+    /// May the code end lines of data?
+    pub(crate) fn ends_data(&self, code: CodeIx) -> bool {
+        self.ends_data.contains(&code)
     }
 
     /// Is an `M` after these words of its block an argument of one of their codes?
@@ -317,6 +338,13 @@ pub(crate) struct Lasting {
 
 /// Words of a code whose earlier value stays in effect. Feed and speed are left out: they are set by themselves, and whether
 /// they are is a question of the whole path.
+/// Codes that end lines of data which another code of the control opens.
+fn ends_data(control: &Control) -> Vec<CodeIx> {
+    let openers: Vec<_> = control.codes().filter(|code| code.entry().opens_data.is_some()).collect();
+    let ends = control.codes().filter(|code| openers.iter().any(|opener| code.ends_data_of(*opener)));
+    ends.map(|code| control.code_ix(code.number())).collect()
+}
+
 fn lasting_words(entry: &CodeEntry) -> Vec<Lasting> {
     let lasts = |word: &&WordEntry| {
         let is_set_by_itself = matches!(word.kind, WordKind::Feed | WordKind::Speed);

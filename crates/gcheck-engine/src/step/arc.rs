@@ -160,7 +160,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let plane = state.plane(self.model).unwrap_or(Plane::Xy);
         let mut to = self.axes_of(target, state);
         if self.may_run_beside(state) {
-            to = to.with_xyz([Mm::UNKNOWN; 3]);
+            to = self.beside(to, state);
             self.emit(state, Event::Unfollowed);
         }
         let turns = if counter_clockwise { 1 } else { -1 };

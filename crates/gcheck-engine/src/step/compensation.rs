@@ -342,6 +342,21 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         !state.compensation.on.is_no()
     }
 
+    /// Where the axes are beside a point, by a distance that is not known: anywhere in the plane of the compensation, and at the
+    /// point's level above it.
+    pub(crate) fn beside(&self, point: Position, state: &State<D>) -> Position {
+        let mapping = &state.mapping;
+        let is_upright = mapping.tilted.is_no()
+            && mapping.wrapped.is_no()
+            && mapping.face.is_no()
+            && !state.tool_shift.is_on();
+        let plane = state.plane(self.model).filter(|_| is_upright);
+        axes_of_plane(plane).fold(point, |mut point, axis| {
+            point.set(axis, f64::NAN);
+            point
+        })
+    }
+
     /// A straight move under compensation.
     pub(crate) fn compensated_line(
         &mut self,

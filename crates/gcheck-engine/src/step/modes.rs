@@ -228,7 +228,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             E::SquareToPlane => self.turn_square(ix, state),
 
             E::Dwell => self.dwell(state)?,
-            E::WriteOffsets => self.write_offsets(state)?,
+            E::WriteOffsets => self.write_offsets(ix, state)?,
             E::LocalShift => self.local_shift(state)?,
             E::SetPosition => self.set_position(state)?,
             E::SpeedLimitOrSetPosition => {

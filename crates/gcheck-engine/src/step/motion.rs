@@ -507,7 +507,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         }
         if self.may_run_beside(state) {
             // Compensation by a tool of unknown size: the path beside the programmed one is not known.
-            to = to.with_xyz([Mm::UNKNOWN; 3]);
+            to = self.beside(to, state);
             self.emit(state, Event::Unfollowed);
         }
         self.travel_to(kind, &target, &to, expanded, state);

@@ -4,8 +4,9 @@
 //!
 //! The axes stay where they are, so the position in work coordinates changes by what the offsets change.
 
-use gcheck_controls::{Effect, Letter, LetterSet};
+use gcheck_controls::{CodeIx, Effect, Letter, LetterSet};
 use gcheck_geometry::Mm;
+use gcheck_program::Word;
 
 use super::{Count, Executor, Step};
 use crate::assumption::Assumption;
@@ -412,7 +413,11 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     // ---- G10 ----
 
     /// `G10`: writes offsets and tool data.
-    pub(super) fn write_offsets(&mut self, state: &mut State<D>) -> Step {
+    pub(super) fn write_offsets(&mut self, ix: CodeIx, state: &mut State<D>) -> Step {
+        if self.opens_data(ix) {
+            state.data_entry = Truth::True;
+            return Ok(());
+        }
         let Some(kind) = self.count(Letter::of('L'))? else {
             // Without L the forms differ from control to control.
             self.forget_offsets(state);
@@ -451,6 +456,27 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             _ if self.refuses_incomplete() => Err(Fault::WordRange(Letter::of('L'))),
             _ => Ok(()),
         }
+    }
+
+    /// Does the block open lines of data by this code?
+    fn opens_data(&self, ix: CodeIx) -> bool {
+        self.model
+            .control()
+            .code_at(ix)
+            .is_some_and(|code| code.opens_data(|letter| self.words.number(letter)))
+    }
+
+    /// Are the words of the block a row of data? A block with a code is not: it ends the data, as `G11` does, or shows that
+    /// nothing ended them.
+    pub(super) fn reads_as_data(&self, words: &[Word], state: &mut State<D>) -> bool {
+        if state.data_entry == Truth::False {
+            return false;
+        }
+        let has_code = words.iter().any(|word| word.code != CodeIx::NONE);
+        if has_code {
+            state.data_entry = Truth::False;
+        }
+        !has_code && state.reads_data()
     }
 
     /// What a strict control asks of `G10` before its block acts: a form that exists, and the number that the form needs.

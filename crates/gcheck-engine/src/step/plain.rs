@@ -14,7 +14,7 @@ use crate::observer::Observer;
 use crate::origin::{At, Origin};
 use crate::position::Axis;
 use crate::state::State;
-use crate::value::Domain;
+use crate::value::{Domain, Truth};
 
 /// What blocks that only move need of the state, and none of them changes.
 #[derive(Debug, Clone, Copy)]
@@ -43,6 +43,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let goes_straight = state.active_cycle(self.model) == Some(CodeIx::NONE)
             && Self::goes_direct(state)
             && state.calls.modal.is_off()
+            && state.data_entry == Truth::False
             && state.wrapped().is_no()
             && !state.tool_shift.is_on()
             && MAPPINGS.iter().all(|role| self.is_unmapped(*role, state));

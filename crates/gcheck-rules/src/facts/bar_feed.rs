@@ -216,9 +216,9 @@ mod tests {
             K [1/0]: error[expression-without-value]
             Q missing: nothing
             Q twice: warning[word-given-twice]
-            Q -1.: warning[number-out-of-range]
+            Q -1.: warning[decimal-point-on-integer] warning[number-out-of-range]
             Q 0: nothing
-            Q 99999.: warning[number-out-of-range]
+            Q 99999.: warning[decimal-point-on-integer] warning[number-out-of-range]
             Q 1.2.3: error[malformed-number]
             Q X: error[address-without-value]
             Q #500: nothing

@@ -68,7 +68,7 @@ pub(crate) fn diameter_or_size(cx: &PathCx<'_>) -> Option<(u32, Mm, Option<Strin
         return Some((tool, diameter, None));
     }
     let tool = Abstract::known(cx.state().tool()).and_then(whole)?;
-    let size = comment_at_work(cx)?.size()?;
+    let size = comment_at_work(cx)?.size(cx.state().units(cx.model))?;
     Some((tool, size, Some(format!("T{tool} is as wide as its comment says"))))
 }
 

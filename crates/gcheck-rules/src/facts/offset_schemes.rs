@@ -78,6 +78,12 @@ impl Scheme {
 /// So many tools with the offset of their own number make another number odd, whichever tool it belongs to.
 const MANY: usize = 2;
 
+/// Is the offset the tool's number with a slip of the finger: one more or less, or its two digits exchanged?
+fn is_slip(tool: u32, offset: u32) -> bool {
+    let exchanged = (10..100).contains(&tool).then_some(tool % 10 * 10 + tool / 10);
+    tool.abs_diff(offset) == 1 || exchanged == Some(offset)
+}
+
 /// Turrets have no more stations than this.
 const MOST_STATIONS: u32 = 24;
 
@@ -124,7 +130,8 @@ impl Pairs {
             if is_unsure && has_own_here(pair) {
                 continue;
             }
-            let is_stray = step == 0 && followers >= MANY && (seconds || !is_unsure);
+            let is_near = seconds && is_slip(pair.tool, pair.offset);
+            let is_stray = step == 0 && (followers >= MANY || is_near) && (seconds || !is_unsure);
             let is_told = odd.iter().any(|(tool, offset, ..)| (*tool, *offset) == (pair.tool, pair.offset));
             if !is_told && (is_used(owner) || is_stray) {
                 let (expected, is_owned) = (i64::from(pair.tool) + step, is_used(owner));

@@ -120,7 +120,10 @@ fn is_unread(piece: &str) -> bool {
     let (name, rest) = piece.split_at_checked(letters).unwrap_or((piece, ""));
     let is_number = rest.starts_with(|c: char| c.is_ascii_digit());
     let of_inches = is_number && name.is_empty() && rest.contains('/') && rest.contains('-');
-    NAMES.contains(&name) || LETTERS.contains(&name) && is_number || of_inches && inch(piece).is_none()
+    // Pipe threads are of six inches at most: `G76` is a code.
+    let is_size =
+        is_number && (!matches!(name, "G" | "R" | "W") || number(rest).is_none_or(|size| size <= 6.0));
+    NAMES.contains(&name) || LETTERS.contains(&name) && is_size || of_inches && inch(piece).is_none()
 }
 
 /// The words of a comment that may be threads.
@@ -324,6 +327,8 @@ mod tests {
     fn a_pitch_that_is_written_needs_no_tap() {
         for (comment, expected) in [
             ("(M20X1.5)", Some(1.5)),
+            ("(M20X1.5 - G76)", Some(1.5)),
+            ("(M20X1.5 - G1)", None),
             ("(1/2-13 THREAD)", Some(25.4 / 13.0)),
             ("(M24X2 THREAD)", Some(2.0)),
             ("(M20X1.5-6H)", Some(1.5)),

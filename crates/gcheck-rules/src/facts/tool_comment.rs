@@ -5,7 +5,7 @@
 
 use std::rc::Rc;
 
-use gcheck_engine::{Abstract, At, Domain, Fact};
+use gcheck_engine::{Abstract, At, Domain, Fact, Units};
 use gcheck_geometry::Mm;
 use gcheck_program::BlockFlags;
 
@@ -37,13 +37,17 @@ impl ToolComment {
     }
 
     /// The one size that it gives, as `10 MM`, `1/4 IN` or `DRILL 3/4`: of a drill or an end mill its diameter. `None` where it
-    /// gives none or several.
-    pub(crate) fn size(&self) -> Option<Mm> {
+    /// gives none or several. `D=12.`, as posts list their tools, counts in the units of the program.
+    pub(crate) fn size(&self, units: Option<Units>) -> Option<Mm> {
         let ends = |c: char| c.is_whitespace() || matches!(c, ',' | ':' | ';' | '|' | '=');
         let tokens: Vec<&str> = self.text.split(ends).filter(|token| !token.is_empty()).collect();
         let mut sizes = tokens.iter().enumerate().filter_map(|(at, token)| {
-            let whole = at.checked_sub(1).and_then(|before| tokens.get(before)?.parse::<u32>().ok());
-            size(token, tokens.get(at + 1).copied().unwrap_or_default(), whole.unwrap_or(0))
+            let before = at.checked_sub(1).and_then(|before| tokens.get(before)).copied().unwrap_or_default();
+            let next = tokens.get(at + 1).copied().unwrap_or_default();
+            let is_diameter = matches!(before, "D" | "d" | "DIA" | "Dia" | "dia");
+            let in_units =
+                || Some(Mm(token.parse::<f64>().ok()? * units?.in_mm())).filter(|size| size.0 > 0.0);
+            size(token, next, before.parse().unwrap_or(0)).or_else(|| in_units().filter(|_| is_diameter))
         });
         sizes.next().filter(|_| sizes.next().is_none())
     }
@@ -54,25 +58,27 @@ pub(crate) fn comment_at_work(cx: &PathCx<'_>) -> Option<Rc<ToolComment>> {
     comment_of_tool(cx, cx.definitions().set_by(Fact::Tool)?)
 }
 
-/// What the comment of the tool says that a block put in: the one of its block, one alone in the block before or after, or
-/// the tool's entry in a list at the head of the program.
+/// What the comment of the tool says that a block put in: the one of its block, the tool's entry in a list at the head of the
+/// program, or one alone in the block before or after.
 pub(crate) fn comment_of_tool(cx: &PathCx<'_>, changed: At) -> Option<Rc<ToolComment>> {
     let tool = Abstract::known(cx.state().tool()).and_then(whole);
     cx.from_text(changed, tool.unwrap_or(u32::MAX), || {
-        let (at, text) = beside(cx, changed).or_else(|| listed(cx, tool?))?;
+        // A comment alone near the change may name the operation: `(2D ADAPTIVE1)`.
+        let own = comments_in(cx, changed).map(|text| (changed, text));
+        let (at, text) = own.or_else(|| listed(cx, tool?)).or_else(|| beside(cx, changed))?;
         let words = text.split(|c: char| !c.is_ascii_alphanumeric()).filter(|word| !word.is_empty());
         let words = words.map(str::to_ascii_uppercase).collect();
         Some(Rc::new(ToolComment { at, words, text }))
     })
 }
 
-/// The comment of a block, or one that is alone in the block before or after it.
+/// A comment that is alone in the block before or after a block.
 fn beside(cx: &PathCx<'_>, changed: At) -> Option<(At, String)> {
     let is_alone =
         |at: &At| cx.place_of(*at).is_some_and(|place| place.table.words(place.block()).is_empty());
     let before = changed.block.checked_sub(1).map(|block| At { block, ..changed });
-    let near = [before, Some(changed.next())].into_iter().flatten().filter(is_alone);
-    std::iter::once(changed).chain(near).find_map(|at| Some((at, comments_in(cx, at)?)))
+    let mut near = [before, Some(changed.next())].into_iter().flatten().filter(is_alone);
+    near.find_map(|at| Some((at, comments_in(cx, at)?)))
 }
 
 /// `10MM`, `10` before `MM`, `.25"`, `1/4` before anything: a number with its unit, or a fraction, which is one of an inch. A whole
@@ -160,7 +166,7 @@ pub(crate) fn entries(text: &str) -> impl Iterator<Item = (u32, &str)> {
 
 #[cfg(test)]
 mod tests {
-    use gcheck_engine::At;
+    use gcheck_engine::{At, Units};
 
     use super::{ToolComment, entries, only_comments};
 
@@ -182,7 +188,7 @@ mod tests {
         let size = |text: &str| {
             let comment =
                 ToolComment { at: At { file: 0, block: 0 }, words: Vec::new(), text: text.to_owned() };
-            comment.size().map(|size| (size.0 * 1000.0).round() / 1000.0)
+            comment.size(Some(Units::Inch)).map(|size| (size.0 * 1000.0).round() / 1000.0)
         };
         for text in ["10 MM DRILL", "DRILL 10MM", "END MILL D: 10.0 mm."] {
             assert_eq!(size(text), Some(10.0), "{text}");
@@ -191,6 +197,7 @@ mod tests {
             assert_eq!(size(text), Some(6.35), "{text}");
         }
         assert_eq!(size("1 1/2 IN FACE MILL"), Some(38.1));
+        assert_eq!(size("D=0.5 CR=0. - ZMIN=-0.4 - flat end mill"), Some(12.7));
         for text in ["1/4-20 TAP", "DRILL 10 MM, 60 MM LONG", "M6 DRILL", "#7 DRILL", "DRILL 1/0", "", "T5"] {
             assert_eq!(size(text), None, "{text}");
         }

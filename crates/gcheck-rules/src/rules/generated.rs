@@ -90,6 +90,7 @@ pub(crate) mod cycles {
     pub(crate) mod thread_lead_changes;
     pub(crate) mod thread_lead_off_pitch;
     pub(crate) mod thread_numbers_contradict;
+    pub(crate) mod thread_pass_too_deep;
     pub(crate) mod thread_start_below_crest;
     pub(crate) mod turning_profile_first_block;
     pub(crate) mod turning_profile_not_usable;
@@ -282,8 +283,10 @@ pub(crate) mod motion {
     pub(crate) mod rapid_with_feed;
     pub(crate) mod reference_point_never_set;
     pub(crate) mod reference_return_through_point;
+    pub(crate) mod retract_left_out;
     pub(crate) mod return_level_for_feed_mode;
     pub(crate) mod thread_into_shoulder;
+    pub(crate) mod thread_left_along;
     pub(crate) mod thread_without_lead;
     pub(crate) mod tolerance_above_feature;
     pub(crate) mod tolerance_of_tool_before;
@@ -292,8 +295,10 @@ pub(crate) mod motion {
 }
 
 pub(crate) mod offsets {
+    pub(crate) mod data_entry_not_ended;
     pub(crate) mod mirror_left_on;
     pub(crate) mod offset_added_in_increments;
+    pub(crate) mod offset_rotation_left;
     pub(crate) mod plane_changed_under_rotation;
     pub(crate) mod polar_coordinates_left_on;
     pub(crate) mod rotation_centre_outside_plane;
@@ -321,6 +326,7 @@ pub(crate) mod probing {
     pub(crate) mod probe_goes_nowhere;
     pub(crate) mod probe_switched_off;
     pub(crate) mod probe_touches_already;
+    pub(crate) mod probe_turned;
     pub(crate) mod probing_in_wrong_mode;
     pub(crate) mod shift_of_axis_not_probed;
     pub(crate) mod spindle_turns_while_probing;
@@ -573,6 +579,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &cycles::thread_lead_changes::RULE,
     &cycles::thread_lead_off_pitch::RULE,
     &cycles::thread_numbers_contradict::RULE,
+    &cycles::thread_pass_too_deep::RULE,
     &cycles::thread_start_below_crest::RULE,
     &cycles::turning_profile_first_block::RULE,
     &cycles::turning_profile_not_usable::RULE,
@@ -744,15 +751,19 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &motion::rapid_with_feed::RULE,
     &motion::reference_point_never_set::RULE,
     &motion::reference_return_through_point::RULE,
+    &motion::retract_left_out::RULE,
     &motion::return_level_for_feed_mode::RULE,
     &motion::thread_into_shoulder::RULE,
+    &motion::thread_left_along::RULE,
     &motion::thread_without_lead::RULE,
     &motion::tolerance_above_feature::RULE,
     &motion::tolerance_of_tool_before::RULE,
     &motion::tool_down_at_end::RULE,
     &motion::turned_after_cut_off::RULE,
+    &offsets::data_entry_not_ended::RULE,
     &offsets::mirror_left_on::RULE,
     &offsets::offset_added_in_increments::RULE,
+    &offsets::offset_rotation_left::RULE,
     &offsets::plane_changed_under_rotation::RULE,
     &offsets::polar_coordinates_left_on::RULE,
     &offsets::rotation_centre_outside_plane::RULE,
@@ -777,6 +788,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &probing::probe_goes_nowhere::RULE,
     &probing::probe_switched_off::RULE,
     &probing::probe_touches_already::RULE,
+    &probing::probe_turned::RULE,
     &probing::probing_in_wrong_mode::RULE,
     &probing::shift_of_axis_not_probed::RULE,
     &probing::spindle_turns_while_probing::RULE,

@@ -66,6 +66,7 @@ pub(super) fn alterations() -> Vec<(&'static str, Alter)> {
         probe: _,
         tool_shift: _,
         bar: _,
+        data_entry: _,
     } = known_state();
     let mut all = positions_and_offsets();
     all.extend(tool_feed_and_spindle());
@@ -167,6 +168,7 @@ fn paths() -> Vec<(&'static str, Alter)> {
         ("contour control", |s| s.blending.contour = Some(1.0)),
         ("tilted plane", |s| s.mapping.tilted = Perhaps::Yes(made())),
         ("face of the part", |s| s.mapping.face = Perhaps::Yes(made())),
+        ("data entry", |s| s.data_entry = Truth::True),
         ("control points", |s| s.curve = Perhaps::Yes(ControlPoints(Rc::new(vec![[1.0; 3]])))),
         ("touched point", |s| s.probe.point = point()),
         ("result of the probe", |s| s.probe.result = Truth::True),

@@ -420,6 +420,7 @@ made! {
         state.probe = c.make();
         state.tool_shift = c.make();
         state.bar = c.make();
+        state.data_entry = c.make();
         state
     };
 }

@@ -3,12 +3,12 @@
 use std::ops::Range;
 
 use gcheck_controls::Effect;
-use gcheck_engine::{ArcMove, Axis, Event, Position, TravelKind};
+use gcheck_engine::{ArcMove, Axis, Ending, Event, Position, TravelKind};
 use gcheck_geometry::{ArcDirection, Plane};
 
 use crate::declare::declare_rule;
 use crate::facts::arcs::by_its_words;
-use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
+use crate::{Finding, PathCx, PathRule, Report, Run, Uses, Watch};
 use crate::{Remembers, remembers};
 
 declare_rule! {
@@ -72,7 +72,10 @@ declare_rule! {
         severity: Warning,
         tier: Path,
         since: "0.1.0",
-        run: Run::Path { watch: Watch::MOVES, make: || Box::new(ArcBreaksContour::default()) },
+        run: Run::Path {
+            watch: Watch::MOVES.union(Watch::ENDS),
+            make: || Box::new(ArcBreaksContour::default()),
+        },
     }
 }
 
@@ -87,20 +90,40 @@ const EQUAL: f64 = 0.01;
 /// A shorter cut beside an arc is a step on the way: parts of the arc's chord.
 const STEP: f64 = 0.5;
 
+/// X, Y and Z, millimetres, if they are known.
+type Place = [Option<f64>; 3];
+
 /// A direction in the plane, in radians; or a point in it, millimetres.
 type Vector = [f64; 2];
 
 #[derive(Default, Clone, PartialEq)]
 struct ArcBreaksContour {
-    /// Where the last move ends as it is programmed, beside a cutter or not: X, Y and Z, if they are known.
-    at: Option<[f64; 3]>,
+    /// Where the last move ends as it is programmed, beside a cutter or not.
+    at: Option<Place>,
     /// The plane of the last cut, and the cut as it ends.
     last: Option<(Plane, Way)>,
     /// An arc with a corner before it, which the next cut decides.
     pending: Option<Pending>,
+    /// Arcs around a corner itself: two words were exchanged, or the cutter makes room for a corner (a dog bone). Room is made in more
+    /// than one corner.
+    around_corners: Vec<AroundCorner>,
 }
 
-remembers!(ArcBreaksContour: pending);
+remembers!(ArcBreaksContour: pending, around_corners);
+
+/// An arc of more than half a turn around the point where the cuts beside it meet.
+#[derive(Debug, Clone, PartialEq)]
+struct AroundCorner {
+    /// Its block.
+    bytes: Range<u32>,
+    /// Millimetres.
+    radius: f64,
+}
+
+remembers!(AroundCorner: bytes);
+
+/// More corners with room are not counted.
+const MOST_CORNERS: usize = 16;
 
 /// A cut, at one of its ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -140,6 +163,8 @@ struct Pending {
     radius: f64,
     /// The cut before the arc came from its centre: the way back there, which makes a sector of a disc.
     back: Option<Way>,
+    /// The cut before the arc leads to its centre, and the arc is more than half a turn: the direction from its end to the centre.
+    corner: Option<f64>,
 }
 
 remembers!(Pending: bytes);
@@ -170,8 +195,8 @@ impl PathRule for ArcBreaksContour {
 
     fn moved(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
         let end = match event {
-            Event::Travel(travel) => known(&travel.programmed),
-            Event::Arc(arc) => known(&arc.programmed),
+            Event::Travel(travel) => Some(place(&travel.programmed)),
+            Event::Arc(arc) => Some(place(&arc.programmed)),
             _ => None,
         };
         let start = std::mem::replace(&mut self.at, end);
@@ -193,31 +218,64 @@ impl PathRule for ArcBreaksContour {
                     return;
                 };
                 self.last = Some((plane, way));
-                tell(cx, pending, way, report);
+                self.tell(cx, pending, way, report);
             }
             Event::Arc(arc) if !arc.expanded => {
-                let Some(Forms { own: [start, end], spokes, others, chord }) = Forms::of(cx, arc, start, end)
+                let Some(Forms { own: [start, end], spokes, others, chord, is_long }) =
+                    Forms::of(cx, arc, start, end)
                 else {
                     return;
                 };
                 let way = |direction| Way { direction, length: chord.length };
                 self.last = Some((arc.plane, way(end)));
                 let Some((_, before)) = last.filter(|(plane, _)| *plane == arc.plane) else { return };
-                tell(cx, pending, way(start), report);
+                self.tell(cx, pending, way(start), report);
                 if turn(before.direction, start) > CORNER && before.length > chord.length * STEP {
                     let is_smooth =
                         |(_, [start, _]): &(Other, [f64; 2])| turn(before.direction, *start) < SMOOTH;
                     let others = others.into_iter().filter(is_smooth);
                     let others: Vec<_> = others.map(|(other, [_, end])| (other, end)).collect();
                     let [out, back] = spokes;
+                    let meets = is_long && is_opposite(before.direction, out.direction);
+                    let corner = meets.then_some(back.direction);
                     let back = before.is_as(out).then_some(back);
                     let (bytes, end, radius) = (cx.range(), way(end), out.length);
-                    self.pending = Some(Pending { bytes, end, others, before, chord, radius, back });
+                    self.pending = Some(Pending { bytes, end, others, before, chord, radius, back, corner });
                 }
             }
             _ => {}
         }
     }
+
+    fn ended(&mut self, cx: &PathCx<'_>, _: Ending, report: &mut Report<'_>) {
+        for AroundCorner { bytes, radius } in &self.around_corners {
+            let is_alike = |other: &&AroundCorner| (other.radius / radius - 1.0).abs() < EQUAL;
+            if self.around_corners.iter().filter(is_alike).count() == 1 {
+                report.add(finding(cx, bytes.clone(), Other::Exchanged));
+            }
+        }
+    }
+}
+
+impl ArcBreaksContour {
+    /// The arc is reported when one of its other forms goes on smoothly to the next cut, and the arc itself does not.
+    fn tell(&mut self, cx: &PathCx<'_>, pending: Option<Pending>, next: Way, report: &mut Report<'_>) {
+        let Some(pending) = pending else { return };
+        if pending.corner.is_some_and(|back| is_opposite(back, next.direction)) {
+            let Pending { bytes, radius, .. } = pending;
+            let is_new = self.around_corners.iter().all(|other| other.bytes != bytes);
+            if is_new && self.around_corners.len() < MOST_CORNERS {
+                self.around_corners.push(AroundCorner { bytes, radius });
+            }
+        } else if let Some(other) = meant(&pending, next) {
+            report.add(finding(cx, pending.bytes, other));
+        }
+    }
+}
+
+/// Do two directions lead opposite ways?
+fn is_opposite(one: f64, other: f64) -> bool {
+    turn(one, other) > std::f64::consts::PI - SMOOTH
 }
 
 /// The arc, as it is and as it may be meant: its direction at its start and at its end.
@@ -228,11 +286,13 @@ struct Forms {
     others: Vec<(Other, [f64; 2])>,
     /// From its start to its end.
     chord: Way,
+    /// It is more than half a turn.
+    is_long: bool,
 }
 
 impl Forms {
-    fn of(cx: &PathCx<'_>, arc: &ArcMove, start: [f64; 3], end: [f64; 3]) -> Option<Self> {
-        let (start, end) = (point(start, arc.plane), point(end, arc.plane));
+    fn of(cx: &PathCx<'_>, arc: &ArcMove, start: Place, end: Place) -> Option<Self> {
+        let (start, end) = (point(start, arc.plane)?, point(end, arc.plane)?);
         let way = f64::from(arc.turns.signum());
         // The offset of a cutter of unknown size hides the centre.
         let of_words = || {
@@ -270,23 +330,26 @@ impl Forms {
             }
         }
         let spokes = [Way::between(centre, start)?, Way::between(end, centre)?];
-        Some(Self { own: directions(centre, way), spokes, others, chord: straight })
+        let is_long = sweep.abs() > std::f64::consts::PI;
+        Some(Self { own: directions(centre, way), spokes, others, chord: straight, is_long })
     }
 }
 
-/// The arc is reported when one of its other forms goes on smoothly to the next cut, and the arc itself does not.
-fn tell(cx: &PathCx<'_>, pending: Option<Pending>, next: Way, report: &mut Report<'_>) {
-    let Some(Pending { bytes, end, others, before, chord, radius, back }) = pending else { return };
-    if turn(end.direction, next.direction) <= CORNER || next.length <= end.length * STEP {
-        return;
+/// The form of the arc that goes on smoothly to the next cut, where the arc itself does not.
+fn meant(pending: &Pending, next: Way) -> Option<Other> {
+    if turn(pending.end.direction, next.direction) <= CORNER || next.length <= pending.end.length * STEP {
+        return None;
     }
     // From the centre out, along the arc, and back to the centre: a sector has corners.
-    if back.is_some_and(|back| next.is_as(back)) {
-        return;
+    if pending.back.is_some_and(|back| next.is_as(back)) {
+        return None;
     }
-    let is_smooth = |(_, end): &(Other, f64)| turn(*end, next.direction) < SMOOTH;
-    let in_other_form = others.into_iter().find(is_smooth).map(|(other, _)| other);
-    let Some(other) = in_other_form.or_else(|| in_corner(before, chord, radius, next)) else { return };
+    let is_smooth = |(_, end): &&(Other, f64)| turn(*end, next.direction) < SMOOTH;
+    let in_other_form = pending.others.iter().find(is_smooth).map(|(other, _)| *other);
+    in_other_form.or_else(|| in_corner(pending.before, pending.chord, pending.radius, next))
+}
+
+fn finding(cx: &PathCx<'_>, bytes: Range<u32>, other: Other) -> Finding {
     let (meant, help) = match other {
         Other::Way => ("the other way round", "check `G2` and `G3` of this arc"),
         Other::Sign => {
@@ -300,11 +363,9 @@ fn tell(cx: &PathCx<'_>, pending: Option<Pending>, next: Way, report: &mut Repor
         }
         Other::After => ("ended so far after the corner", "end the arc at the point where the rounding ends"),
     };
-    report.add(
-        cx.finding(&META, bytes, "the arc breaks the contour: corners before and after it")
-            .label(format!("{meant} it goes on smoothly from the cut before, and to the one after"))
-            .help(help),
-    );
+    cx.finding(&META, bytes, "the arc breaks the contour: corners before and after it")
+        .label(format!("{meant} it goes on smoothly from the cut before, and to the one after"))
+        .help(help)
 }
 
 /// An arc whose chord lies on one of two cuts that meet at an angle, and is as long as a rounding of that corner by this radius
@@ -347,22 +408,22 @@ fn mirror(centre: Vector, start: Vector, chord: Vector) -> Vector {
 }
 
 /// A straight cut in the plane; `None` where it does not move in it.
-fn straight(from: [f64; 3], to: [f64; 3], plane: Plane) -> Option<Way> {
-    Way::between(point(from, plane), point(to, plane))
+fn straight(from: Place, to: Place, plane: Plane) -> Option<Way> {
+    Way::between(point(from, plane)?, point(to, plane)?)
 }
 
-/// X, Y and Z; `None` where one is not known.
-fn known(at: &Position) -> Option<[f64; 3]> {
-    Some([at.get(Axis::X)?, at.get(Axis::Y)?, at.get(Axis::Z)?])
+fn place(at: &Position) -> Place {
+    [Axis::X, Axis::Y, Axis::Z].map(|axis| at.get(axis))
 }
 
-/// A point in the plane.
-const fn point([x, y, z]: [f64; 3], plane: Plane) -> Vector {
-    match plane {
+/// A point in the plane; `None` where it is not known.
+fn point([x, y, z]: Place, plane: Plane) -> Option<Vector> {
+    let [across, up] = match plane {
         Plane::Xy => [x, y],
         Plane::Zx => [z, x],
         Plane::Yz => [y, z],
-    }
+    };
+    Some([across?, up?])
 }
 
 #[cfg(test)]
@@ -507,6 +568,9 @@ mod tests {
             let right = program(&format!("G1 X50. F300.\n{arc}\nG1 Y50.\n"));
             check_rule(&RULE, "haas-mill", &right, &expect![[""]]);
         }
+        // Two corners with room for what is to fit into them.
+        let room = "G1 X50. F300.\nG3 X60. Y10. I10. J0.\nG1 Y40.\nG3 X50. Y50. I0. J10.\nG1 X10.\n";
+        check_rule(&RULE, "haas-mill", &program(room), &expect![[""]]);
         // A half round notch across the way has corners both ways.
         check_rule(
             &RULE,
@@ -535,7 +599,10 @@ mod tests {
             &RULE,
             "fanuc-lathe",
             "G21 G99 G40\nT0101\nG97 S900 M3\nG0 X20. Z2.\nG1 Z-20. F.2\nG3 X30. Z-25. R5.\nG1 X50.\nG0 X150. Z100.\nM30\n",
-            &expect![""],
+            &expect![[r#"
+                6 | G3 X30. Z-25. R5.
+                  | ^^^^^^^^^^^^^^^^^ warning[arc-breaks-contour] the arc breaks the contour: corners before and after it
+            "#]],
         );
     }
 

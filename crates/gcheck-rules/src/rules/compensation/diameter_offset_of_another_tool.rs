@@ -68,6 +68,14 @@ struct DiameterOffsetOfAnotherTool {
     lengths: Vec<(u32, u32)>,
 }
 
+/// Does the code cut a pocket, with the size of its cutter in the block?
+fn is_pocket(effect: Effect) -> bool {
+    matches!(
+        effect,
+        Effect::CircularPocketClockwise | Effect::CircularPocketCounterClockwise | Effect::GeneralPocket
+    )
+}
+
 /// More lengths than this show no clear scheme.
 const MOST_LENGTHS: usize = 1000;
 
@@ -79,7 +87,7 @@ impl PathRule for DiameterOffsetOfAnotherTool {
     }
 
     fn concerns(&self, program: &Uses<'_>) -> bool {
-        program.may(is_on)
+        program.may(|effect| is_on(effect) || is_pocket(effect))
     }
 
     fn cut(&mut self, cx: &PathCx<'_>, _: &Event, _: &mut Report<'_>) {
@@ -91,17 +99,19 @@ impl PathRule for DiameterOffsetOfAnotherTool {
         {
             self.lengths.push((tool, length));
         }
-        if !state.effect(Role::Compensation, cx.model).is_some_and(is_on) {
+        // A pocket compensates for its cutter by itself.
+        let of_pocket = if cx.has_effect(is_pocket) { cx.known_number('D') } else { None };
+        if of_pocket.is_none() && !state.effect(Role::Compensation, cx.model).is_some_and(is_on) {
             return;
         }
         // Compensation that the tool before left on is that tool's, and another rule reports that.
-        let on = cx.definitions().set_by(Fact::Mode(Role::Compensation));
+        let on = cx.definitions().set_by(Fact::Mode(Role::Compensation)).filter(|_| of_pocket.is_none());
         if on.zip(cx.definitions().set_by(Fact::Tool)).is_some_and(|(on, changed)| is_before(on, changed)) {
             return;
         }
-        let Some(offset) = Abstract::known(state.d()).and_then(whole) else { return };
+        let Some(offset) = of_pocket.or_else(|| Abstract::known(state.d())).and_then(whole) else { return };
         self.pairs.add(tool, offset, cx.definitions().set_by(Fact::Tool), || {
-            let set_by = cx.definitions().set_by(Fact::Mode(Role::Compensation));
+            let set_by = of_pocket.map(|_| cx.origin().at).or(on);
             let range = set_by.and_then(|at| cx.find_word(at, |word| word.letter.ascii() == b'D'));
             let message = format!("tool {tool} cuts with diameter offset {offset} (`D{offset}`, `T{tool}`)");
             let finding = cx.finding(&META, range.clone().unwrap_or_else(|| cx.range()), message);
@@ -161,6 +171,18 @@ mod tests {
 
     use super::RULE;
     use crate::testing::check_rule;
+
+    #[test]
+    fn a_pocket_has_its_offset_in_its_block() {
+        let pocket = |tool: u8, offset: u8| {
+            format!(
+                "T{tool} M6\nG54 G0 X0 Y0 S900 M3\nG43 H{tool} Z.1\nG13 Z-.25 I.35 D{offset} F18.\nG0 Z1.\n"
+            )
+        };
+        let program = |offset: u8| format!("G20 G90\n{}{}M30\n", pocket(3, offset), pocket(7, 7));
+        check_rule(&RULE, "haas-mill", &program(7), &expect![[""]]);
+        check_rule(&RULE, "haas-mill", &program(3), &expect![[""]]);
+    }
 
     #[test]
     fn the_offset_that_breaks_the_scheme_is_marked() {

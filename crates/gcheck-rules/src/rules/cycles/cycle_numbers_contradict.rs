@@ -1,5 +1,6 @@
 //! A cycle whose numbers contradict each other.
 
+use gcheck_controls::Effect;
 use gcheck_engine::{CycleFault, Fault};
 
 use crate::declare::declare_rule;
@@ -73,7 +74,11 @@ impl PathRule for CycleNumbersContradict {
             Fault::Cycle(CycleFault::Plane) => "cycle in a plane that it does not work in",
             _ => return,
         };
-        contradicts(cx, what, None, limit(cx.model.semantics().confidence), report);
+        let first_cut = cx.known_number('J').zip(cx.known_number('K')).filter(|(first, all)| first > all);
+        let label = first_cut.filter(|_| cx.has_effect(|effect| effect == Effect::ThreadCycle)).map(
+            |(first, all)| format!("the first cut (`J` {first}) is deeper than the whole thread (`K` {all})"),
+        );
+        contradicts(cx, what, label, limit(cx.model.semantics().confidence), report);
     }
 }
 

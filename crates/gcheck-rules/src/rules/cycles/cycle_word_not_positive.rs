@@ -1,6 +1,6 @@
 //! A word of a canned cycle that must be above zero.
 
-use gcheck_controls::Letter;
+use gcheck_controls::{CodeIx, Letter};
 use gcheck_engine::{CycleFault, Fault};
 
 use crate::declare::declare_rule;
@@ -69,13 +69,24 @@ impl PathRule for CycleWordNotPositive {
             if word.is_some() { cx.word_range(|word| word.letter == letter) } else { cycle_range(cx) };
         let name = cycle_name(cx);
         let of = if is_own_operation(cx) { "" } else { " of a canned cycle" };
+        // In the form of two blocks the number has another address, in the block before.
+        let is_own = word.is_some() || cx.codes().iter().any(|ix| reads(cx, *ix, letter));
+        let message = if is_own || !is_own_operation(cx) {
+            format!("`{letter}`{of} is not above zero (`{name}`)")
+        } else {
+            format!("a number of `{name}` from the block before it is not above zero")
+        };
         report.add(
-            cx.finding(&META, range, format!("`{letter}`{of} is not above zero (`{name}`)"))
+            cx.finding(&META, range, message)
                 .label(what)
                 .help("check where the value comes from")
                 .at_most(limit(cx.model.semantics().confidence)),
         );
     }
+}
+
+fn reads(cx: &PathCx<'_>, code: CodeIx, letter: Letter) -> bool {
+    cx.control().code_at(code).is_some_and(|code| code.reads().contains(letter))
 }
 
 #[cfg(test)]

@@ -1,10 +1,11 @@
 //! A thread whose lead changes from one pass to the next.
 
 use gcheck_controls::Effect;
-use gcheck_engine::{At, Axis, Event, Fact, Travel, TravelKind};
+use gcheck_engine::{Event, Fact};
 use gcheck_geometry::Mm;
 
 use crate::declare::declare_rule;
+use crate::facts::thread_passes::ThreadPasses;
 use crate::{PathCx, PathRule, Remembers, Report, Run, Uses, Watch, remembers};
 
 declare_rule! {
@@ -50,27 +51,11 @@ declare_rule! {
 
 #[derive(Default, Clone, PartialEq)]
 struct ThreadLeadChanges {
-    /// Millimetres a turn, by which the axes are tied to the spindle.
-    lead: Option<f64>,
-    last: Option<Pass>,
+    passes: ThreadPasses,
 }
 
-remembers!(ThreadLeadChanges: last);
+remembers!(ThreadLeadChanges: passes);
 
-/// A pass of a thread.
-#[derive(Clone, Copy, PartialEq)]
-struct Pass {
-    /// Where it begins and ends along the thread: millimetres.
-    z: [f64; 2],
-    /// Millimetres a turn.
-    lead: f64,
-    at: At,
-}
-
-remembers!(Pass: at);
-
-/// Places that are nearer than this are one: millimetres.
-const SAME: f64 = 0.01;
 /// Leads that differ by a smaller part are one lead, rounded.
 const SLACK: f64 = 0.002;
 
@@ -84,28 +69,17 @@ impl PathRule for ThreadLeadChanges {
     }
 
     fn changed(&mut self, _: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
-        match event {
-            Event::SpindleSync { lead, .. } => self.lead = lead.map(|lead| lead.0.abs()),
-            // Another tool may cut another thread, and other coordinates are other places.
-            Event::ToolChange(_) | Event::WorkOffset { .. } | Event::Shift(_) => self.last = None,
-            _ => {}
-        }
+        self.passes.see(event);
     }
 
     fn moved(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
-        let Event::Travel(travel) = event else { return };
-        if travel.kind != TravelKind::Thread || !cx.is_on_every_path() {
+        let Some((before, pass)) = self.passes.pass(cx, event) else { return };
+        let lead = pass.lead;
+        // Two threads over one length differ by more than a thread is deep.
+        let most = before.lead.max(lead);
+        if before.x.into_iter().zip(pass.x).any(|(one, other)| (one - other).abs() > most) {
             return;
         }
-        let Some(lead) = self.lead.filter(|lead| *lead > 0.0) else { return };
-        let pass = Pass { z: along(travel), lead, at: cx.origin().at };
-        let before = self.last.replace(pass);
-        let is_same = |(one, other): (f64, f64)| (one - other).abs() < SAME;
-        let Some(before) =
-            before.filter(|before| before.z.into_iter().zip(pass.z).all(is_same) && before.at != pass.at)
-        else {
-            return;
-        };
         if (before.lead / lead - 1.0).abs() < SLACK {
             return;
         }
@@ -135,10 +109,6 @@ fn cuts_pass(effect: Effect) -> bool {
     matches!(effect, Effect::ThreadingPass | Effect::Thread)
 }
 
-fn along(travel: &Travel) -> [f64; 2] {
-    [travel.from.raw(Axis::Z), travel.programmed.raw(Axis::Z)]
-}
-
 #[cfg(test)]
 mod tests {
     use expect_test::expect;
@@ -165,6 +135,7 @@ mod tests {
             "X29.2 Z-40. F2.",
             "G0 Z10.\nG92 X29.2 Z-20. F2.",
             "T202\nG92 X29.2 Z-20. F2.",
+            "G0 X100.\nX22. Z5.\nG92 X19.5 Z-20. F2.",
         ] {
             check_rule(&RULE, "haas-lathe", &program(second), &expect![[""]]);
         }

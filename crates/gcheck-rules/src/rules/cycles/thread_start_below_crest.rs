@@ -90,10 +90,27 @@ impl PathRule for ThreadStartBelowCrest {
         let height_range = cx.word_range(|word| word.letter == letter);
         let (place, sign, side) =
             if is_outside { ("inside", "+", "above") } else { ("outside", "-", "below") };
+        let finding = |message: String| {
+            cx.finding(&META, cx.effect_range(is_cycle), message)
+                .also(height_range.clone(), format!("a thread {} high", cx.shown(Mm(height))))
+        };
+        // A start so near to the root is in the thread, whichever side of it is meant.
+        if !is_outside && root - start < height {
+            let outer = shown(root + height);
+            report.add(
+                finding("the thread starts inside of its root, by its words".to_owned())
+                    .label(format!("starts at X {}, and the root is at X {}", shown(start), shown(root)))
+                    .note("after each pass the tool returns at the X of the start")
+                    .help(format!(
+                        "start above X {outer} for a thread outside, below X {} for one in a bore",
+                        shown(crest)
+                    )),
+            );
+            return;
+        }
         report.add(
-            cx.finding(&META, cx.effect_range(is_cycle), format!("the thread starts {place} its crest, by its words"))
+            finding(format!("the thread starts {place} its crest, by its words"))
                 .label(format!("starts at X {}, and the crest is at X {}", shown(start), shown(crest)))
-                .also(height_range, format!("a thread {} high", cx.shown(Mm(height))))
                 .note(format!(
                     "root X {} {sign} twice the height is X {}; after each pass the tool returns at the X of the start",
                     shown(root),
@@ -156,9 +173,9 @@ mod tests {
             "fanuc-lathe",
             &thread("29.", "G76 X30. Z-27. P920 Q300 F1.5"),
             &expect![[r#"
-            5 | G76 X30. Z-27. P920 Q300 F1.5
-              | ^^^ warning[thread-start-below-crest] the thread starts outside its crest, by its words
-        "#]],
+                5 | G76 X30. Z-27. P920 Q300 F1.5
+                  | ^^^ warning[thread-start-below-crest] the thread starts inside of its root, by its words
+            "#]],
         );
     }
 

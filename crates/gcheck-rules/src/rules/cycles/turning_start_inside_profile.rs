@@ -52,12 +52,12 @@ struct TurningStartInsideProfile;
 
 impl PathRule for TurningStartInsideProfile {
     fn concerns(&self, program: &Uses<'_>) -> bool {
-        program.may(is_roughing)
+        program.may(roughs)
     }
 
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
         let is_finish = cx.has_effect(|effect| effect == Effect::FinishProfile);
-        if !is_finish && !cx.has_effect(is_roughing) {
+        if !is_finish && !cx.has_effect(roughs) {
             return;
         }
         let along_x = cx.has_effect(|effect| effect == Effect::RoughAlongX);
@@ -95,6 +95,11 @@ impl PathRule for TurningStartInsideProfile {
                 .help("move outside the stock before the cycle"),
         );
     }
+}
+
+/// Does the code cut a profile in several passes, and go back to its start after each?
+fn roughs(effect: Effect) -> bool {
+    is_roughing(effect) || effect == Effect::RepeatPattern
 }
 
 /// The point that the profile comes back out to, where its first block goes at rapid into the part: toward the centre, nearer
@@ -236,6 +241,25 @@ mod tests {
 
     use super::RULE;
     use crate::testing::check_rule;
+
+    #[test]
+    fn a_profile_that_is_cut_again_and_again() {
+        let program = |x: &str| {
+            format!(
+                "G21 G40 G99\nT0101\nG96 S140 M3\nG0 X{x} Z10.\nG73 U6. W3. R4\nG73 P50 Q60 U.5 W.2 F.25\nN50 G0 X60. Z3.\nG1 Z-20. F.15\nX80. Z-35.\nN60 X112. Z-81.\nM30\n"
+            )
+        };
+        check_rule(
+            &RULE,
+            "fanuc-lathe",
+            &program("100."),
+            &expect![[r#"
+            6 | G73 P50 Q60 U.5 W.2 F.25
+              | ^^^^^^^^^^^^^^^^^^^^^^^^ warning[turning-start-inside-profile] the turning cycle starts inside its profile (`X100.`)
+        "#]],
+        );
+        check_rule(&RULE, "fanuc-lathe", &program("130."), &expect![[""]]);
+    }
 
     #[test]
     fn a_finish_that_starts_behind_the_face() {

@@ -1,12 +1,12 @@
 //! A program that always ends with an alarm of its own.
 
 use gcheck_controls::{Effect, MessageComment};
-use gcheck_engine::{Ending, Fault, FrameKind};
+use gcheck_engine::{At, Ending, Fault, FrameKind};
 
 use crate::declare::declare_rule;
 use crate::facts::past_alarm::loses_way;
 use crate::facts::usage::reads_start_state;
-use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
+use crate::{Finding, FollowedCx, PathCx, PathRule, Report, Run, Severity, Watch};
 use crate::{Remembers, remembers};
 
 declare_rule! {
@@ -48,17 +48,22 @@ declare_rule! {
         severity: Error,
         tier: Path,
         since: "0.1.0",
-        run: Run::Path { watch: Watch::ENDS.union(Watch::FAULTS), make: || Box::new(AlarmReached::default()) },
+        run: Run::Path {
+            watch: Watch::ENDS.union(Watch::ENDS_ELSEWHERE).union(Watch::FAULTS).union(Watch::ENDLESS).union(Watch::FOLLOWED),
+            make: || Box::new(AlarmReached::default()),
+        },
     }
 }
 
 #[derive(Default, Clone, PartialEq)]
 struct AlarmReached {
-    /// A path came to another end, or to a jump that the control does not follow: corrected, it may lead past the alarm.
+    /// A path came to another end, to none, or to a jump that the control does not follow: corrected, it may lead past the alarm.
     may_end_otherwise: bool,
+    /// What is told if no path does.
+    found: Option<Finding>,
 }
 
-remembers!(AlarmReached);
+remembers!(AlarmReached: found);
 
 impl PathRule for AlarmReached {
     /// An alarm after a condition is what alarms are for.
@@ -74,12 +79,53 @@ impl PathRule for AlarmReached {
         self.may_end_otherwise |= loses_way(fault);
     }
 
-    fn ended(&mut self, cx: &PathCx<'_>, ending: Ending, report: &mut Report<'_>) {
+    /// A path that never ends is wrong in another way.
+    fn endless(&mut self, _: &PathCx<'_>, _: At, _: &mut Report<'_>) {
+        self.may_end_otherwise = true;
+    }
+
+    fn ended_elsewhere(&mut self, cx: &PathCx<'_>, ending: Ending, _: &mut Report<'_>) {
         let Ending::Alarm(number) = ending else {
             self.may_end_otherwise = true;
             return;
         };
         if !cx.is_on_every_path() || self.may_end_otherwise {
+            return;
+        }
+        // The call in this file that leads there: its words are what the program can change.
+        let frames = cx.state().frames();
+        let Some(frame) = frames.iter().find(|frame| frame.caller.file == 0 && frame.entry.file != 0) else {
+            return;
+        };
+        let (Some(file), Some(call)) = (cx.program.file(cx.origin().at.file), cx.range_of(frame.caller))
+        else {
+            return;
+        };
+        let label = match text_of(cx) {
+            Some(text) => format!("raises alarm {number}: {text}"),
+            None => format!("raises alarm {number}"),
+        };
+        self.found.get_or_insert(
+            Finding::new(&META, call, "the program called here always stops with its own alarm (`#3000`)")
+                .label(label)
+                .note(format!("the alarm is in `{}`", file.name))
+                .help("give the macro the arguments that it needs")
+                .assuming("its variables and modes are those that this program gives it")
+                .at_most(Severity::Warning),
+        );
+    }
+
+    fn ended(&mut self, cx: &PathCx<'_>, ending: Ending, _: &mut Report<'_>) {
+        let Ending::Alarm(number) = ending else {
+            self.may_end_otherwise = true;
+            return;
+        };
+        if !cx.is_on_every_path() || self.may_end_otherwise {
+            return;
+        }
+        // A loop before it may be what the other paths never leave.
+        let start = cx.range().start;
+        if cx.file_index.loops.iter().any(|turn| turn.begins && turn.range.start < start) {
             return;
         }
         // A program that waits for an input in a loop leaves it by the alarm on purpose.
@@ -114,7 +160,13 @@ impl PathRule for AlarmReached {
                 .at_most(Severity::Warning)
                 .assuming("modes are those that the control has at the start");
         }
-        report.add(finding);
+        self.found.get_or_insert(finding);
+    }
+
+    fn followed(&mut self, _: &FollowedCx<'_>, report: &mut Report<'_>) {
+        if let Some(finding) = self.found.take().filter(|_| !self.may_end_otherwise) {
+            report.add(finding);
+        }
     }
 }
 
@@ -142,7 +194,40 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::testing::check_rule;
+    use crate::testing::{Called, World, check_rule, check_rule_in};
+
+    #[test]
+    fn an_argument_that_a_macro_of_another_file_needs() {
+        let called = Called(9100, "O9100\nIF [#26 EQ #0] THEN #3000=1 (Z MISSING)\nG0 X#24 Z#26\nM99\n");
+        let world = World { programs: &called, ..World::default() };
+        let program = |arguments: &str| format!("O1\nG65 P9100 {arguments}\nM30\n");
+        check_rule_in(
+            &RULE,
+            "fanuc-mill",
+            &program("X10."),
+            &world,
+            &expect![[r#"
+            2 | G65 P9100 X10.
+              | ^^^^^^^^^^^^^^ warning[alarm-reached] the program called here always stops with its own alarm (`#3000`)
+        "#]],
+        );
+        for arguments in ["X10. Z5.", "X10. Z#500"] {
+            check_rule_in(&RULE, "fanuc-mill", &program(arguments), &world, &expect![[""]]);
+        }
+    }
+
+    #[test]
+    fn a_loop_without_an_end_comes_to_no_alarm() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "O1\nIF [#150 GT 9999] GOTO900\n#1= 0\nWHILE [#1 LE 10] DO1\n#2= .1\nEND1\nM30\nN900 #3000= 9 (TOO HIGH)\n",
+            &expect![[r#"
+                8 | N900 #3000= 9 (TOO HIGH)
+                  | ^^^^^^^^^^^^^^^^^^^^^^^^ error[alarm-reached] the program always ends with its own alarm (`#3000`)
+            "#]],
+        );
+    }
 
     #[test]
     fn a_missing_argument_is_shown_at_the_alarm() {

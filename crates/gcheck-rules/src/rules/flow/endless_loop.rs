@@ -72,7 +72,8 @@ impl PathRule for EndlessLoop {
         let mut finding = cx
             .finding(&META, range, "loop never ends")
             .label("every iteration begins in the same state")
-            .help("change a variable of the loop's condition inside the loop, or give the loop an exit");
+            .help("see that a variable of the loop's condition is another one in each iteration (a block of the loop may set it \
+                 back), or give the loop an exit");
         if turn != head
             && let Some(range) = cx.range_of(turn)
         {

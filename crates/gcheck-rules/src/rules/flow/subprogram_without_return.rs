@@ -70,7 +70,12 @@ impl PathRule for SubprogramWithoutReturn {
         }
     }
 
-    fn ended_elsewhere(&mut self, cx: &PathCx<'_>, at_end_of_text: bool, report: &mut Report<'_>) {
+    fn ended_elsewhere(&mut self, cx: &PathCx<'_>, ending: Ending, report: &mut Report<'_>) {
+        let at_end_of_text = match ending {
+            Ending::Program => false,
+            Ending::Text | Ending::Tape => true,
+            _ => return,
+        };
         let Some(frame) = cx.state().frames().last() else { return };
         let is_program = matches!(frame.kind, FrameKind::Subprogram | FrameKind::Macro);
         let (Some(file), Some(call)) = (cx.program.file(frame.entry.file), cx.range_of(frame.caller)) else {

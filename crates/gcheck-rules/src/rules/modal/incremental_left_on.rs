@@ -94,6 +94,8 @@ declare_rule! {
 struct IncrementalLeftOn {
     /// The work before was in positions.
     was_absolute: bool,
+    /// A block that chooses a work offset in increments that an earlier block set, with no move in X or Y since.
+    at_work_offset: Option<At>,
     /// A tool change with no move since, and what had set the mode then.
     change: Option<(Range<u32>, Option<At>)>,
     /// A reference return that switched from positions to increments, with no move since.
@@ -114,7 +116,7 @@ struct IncrementalLeftOn {
     begins_in_positions: bool,
 }
 
-remembers!(IncrementalLeftOn: change, at_return, at_probe, at_probe_before_start, in_subprogram, at_other_program);
+remembers!(IncrementalLeftOn: at_work_offset, change, at_return, at_probe, at_probe_before_start, in_subprogram, at_other_program);
 
 impl PathRule for IncrementalLeftOn {
     fn memory(&mut self) -> Remembers<'_> {
@@ -146,6 +148,10 @@ impl PathRule for IncrementalLeftOn {
             self.at_other_program.take_if(|(_, depth)| cx.depth() <= *depth);
         } else if was_absolute && cx.has_effect(runs_program) {
             self.at_other_program = Some((cx.origin().at, cx.depth()));
+        }
+        if cx.code_of_role(Role::WorkOffset).is_some() {
+            let is_incremental = cx.state().is_incremental(cx.model) == Some(true);
+            self.at_work_offset = (is_incremental && cx.depth() == 1).then(|| cx.origin().at);
         }
         match boundary(cx) {
             Some(Boundary::ToolChange) => {
@@ -217,6 +223,8 @@ impl IncrementalLeftOn {
         let (change, was_absolute) = (self.change.take(), self.was_absolute);
         let at_return = self.at_return.take();
         let at_probe = self.at_probe_before_start.take();
+        let crosses = cx.origin().letters.intersects(LetterSet::of("XY"));
+        let at_work_offset = self.at_work_offset.take_if(|_| crosses);
         self.was_absolute = cx.state().is_incremental(cx.model) == Some(false);
         // The pocket itself moves, too.
         let is_after = |(at, depth): &mut (At, usize)| *at != cx.origin().at && cx.depth() <= *depth;
@@ -233,7 +241,7 @@ impl IncrementalLeftOn {
         }
         if let Some((range, at_change)) = change
             && at_change == set_by
-            && was_absolute
+            && (was_absolute || self.begins_in_positions && cx.depth() == 1 && !works_in_increments(cx))
         {
             let finding = tell(cx, cx.range(), "the first move after the tool change is in increments");
             let finding = finding.label("by this much, not to this point").also(range, "tool changed here");
@@ -250,6 +258,16 @@ impl IncrementalLeftOn {
                 "the first move after probing and the start of the spindle is in increments",
             );
             let finding = finding.label("by this much, not to this point");
+            report.add(cx.resting_on(finding, Fact::Mode(Role::Distance), "increments"));
+        } else if let Some(at) =
+            at_work_offset.filter(|_| set_by != Some(cx.origin().at) && !works_in_increments(cx))
+        {
+            let finding =
+                tell(cx, cx.range(), "the first move after the choice of the work offset is in increments");
+            let mut finding = finding.label("by this much, not to this point");
+            if let Some(range) = cx.range_of(at) {
+                finding = finding.also(range, "the work offset, which is for positions, is chosen here");
+            }
             report.add(cx.resting_on(finding, Fact::Mode(Role::Distance), "increments"));
         } else if let Some((at, depth)) = self.in_subprogram
             && set_by == Some(at)
@@ -281,6 +299,25 @@ impl IncrementalLeftOn {
             .at_most(Severity::Warning);
         report.add(cx.resting_on(finding, Fact::Mode(Role::Distance), "increments"));
     }
+}
+
+/// Does the program move X or Y by increments between the block that set them and this one? Then that is how it is written.
+fn works_in_increments(cx: &PathCx<'_>) -> bool {
+    const MOST: u32 = 500;
+    let here = cx.origin().at;
+    let Some(set) = cx.definitions().set_by(Fact::Mode(Role::Distance)).filter(|at| at.file == here.file)
+    else {
+        return false;
+    };
+    let last = here.block.min(set.block.saturating_add(MOST));
+    (set.block + 1..last).any(|block| {
+        let at = At { block, ..here };
+        let is_elsewhere = |word: &gcheck_program::Word| {
+            matches!(cx.model.effect(word.code), Effect::MachineCoordinates | Effect::ReturnReference(_))
+        };
+        let names = cx.place_of(at).is_some_and(|p| p.block().letters.intersects(LetterSet::of("XY")));
+        names && cx.find_word(at, is_elsewhere).is_none()
+    })
 }
 
 /// Does the code run a program whose blocks this rule may not be shown?
@@ -353,6 +390,59 @@ mod tests {
                 5 | G0 X3.
                   | ^^^^^^ warning[incremental-left-on] the first move after the tool change is in increments (`G91`)
             "#]],
+        );
+    }
+
+    #[test]
+    fn a_work_offset_is_for_positions() {
+        let program =
+            |back: &str| format!("G21 G90 G94\nG91\nG0 Z5\nG54\nS900 M3\nG0 Z30\n{back}G0 X20 Y20\nM2\n");
+        check_rule(
+            &RULE,
+            "grbl",
+            &program(""),
+            &expect![[r#"
+            7 | G0 X20 Y20
+              | ^^^^^^^^^^ warning[incremental-left-on] the first move after the choice of the work offset is in increments (`G91`)
+        "#]],
+        );
+        check_rule(&RULE, "grbl", &program("G90 "), &expect![[""]]);
+        // Which subprogram moves in increments is its own matter.
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G90 G54 G0 X0 Y0\nM97 P10\nM30\nN10 G91\nG55\nG0 X1.\nG90\nM99\n",
+            &expect![[""]],
+        );
+    }
+
+    #[test]
+    fn a_tool_that_began_in_positions_shows_what_is_meant() {
+        let program = |at: &str| {
+            format!(
+                "T3 M6\nG20 G90 G54 G0 X0 Y0\nS900 M3\nG43 H3 Z.5\nG1 G91 Z-.25 F5.\nG0 Z.5\nG53 Z0\nT7 M6\n{at}G54 G0 X1. Y1.\nM30\n"
+            )
+        };
+        check_rule(
+            &RULE,
+            "haas-mill",
+            &program(""),
+            &expect![[r#"
+            9 | G54 G0 X1. Y1.
+              | ^^^^^^^^^^^^^^ warning[incremental-left-on] the first move after the tool change is in increments (`G91`)
+        "#]],
+        );
+        check_rule(&RULE, "haas-mill", &program("G90 "), &expect![[""]]);
+        // One tool after the other goes on by increments.
+        let by_increments = program("").replace("G1 G91 Z-.25 F5.\n", "G91 G1 Z-.25 F5.\nX1.\nX-1.\n");
+        check_rule(
+            &RULE,
+            "haas-mill",
+            &by_increments,
+            &expect![[r#"
+            11 | G54 G0 X1. Y1.
+               | ^^^^^^^^^^^^^^ warning[incremental-left-on] the first move after the tool change is in increments (`G91`)
+        "#]],
         );
     }
 

@@ -5,7 +5,7 @@ use gcheck_geometry::Mm;
 
 use crate::declare::declare_rule;
 use crate::facts::tool_words::ToolWords;
-use crate::facts::turned::{Spot, Turned, UNDER, end, is_one, is_other_part};
+use crate::facts::turned::{Spot, Turned, UNDER, end, is_level, is_one, is_other_part};
 use crate::facts::turning::is_turned;
 use crate::{MakeShared, PathCx, PathRule, Remembers, Report, Run, Uses, Watch, remembers};
 
@@ -70,6 +70,8 @@ remembers!(GrooveLeftSideways: groove);
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Groove {
     tool: Option<At>,
+    /// The radius at which the first plunge began: millimetres.
+    top: f64,
     bottom: Spot,
     at: At,
 }
@@ -118,15 +120,28 @@ impl PathRule for GrooveLeftSideways {
             if is_away && !travel.expanded {
                 leave(cx, turned, groove, from, to, report);
             } else if travel.kind == TravelKind::Feed && !travel.expanded {
-                let is_groove = turned.plunges(from, to) && !ToolWords::of(cx).bores();
-                self.groove = is_groove.then(|| Groove {
-                    tool: cx.definitions().set_by(Fact::Tool),
-                    bottom: to,
-                    at: cx.origin().at,
-                });
+                let tool = cx.definitions().set_by(Fact::Tool);
+                // A groove is made in several steps.
+                let deeper = groove
+                    .filter(|groove| groove.tool == tool && is_one(groove.bottom, from) && digs(from, to));
+                let begins = (turned.plunges(from, to) || digs_unturned(turned, from, to))
+                    && !ToolWords::of(cx).bores();
+                let new = begins.then(|| Groove { tool, top: from[0], bottom: to, at: cx.origin().at });
+                self.groove = deeper.map(|groove| Groove { bottom: to, ..groove }).or(new);
             }
         }
     }
+}
+
+/// Does a cut go straight across, deeper?
+fn digs(from: Spot, to: Spot) -> bool {
+    is_level(from, to) && to[0] < from[0]
+}
+
+/// Does a cut go straight across, away from the face, into a part that this program has not turned there?
+fn digs_unturned(turned: &Turned, from: Spot, to: Spot) -> bool {
+    let is_unturned = [0.0, -WALL].iter().all(|way| turned.least_outside(to[1] + way).is_none());
+    digs(from, to) && is_unturned && to[0] > UNDER && to[1] < -WALL && from[0] - to[0] > 2.0 * UNDER
 }
 
 fn leave(
@@ -147,20 +162,29 @@ fn leave(
     }
     // A step in a face is short.
     let walls = [PLAY, WALL].map(|way| turned.outside_along(from[1] + way * along.signum()));
-    let [Some(wall), Some(beyond)] = walls else { return };
+    let (wall, is_turned) = match walls {
+        [Some(wall), Some(beyond)] if from[0] <= beyond - UNDER => (wall, true),
+        // Toward the chuck there is what the first plunge began above.
+        [None, None] if along < -WALL => (groove.top - UNDER, false),
+        _ => return,
+    };
     let radius = from[0] + (to[0] - from[0]) * PLAY / along.abs();
     let is_open = |way: f64| {
         let left = turned.least_outside(from[1] + way * along.signum());
         left.is_some_and(|(left, _)| left < from[0] + UNDER)
     };
-    if radius > wall - UNDER || from[0] > beyond - UNDER || is_open(PLAY) || is_open(WALL) {
+    if radius > wall - UNDER || is_open(PLAY) || is_open(WALL) {
         return;
     }
     let is_diameter = cx.state().is_diameter(cx.model) == Some(true);
     let wall = cx.shown(Mm(if is_diameter { wall * 2.0 } else { wall }));
     let mut finding = cx
         .finding(&META, cx.range(), "the tool moves along Z while it is in its groove")
-        .label(format!("the part beside the groove is turned to X {wall}"));
+        .label(if is_turned {
+            format!("the part beside the groove is turned to X {wall}")
+        } else {
+            "nothing of this program has cut beside the groove".to_owned()
+        });
     if let Some(range) = cx.range_of(groove.at) {
         finding = finding.also(range, "the tool plunges here");
     }
@@ -178,6 +202,27 @@ mod tests {
         format!(
             "G21 G18 G99 T0101\nG97 S800 M3\nG0 X44. Z2.\nX38.\nG1 Z-60. F.2\nG0 X44.\nZ50.\nT0303\nG0 X42. Z-30.\n{plunge}\n{out}\nM30\n"
         )
+    }
+
+    #[test]
+    fn from_groove_to_groove_in_a_part_that_is_turned_elsewhere() {
+        let grooves = |out: &str| {
+            format!(
+                "G21 G18 G99 T0505\nG97 S900 M3\nG0 X45. Z5.\nZ-10.\nX41.\nG1 X36. F.06\nX32.\nG4 U.3\n{out}G0 Z-18.\nX60.\nM30\n"
+            )
+        };
+        check_rule(
+            &RULE,
+            "fanuc-lathe",
+            &grooves(""),
+            &expect![[r#"
+            9 | G0 Z-18.
+              | ^^^^^^^^ warning[groove-left-sideways] the tool moves along Z while it is in its groove
+        "#]],
+        );
+        check_rule(&RULE, "fanuc-lathe", &grooves("G0 X41.\n"), &expect![[""]]);
+        // Toward the front it may leave a shoulder.
+        check_rule(&RULE, "fanuc-lathe", &grooves("").replace("Z-18.", "Z5."), &expect![[""]]);
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use gcheck_controls::Effect;
 use gcheck_engine::{At, Axis, Event, Travel};
-use gcheck_geometry::Mm;
+use gcheck_geometry::{Mm, Plane};
 
 use crate::declare::declare_rule;
 use crate::facts::depth::Depth;
@@ -83,7 +83,9 @@ impl PathRule for HomeBeforeRetract {
 
     fn rapid(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
         let Event::Travel(travel) = event else { return };
-        if !cx.has_effect(goes_home) || !cx.is_on_every_path() {
+        // A mill's control may drive a lathe, whose tools leave the part across.
+        let turns = cx.state().plane(cx.model) == Some(Plane::Zx);
+        if !cx.has_effect(goes_home) || !cx.is_on_every_path() || turns {
             return;
         }
         let Some(z) = travel.from.get(Axis::Z).filter(|_| leaves_sideways(travel)) else { return };
@@ -187,6 +189,12 @@ mod tests {
               | ^^^ warning[home-before-retract] the tool goes home on a slant, from inside the part
         "#]],
         );
+    }
+
+    #[test]
+    fn a_lathe_leaves_the_part_across() {
+        let turned = "G7 G18 G21 G90 G95\nT1 M6 G43\nS800 M4\nG0 X42 Z2\nG1 X30 F.2\nZ-20\nX42\nG53 G0 X0\nG53 G0 Z0\nM2\n";
+        check_rule(&RULE, "linuxcnc", turned, &expect![[""]]);
     }
 
     #[test]

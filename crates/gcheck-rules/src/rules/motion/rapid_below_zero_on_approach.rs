@@ -16,6 +16,8 @@ declare_rule! {
     /// is material: a drilling cycle whose retract level `R` is above the tool, or a feed straight on down where an
     /// earlier cut was less deep.
     ///
+    /// So does a tool that goes down before it goes to its place: it is taken there sideways, at that depth.
+    ///
     /// A tool that goes down beside the part to cut a contour is not reported.
     ///
     /// ## Why it matters
@@ -72,6 +74,8 @@ remembers!(RapidBelowZeroOnApproach: tool, approach);
 struct Approach {
     bytes: Range<u32>,
     to: [f64; 3],
+    /// Where it is in X and Y is not known: nothing has taken the tool to its place.
+    is_elsewhere: bool,
     /// Is it known that the part was cut there, and not so deep?
     is_solid: bool,
 }
@@ -123,25 +127,27 @@ fn goes_along_z(cx: &PathCx<'_>, travel: &Travel) -> bool {
 }
 
 fn look(cx: &PathCx<'_>, event: &Event, travel: &Travel) -> Option<Approach> {
-    let to = point(&travel.to)?;
+    let place = point(&travel.to);
+    let to = place.or_else(|| Some([0.0, 0.0, travel.to.get(Axis::Z)?]))?;
     let [x, y, z] = to;
     let is_rapid = travel.kind == TravelKind::Rapid && !travel.expanded;
-    let is_elsewhere =
+    let goes_home =
         cx.has_effect(|effect| matches!(effect, Effect::MachineCoordinates | Effect::ReturnReference(_)));
     // A length that is off makes Z a matter of the machine.
     let has_length =
         cx.state().effect(Role::Length, cx.model).is_some_and(|effect| effect != Effect::LengthOff);
-    if !is_rapid || is_elsewhere || !has_length || z >= SURFACE {
+    if !is_rapid || goes_home || !has_length || z >= SURFACE {
         return None;
     }
     let cuts = cx.shared::<Cuts>().filter(|cuts| cuts.knows(cx, event));
     let radius = cutter_radius(cx).unwrap_or(12.7);
-    let is_solid = cuts.is_some_and(|cuts| {
-        // The zero need not be the surface: only an earlier cut that is less deep shows where the part begins.
-        let reaches = |z: f64| cuts.reach(cuts.len(), [x, y], z, radius);
-        reaches(-SURFACE) && !reaches(z)
-    });
-    Some(Approach { bytes: cx.range(), to, is_solid })
+    let is_solid = place.is_some()
+        && cuts.is_some_and(|cuts| {
+            // The zero need not be the surface: only an earlier cut that is less deep shows where the part begins.
+            let reaches = |z: f64| cuts.reach(cuts.len(), [x, y], z, radius);
+            reaches(-SURFACE) && !reaches(z)
+        });
+    Some(Approach { bytes: cx.range(), to, is_elsewhere: place.is_none(), is_solid })
 }
 
 fn tell(cx: &PathCx<'_>, approach: &Approach, travel: &Travel, report: &mut Report<'_>) {
@@ -154,6 +160,13 @@ fn tell(cx: &PathCx<'_>, approach: &Approach, travel: &Travel, report: &mut Repo
         return;
     }
     let Some([x1, y1, z1]) = point(&travel.to) else { return };
+    if approach.is_elsewhere {
+        if travel.kind == TravelKind::Rapid && !travel.expanded && z1 < SURFACE {
+            let finding = finding(cx, approach).also(cx.range(), "goes to its place at that depth, at rapid");
+            report.add(finding.help("move in X and Y first, then down; check the sign of Z"));
+        }
+        return;
+    }
     let feeds_on = travel.kind == TravelKind::Feed && !travel.expanded && z1 < z - LEVEL;
     if feeds_on && (x1 - x).hypot(y1 - y) < LEVEL && approach.is_solid {
         let finding = finding(cx, approach).also(cx.range(), "the tool feeds on down from there");
@@ -215,6 +228,24 @@ mod tests {
         // The zero need not be the surface of the part.
         check_rule(&RULE, "haas-mill", &faced("70"), &expect![[""]]);
         check_rule(&RULE, "haas-mill", &program("-2.", "G1 Z-10. F90."), &expect![[""]]);
+    }
+
+    #[test]
+    fn down_before_it_goes_to_its_place() {
+        let program = |z: &str, to: &str| {
+            format!("G20 G90 G54\nT2 M6\nS900 M3\nG43 H2 Z{z}\n{to}\nG1 X3. F20.\nG0 Z2.\nM30\n")
+        };
+        check_rule(
+            &RULE,
+            "haas-mill",
+            &program("-.06", "G0 X-.2 Y-.2"),
+            &expect![[r#"
+            4 | G43 H2 Z-.06
+              | ^^^^^^^^^^^^ warning[rapid-below-zero-on-approach] the first move of the tool is a rapid move into the part
+        "#]],
+        );
+        check_rule(&RULE, "haas-mill", &program("2.", "G0 X-.2 Y-.2"), &expect![[""]]);
+        check_rule(&RULE, "haas-mill", &program("-.06", "G0 Z2. X-.2 Y-.2"), &expect![[""]]);
     }
 
     #[test]

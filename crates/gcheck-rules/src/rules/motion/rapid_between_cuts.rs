@@ -6,6 +6,7 @@ use gcheck_engine::{ArcMove, At, Event, Fact, Spindle, TravelKind};
 use gcheck_geometry::Mm;
 
 use crate::declare::declare_rule;
+use crate::facts::boundary::{Boundary, boundary};
 use crate::facts::compensation::is_compensated;
 use crate::facts::cuts::{Cuts, LEVEL, SURFACE, cutter_radius, point};
 use crate::{Finding, FollowedCx, MakeShared, PathCx, PathRule, Report, Run, Severity, Watch};
@@ -20,7 +21,8 @@ declare_rule! {
     /// * from a cut to a place where the tool is fed down: the retract is missing;
     /// * from a hole that the tool was fed straight down into, sideways through what was not cut;
     /// * from the end of a straight cut back and across to where a parallel one begins;
-    /// * down into the part and then sideways, straight into an arc, or up again without a cut.
+    /// * down into the part and then sideways, straight into an arc, or up again without a cut;
+    /// * from the last cut back over what the cuts enclose, up from there, or to the end of the program.
     ///
     /// A program that does so more than twice does it on purpose, except out of holes: it steps over beside the part. For the
     /// same reason, a move square to two parallel straight cuts is not reported.
@@ -113,6 +115,8 @@ struct RapidBetweenCuts {
     at: Option<[f64; 3]>,
     /// Where the tool was fed down last.
     start: Option<[f64; 2]>,
+    /// The least and the greatest X and Y of the ends of cuts at depth since the tool came.
+    extent: Option<[[f64; 2]; 2]>,
     /// The move before, if it was a cut that ended at depth.
     last: Option<Cut>,
     /// Rapid moves at one depth, with no other move since.
@@ -197,6 +201,11 @@ impl PathRule for RapidBetweenCuts {
     }
 
     fn block(&mut self, cx: &PathCx<'_>, _: &mut Report<'_>) {
+        if boundary(cx) == Some(Boundary::ProgramEnd)
+            && let Some(way) = self.way.take()
+        {
+            self.judge_leave(cx, &way, "the program ends with the tool down");
+        }
         if let Some(way) = self.way.as_mut().filter(|_| !cx.names_axes()) {
             way.is_interrupted = true;
         }
@@ -205,7 +214,7 @@ impl PathRule for RapidBetweenCuts {
     fn changed(&mut self, _: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
         // The machine decides where the change leaves the tool.
         if matches!(event, Event::ToolChange(_)) {
-            (self.at, self.start, self.last, self.way) = (None, None, None, None);
+            (self.at, self.start, self.last, self.way, self.extent) = (None, None, None, None, None);
         }
     }
 
@@ -238,6 +247,9 @@ impl PathRule for RapidBetweenCuts {
                     }
                     Event::Arc(arc) => self.last = self.arc(cx, arc, [from, to], way),
                     _ => {}
+                }
+                if let Some(cut) = self.last {
+                    self.extend(&cut);
                 }
             }
         }
@@ -306,6 +318,7 @@ impl RapidBetweenCuts {
             let way = way?;
             self.judge_drag(cx, &way);
             self.judge_closing(cx, &way);
+            self.judge_leave(cx, &way, "the tool is lifted only here");
             if way.behind.is_none() && z1 > 0.0 {
                 self.judge_dip(cx, &way);
                 return None;
@@ -464,6 +477,32 @@ impl RapidBetweenCuts {
         }
     }
 
+    /// A rapid move from a cut back over what the cuts enclose, with no cut at its end.
+    fn judge_leave(&mut self, cx: &PathCx<'_>, way: &Way, why: &str) {
+        let (Some(behind), Some([[low_x, low_y], [high_x, high_y]])) = (way.behind, self.extent) else {
+            return;
+        };
+        let [from, to] = [behind.ends[1], way.to];
+        let is_enclosed = |part: f64| {
+            let [x, y] = [from[0] + part * (to[0] - from[0]), from[1] + part * (to[1] - from[1])];
+            x > low_x + SHORT && x < high_x - SHORT && y > low_y + SHORT && y < high_y - SHORT
+        };
+        let crosses = [0.25, 0.5, 0.75].into_iter().any(is_enclosed);
+        if way.is_new == Some(true) && way.pieces == 1 && crosses && !behind.is_plunge {
+            let message = "rapid move at depth back over the part";
+            let finding = tell(cx, way, message, why);
+            self.keep(way, Some(finding.help("retract the tool from the part before the rapid move")));
+        }
+    }
+
+    fn extend(&mut self, cut: &Cut) {
+        let [low, high] = self.extent.get_or_insert([cut.ends[1]; 2]);
+        for end in cut.ends {
+            *low = [low[0].min(end[0]), low[1].min(end[1])];
+            *high = [high[0].max(end[0]), high[1].max(end[1])];
+        }
+    }
+
     fn is_dragged(&self, way: &Way) -> bool {
         self.dragged.iter().any(|finding| finding.range == way.bytes)
     }
@@ -619,6 +658,34 @@ mod tests {
               | ^^^^^^ info[rapid-between-cuts] rapid move at depth between two cuts
         "#]],
         );
+    }
+
+    #[test]
+    fn back_to_zero_with_the_tool_down() {
+        let slot = |after: &str| {
+            format!("G21 G90 G54 G0 X12. Y10. Z5. S900 M3\nG1 Z-2. F100.\nX80.\nY60.\nX12.\n{after}")
+        };
+        check_rule(
+            &RULE,
+            "haas-mill",
+            &slot("G0 X60. Y20.\nZ5.\nM30\n"),
+            &expect![[r#"
+            6 | G0 X60. Y20.
+              | ^^^^^^^^^^^^ warning[rapid-between-cuts] rapid move at depth back over the part
+        "#]],
+        );
+        check_rule(
+            &RULE,
+            "haas-mill",
+            &slot("M5\nG0 X100. Y0.\nM30\n"),
+            &expect![[r#"
+            7 | G0 X100. Y0.
+              | ^^^^^^^^^^^^ warning[rapid-between-cuts] rapid move at depth back over the part
+        "#]],
+        );
+        for after in ["G0 Z5.\nX60. Y20.\nM30\n", "G0 X0. Y70.\nZ5.\nM30\n", "G0 X12. Y10.\nM30\n"] {
+            check_rule(&RULE, "haas-mill", &slot(after), &expect![[""]]);
+        }
     }
 
     #[test]

@@ -1,12 +1,12 @@
 //! A C axis that is engaged while the spindle turns.
 
 use gcheck_controls::{Code, Effect, Machine};
-use gcheck_engine::{Fact, Spindle};
+use gcheck_engine::{Abstract, Domain, Event, Fact, Spindle};
 
 use crate::declare::declare_rule;
 use crate::facts::second_spindle::has_second_spindle;
-use crate::facts::workholding::{Moved, moved};
-use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
+use crate::facts::workholding::{MayRest, Moved, moved};
+use crate::{PathCx, PathRule, Remembers, Report, Run, Uses, Watch, remembers};
 
 declare_rule! {
     /// The C axis is engaged (`M154`) while the spindle still turns. Controls whose data name no such code are not judged, nor are
@@ -42,16 +42,32 @@ declare_rule! {
         severity: Warning,
         tier: Path,
         since: "0.1.0",
-        run: Run::Path { watch: Watch::BLOCKS, make: || Box::new(CAxisEngagedWhileTurning) },
+        run: Run::Path {
+            watch: Watch::BLOCKS.union(Watch::CHANGES),
+            make: || Box::new(CAxisEngagedWhileTurning::default()),
+        },
     }
 }
 
-struct CAxisEngagedWhileTurning;
+#[derive(Default, Clone, PartialEq)]
+struct CAxisEngagedWhileTurning {
+    may_rest: MayRest,
+}
+
+remembers!(CAxisEngagedWhileTurning);
 
 /// The modal group of the codes that engage the axis and release it.
 const GROUP: &str = "c-axis";
 
 impl PathRule for CAxisEngagedWhileTurning {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
+    fn changed(&mut self, _: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
+        self.may_rest.see(event);
+    }
+
     fn concerns(&self, program: &Uses<'_>) -> bool {
         let control = program.environment.control();
         control.machine() == Machine::Lathe
@@ -60,7 +76,9 @@ impl PathRule for CAxisEngagedWhileTurning {
     }
 
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
-        let turns = cx.state().spindle().is_some_and(Spindle::turns);
+        let turns = cx.state().spindle().is_some_and(Spindle::turns)
+            && Abstract::known(cx.state().speed()) != Some(0.0)
+            && !self.may_rest.is_so();
         // The block may stop the spindle first.
         let stops = |effect| matches!(effect, Effect::SpindleStop | Effect::SpindleOrient);
         if moved(cx, GROUP) != Some(Moved::Out) || !turns || cx.has_effect(stops) || !cx.is_certain() {
@@ -106,7 +124,7 @@ mod tests {
               help: stop the spindle with `M5` before this block
         "#]]
         .assert_eq(&found.iter().map(words).collect::<String>());
-        for before in ["M5\n", "M19\n", "M5 ", "G65 P9077\n", "M1\nM5\n"] {
+        for before in ["M5\n", "M19\n", "M5 ", "G65 P9077\n", "M0\n", "M1\n", "S0\n"] {
             check_rule(&RULE, "haas-lathe", &program(before), &expect![[""]]);
         }
     }

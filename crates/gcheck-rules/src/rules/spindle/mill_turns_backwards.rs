@@ -87,6 +87,19 @@ mod tests {
     use crate::testing::check_rule;
 
     #[test]
+    fn the_list_of_a_post_names_the_tool() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "(T2 D=12. CR=0. - ZMIN=-12. - flat end mill)\nG21 G90 G54\n(2D Adaptive1)\nT2 M6\nS900 M4\nG0 X0. Y0.\nG43 H2 Z5.\nG1 Z-1. F90.\nX9.\nG0 Z5.\nM30\n",
+            &expect![[r#"
+                5 | S900 M4
+                  |      ^^ warning[mill-turns-backwards] the milling cutter turns backwards (`M4`)
+            "#]],
+        );
+    }
+
+    #[test]
     fn each_tool_is_told_once() {
         let program = |comment: &str| {
             format!(

@@ -382,9 +382,9 @@ mod tests {
             "fanuc-lathe",
             &program("T0405"),
             &expect![[r#"
-            3 | T0405
-              | ^^^^^ info[length-offset-of-another-tool] tool 4 works with length offset 5
-        "#]],
+                3 | T0405
+                  | ^^^^^ info[length-offset-of-another-tool] tool 4 works with length offset 5
+            "#]],
         );
         check_rule(&RULE, "fanuc-lathe", &program("T0414"), &expect![[""]]);
         check_rule(&RULE, "fanuc-lathe", &program("T0432"), &expect![[""]]);

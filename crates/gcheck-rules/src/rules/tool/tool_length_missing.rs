@@ -189,6 +189,8 @@ fn judge_what_is_on(cx: &PathCx<'_>, at: At, code: CodeIx, has_length: bool, rep
     let number = Abstract::known(cx.state().h());
     let is_zero = number == Some(0.0);
     // If it never comes, the tool works with the offset of the other one: the rules on offset numbers report that.
+    // A length that was taken from the tool in the spindle then has no number.
+    let is_of_tool = cx.model.semantics().tools.length_from_tool;
     let is_followed_by_its_own = is_near(cx, |effect| effect == Effect::LengthPlus);
     // In a block that also moves Z, another rule reports it for any tool.
     let is_alone = cx.find_word(set, |word| word.letter == Letter::of('Z')).is_none();
@@ -201,7 +203,7 @@ fn judge_what_is_on(cx: &PathCx<'_>, at: At, code: CodeIx, has_length: bool, rep
             )
             .label("the control takes the spindle nose for the tool tip");
         report.add(finding.help(format!("give the offset of the tool: `{name} H1 Z…`")));
-    } else if !is_own && !is_zero && is_followed_by_its_own {
+    } else if !is_own && !is_zero && (is_followed_by_its_own || is_of_tool && given.is_none()) {
         let mut finding = cx
             .finding(
                 &META,
@@ -244,6 +246,25 @@ mod tests {
 
     use super::RULE;
     use crate::testing::check_rule;
+
+    #[test]
+    fn a_length_without_a_number_is_of_the_tool_before() {
+        let program = |length: &str| {
+            format!(
+                "G21 G90\nT2 M6\nG43\nG0 X10 Y10\nZ5\nG1 Z-3 F100\nG53 G0 Z0\nT4 M6\n{length}G0 X10 Y10\nZ5\nM2\n"
+            )
+        };
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            &program(""),
+            &expect![[r#"
+            10 | Z5
+               | ^^ warning[tool-length-missing] the tool moves with the length of the tool before (no `G43` since the tool change)
+        "#]],
+        );
+        check_rule(&RULE, "linuxcnc", &program("G43\n"), &expect![[""]]);
+    }
 
     #[test]
     fn the_move_along_z_is_marked() {

@@ -1,6 +1,6 @@
 //! A decimal point on an address that takes whole numbers.
 
-use gcheck_controls::WordKind;
+use gcheck_controls::{Motion, WordKind};
 use gcheck_program::{BlockFlags, Word};
 
 use crate::declare::declare_rule;
@@ -77,8 +77,10 @@ fn finding(cx: &BlockCx<'_>, word: &Word, facts: &WordFacts<'_>) -> Finding {
         .at_most(limit(confidence));
     // Two codes that read one word may each take its point another way.
     let is_shared = cx.codes().filter(|(_, code)| code.reads().contains(word.letter)).count() > 1;
+    // A step of a cycle that is written in millimetres is another number in least increments.
+    let is_of_cycle = facts.code.is_some_and(|code| code.motion() != Motion::None);
     match whole(text) {
-        Some(whole) if facts.kind != WordKind::Milliseconds && !is_shared => {
+        Some(whole) if facts.kind != WordKind::Milliseconds && !is_shared && !is_of_cycle => {
             finding.fix(Fix::safe(format!("write `{text}` as `{whole}`"), cx.range(word), whole))
         }
         _ => finding,
@@ -111,6 +113,24 @@ mod tests {
                   |    ^^^^ error[decimal-point-on-integer] decimal point on a whole number: `P1.5`
             "#]],
         );
+    }
+
+    #[test]
+    fn a_step_in_least_increments() {
+        let program = |step: &str| format!("G21 G99\nG0 X0. Z5.\nG74 R1.\nG74 Z-60. Q{step} F.1\nM30\n");
+        check_rule(
+            &RULE,
+            "fanuc-lathe",
+            &program("15."),
+            &expect![[r#"
+            4 | G74 Z-60. Q15. F.1
+              |           ^^^^ warning[decimal-point-on-integer] decimal point on a whole number: `Q15.`
+        "#]],
+        );
+        check_rule(&RULE, "fanuc-lathe", &program("15000"), &expect![[""]]);
+        // Without the point it would be a step of 15 thousandths.
+        let found = findings(&only(&RULE), "fanuc-lathe", &program("15."), &World::default());
+        assert!(found.iter().all(|finding| finding.fixes.is_empty()));
     }
 
     #[test]

@@ -1,0 +1,119 @@
+//! A pass of a thread that goes deeper than the thread is high.
+
+use gcheck_controls::Effect;
+use gcheck_engine::Event;
+use gcheck_geometry::Mm;
+
+use crate::declare::declare_rule;
+use crate::facts::thread_passes::ThreadPasses;
+use crate::{PathCx, PathRule, Remembers, Report, Run, Uses, Watch, remembers};
+
+declare_rule! {
+    /// A pass of a thread (`G92`, `G32`, `G33`) is deeper than the one before it by more than the lead of the thread.
+    ///
+    /// ## Why it matters
+    /// A thread is about 0.6 times as high as its lead is long. A pass that takes more in one step rams the insert into the part;
+    /// mostly a digit or a decimal point of `X` is wrong.
+    ///
+    /// ## Reported
+    /// ```nc,reported,haas-lathe
+    /// G20 G99 T101
+    /// G97 S500 M3
+    /// G0 X1. Z.2
+    /// G92 X.885 Z-.75 F.0625
+    /// X.088
+    /// G0 X2.
+    /// M30
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,haas-lathe
+    /// G20 G99 T101
+    /// G97 S500 M3
+    /// G0 X1. Z.2
+    /// G92 X.885 Z-.75 F.0625
+    /// X.88
+    /// G0 X2.
+    /// M30
+    /// ```
+    rule "thread-pass-too-deep" in "cycles" {
+        summary: "pass of a thread goes deeper than the thread is high",
+        severity: Warning,
+        tier: Path,
+        since: "0.1.0",
+        run: Run::Path {
+            watch: Watch::MOVES.union(Watch::CHANGES),
+            make: || Box::new(ThreadPassTooDeep::default()),
+        },
+    }
+}
+
+#[derive(Default, Clone, PartialEq)]
+struct ThreadPassTooDeep {
+    passes: ThreadPasses,
+}
+
+remembers!(ThreadPassTooDeep: passes);
+
+impl PathRule for ThreadPassTooDeep {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
+    fn concerns(&self, program: &Uses<'_>) -> bool {
+        program.may(|effect| matches!(effect, Effect::ThreadingPass | Effect::Thread))
+    }
+
+    fn changed(&mut self, _: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
+        self.passes.see(event);
+    }
+
+    fn moved(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
+        let Some((before, pass)) = self.passes.pass(cx, event) else { return };
+        // An inside thread gets deeper outward, and a larger thread over the same length is cut by the same way out: only
+        // inward nothing else can be meant.
+        let step = before.x[1] - pass.x[1];
+        let starts = before.x[0] - pass.x[0];
+        if !(step > pass.lead && starts > pass.lead) {
+            return;
+        }
+        let mut finding = cx
+            .finding(&META, cx.letter_range('X'), "the pass is deeper than its thread is high")
+            .label(format!(
+                "{} deeper than the pass before, and the lead is {}",
+                cx.shown(Mm(step)),
+                cx.shown(Mm(pass.lead))
+            ))
+            .note("a thread of 60 degrees is about 0.6 times as high as its lead is long");
+        if let Some(range) = cx.range_of(before.at) {
+            finding = finding.also(range, "the pass before it");
+        }
+        report.add(finding.help("check the digits and the decimal point of `X`"));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::check_rule;
+
+    #[test]
+    fn a_digit_too_many() {
+        let program = |x: &str| {
+            format!("G21 G99 T0101\nG97 S500 M3\nG0 X24. Z5.\nG92 X19.4 Z-20. F1.5\nX{x}\nG0 X60.\nM30\n")
+        };
+        check_rule(
+            &RULE,
+            "fanuc-lathe",
+            &program("1.92"),
+            &expect![[r#"
+            5 | X1.92
+              | ^^^^^ warning[thread-pass-too-deep] the pass is deeper than its thread is high
+        "#]],
+        );
+        for x in ["19.2", "18.2", "21.4", "24."] {
+            check_rule(&RULE, "fanuc-lathe", &program(x), &expect![[""]]);
+        }
+    }
+}

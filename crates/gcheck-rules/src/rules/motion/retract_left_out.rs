@@ -1,0 +1,245 @@
+//! A retract that the program makes everywhere else.
+
+use std::ops::Range;
+
+use gcheck_controls::Effect;
+use gcheck_engine::{Axis, Event, Travel, TravelKind};
+
+use crate::declare::declare_rule;
+use crate::facts::boundary::{Boundary, boundary, boundary_range};
+use crate::{Finding, FollowedCx, PathCx, PathRule, Remembers, Report, Run, Uses, Watch, remembers};
+
+declare_rule! {
+    /// Before the other tool changes, or before the other turns of a rotary axis, the program takes Z home (`G28`, `G30`, `G53`). Here
+    /// it does not, and the tool has cut since.
+    ///
+    /// Only mills are looked at, and only programs in which at least two others go home. Tool changes do not count on controls
+    /// whose tool change goes home by itself.
+    ///
+    /// ## Why it matters
+    /// A part, a trunnion or a fixture that turns needs more room than the clearance over the part, and a tool arm needs Z at its
+    /// place. A block that is missing in one place alone has mostly been lost in an edit.
+    ///
+    /// ## Reported
+    /// ```nc,reported,haas-mill
+    /// T1 M6
+    /// G21 G90 G54 G0 X0. Y0. B0. S3000 M3
+    /// G43 H1 Z50.
+    /// G1 Z-2. F200.
+    /// G53 G0 Z0.
+    /// G0 B90.
+    /// Z50.
+    /// G1 Z-2. F200.
+    /// G53 G0 Z0.
+    /// G0 B180.
+    /// Z50.
+    /// G1 Z-2. F200.
+    /// G0 Z50.
+    /// B270.
+    /// G1 Z-2. F200.
+    /// G53 G0 Z0.
+    /// M30
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,haas-mill
+    /// T1 M6
+    /// G21 G90 G54 G0 X0. Y0. B0. S3000 M3
+    /// G43 H1 Z50.
+    /// G1 Z-2. F200.
+    /// G0 Z50.
+    /// B90.
+    /// G1 Z-2. F200.
+    /// G0 Z50.
+    /// B180.
+    /// G1 Z-2. F200.
+    /// G53 G0 Z0.
+    /// M30
+    /// ```
+    rule "retract-left-out" in "motion" {
+        summary: "retract is missing that the program makes everywhere else",
+        severity: Warning,
+        tier: Path,
+        since: "0.1.0",
+        run: Run::Path {
+            watch: Watch::BLOCKS.union(Watch::MOVES).union(Watch::FOLLOWED),
+            make: || Box::new(RetractLeftOut::default()),
+        },
+    }
+}
+
+#[derive(Default, Clone, PartialEq)]
+struct RetractLeftOut {
+    /// The last move of Z took it home.
+    is_home: bool,
+    /// The tool has cut since the last tool change, and since the last turn of a rotary axis.
+    has_cut: [bool; 2],
+    /// What came before tool changes, and before turns.
+    habits: [Habit; 2],
+}
+
+remembers!(RetractLeftOut: habits);
+
+/// What a program does before one kind of event.
+#[derive(Debug, Default, Clone, PartialEq)]
+struct Habit {
+    /// Blocks before which Z went home.
+    home: Vec<Range<u32>>,
+    /// The block before which it did not; `None` while all did.
+    odd: Option<(Range<u32>, Finding)>,
+    /// There are several of those.
+    is_mixed: bool,
+}
+
+remembers!(Habit: home, odd);
+
+/// So many others make a habit.
+const HABIT: usize = 2;
+/// More are not counted.
+const MOST: usize = 64;
+/// A rotary axis that turns by less follows a contour, or corrects a part: degrees.
+const TURN: f64 = 20.0;
+
+const TOOL_CHANGE: usize = 0;
+const ROTATION: usize = 1;
+
+impl PathRule for RetractLeftOut {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
+    fn concerns(&self, program: &Uses<'_>) -> bool {
+        program.environment.control().machine() == gcheck_controls::Machine::Mill && program.may(goes_home)
+    }
+
+    fn block(&mut self, cx: &PathCx<'_>, _: &mut Report<'_>) {
+        if boundary(cx) != Some(Boundary::ToolChange) {
+            return;
+        }
+        // A change that goes to the machine's zero by itself needs no retract.
+        if cx.model.semantics().tools.change_at_zero.is_none() {
+            let range = boundary_range(cx, Boundary::ToolChange);
+            self.note(cx, TOOL_CHANGE, range, "the tool is changed without the retract that the others have");
+        }
+        self.has_cut = [false; 2];
+    }
+
+    fn moved(&mut self, cx: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
+        let Event::Travel(travel) = event else {
+            self.has_cut = [true; 2];
+            return;
+        };
+        if travel.kind != TravelKind::Rapid {
+            self.has_cut = [true; 2];
+        }
+        if moves(travel, Axis::Z) {
+            self.is_home = cx.has_effect(goes_home);
+        } else if travel.kind == TravelKind::Rapid && !travel.expanded && turns(cx, travel) {
+            self.note(
+                cx,
+                ROTATION,
+                cx.range(),
+                "the part turns without the retract that the other turns have",
+            );
+            self.has_cut = [self.has_cut.first() == Some(&true), false];
+        }
+    }
+
+    fn followed(&mut self, _: &FollowedCx<'_>, report: &mut Report<'_>) {
+        for Habit { home, odd, is_mixed } in std::mem::take(&mut self.habits) {
+            if let Some((range, finding)) = odd
+                && home.len() >= HABIT
+                && !is_mixed
+                && !home.contains(&range)
+            {
+                let last = home.last().cloned().unwrap_or_default();
+                let others = home.len();
+                report.add(
+                    finding
+                        .also(last, format!("here, and in {} more places, Z goes home before", others - 1)),
+                );
+            }
+        }
+    }
+}
+
+impl RetractLeftOut {
+    fn note(&mut self, cx: &PathCx<'_>, kind: usize, range: Range<u32>, message: &str) {
+        let (Some(habit), Some(true)) = (self.habits.get_mut(kind), self.has_cut.get(kind)) else { return };
+        // Programs of other files are not shown, and what a loop repeats is one place.
+        if cx.origin().at.file != 0 || cx.is_after_unknown_program() {
+            return;
+        }
+        if self.is_home {
+            if !habit.home.contains(&range) && habit.home.len() < MOST {
+                habit.home.push(range);
+            }
+            return;
+        }
+        match &habit.odd {
+            Some((known, _)) => habit.is_mixed |= *known != range,
+            None => {
+                let finding = cx
+                    .finding(&META, range.clone(), message)
+                    .label("the tool has cut, and Z has not gone home since")
+                    .help("take Z home before this block, or say in a suppression why the room is enough");
+                habit.odd = Some((range, finding));
+            }
+        }
+    }
+}
+
+fn goes_home(effect: Effect) -> bool {
+    matches!(effect, Effect::MachineCoordinates | Effect::ReturnReference(_))
+}
+
+fn moves(travel: &Travel, axis: Axis) -> bool {
+    let (from, to) = (travel.from.raw(axis), travel.to.raw(axis));
+    to.is_nan() != from.is_nan() || (from - to).abs() > 0.001
+}
+
+/// Does a rotary axis that the block names turn by much, as far as is known? A work offset that is not known hides the angle from
+/// which it turns.
+fn turns(cx: &PathCx<'_>, travel: &Travel) -> bool {
+    [Axis::A, Axis::B, Axis::C].into_iter().any(|axis| {
+        let (from, to) = (travel.from.raw(axis), travel.to.raw(axis));
+        cx.origin().letters.contains(axis.letter()) && (from.is_nan() || (from - to).abs() > TURN)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::check_rule;
+
+    #[test]
+    fn a_tool_change_where_the_others_go_home() {
+        let section = |tool: u8, home: &str| {
+            format!("T{tool} M6\nG90 G54 G0 X0. Y0. S900 M3\nG43 H{tool} Z50.\nG1 Z-2. F200.\n{home}")
+        };
+        let program = |second: &str| {
+            let home = "G91 G28 Z0.\n";
+            let sections = [section(1, home), section(2, second), section(3, home), section(4, home)];
+            format!("G21\n{}M30\n", sections.concat())
+        };
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            &program("G0 Z50.\n"),
+            &expect![[r#"
+            12 | T3 M6
+               |    ^^ warning[retract-left-out] the tool is changed without the retract that the others have
+        "#]],
+        );
+        check_rule(&RULE, "fanuc-mill", &program("G53 G0 Z0.\n"), &expect![[""]]);
+        // The tool change of this control goes home by itself.
+        check_rule(&RULE, "haas-mill", &program("G0 Z50.\n"), &expect![[""]]);
+    }
+
+    #[test]
+    fn one_other_place_is_no_habit() {
+        let program = "T1 M6\nG21 G90 G54 G0 X0. Y0. B0. S900 M3\nG43 H1 Z50.\nG1 Z-2. F200.\nG53 G0 Z0.\nG0 B90.\nZ50.\nG1 Z-2. F200.\nG0 Z50.\nB180.\nM30\n";
+        check_rule(&RULE, "haas-mill", program, &expect![[""]]);
+    }
+}
