@@ -427,6 +427,7 @@ impl Control {
                 forbids: Vec::new(),
                 conflicts: Vec::new(),
                 conflicts_when_later: false,
+                refused_after: Vec::new(),
                 cancels: Vec::new(),
                 cancelled_by: Vec::new(),
                 opens_data: None,

@@ -552,6 +552,10 @@ pub struct Semantics {
     /// `G53` beside a probing code reads the limit of its move in machine coordinates.
     #[serde(default)]
     pub machine_coordinates_in_probing: bool,
+    /// Codes whose blocks have words in millimetres and as distances, whatever unit and distance mode are in effect. A later block
+    /// that goes on with the motion without naming the code reads its words as usual.
+    #[serde(default)]
+    pub millimetre_distances: Vec<String>,
     /// Dwell words: letter to kind.
     pub dwell: BTreeMap<String, DwellWord>,
     /// Computed jumps and `GOTO` look forward first, then from the head of the program.

@@ -104,6 +104,12 @@ pub fn load(name: &str) -> Result<Arc<Control>, LoadError> {
     Ok(control)
 }
 
+/// The names of all sources that data may name, of every folder.
+pub(crate) fn all_references() -> impl Iterator<Item = &'static str> {
+    let files = CONTROL_FILES.iter().filter_map(|file| file.as_ref().ok());
+    files.flat_map(|file| &file.references).map(|reference| reference.id.as_str())
+}
+
 /// Detection needs only the hints, which are in `control.toml`: no code table is read for it.
 pub(crate) fn all_control_files() -> impl Iterator<Item = &'static ControlFile> {
     CONTROL_FILES.iter().filter_map(|file| file.as_ref().ok()).filter(|file| !file.is_abstract)
@@ -288,6 +294,25 @@ fn finish(layers: Layers) -> Result<Control, LoadError> {
     };
     let mut codes = layers.codes;
     codes.sort_by_cached_key(|c| CodeNumber::parse(&c.code));
+    let after: Vec<(String, Vec<String>)> = codes
+        .iter()
+        .filter(|entry| !entry.refused_after.is_empty())
+        .map(|entry| (entry.code.clone(), entry.refused_after.clone()))
+        .collect();
+    for (first, refused) in after {
+        for code in refused {
+            let entry = codes.iter_mut().find(|entry| entry.code == code);
+            let entry = entry.filter(|entry| entry.conflicts.is_empty() || entry.conflicts_when_later);
+            let Some(entry) = entry else {
+                let message = format!(
+                    "{first} cannot have `{code}` in `refused-after`: no code, or one that conflicts in any order"
+                );
+                return Err(data_error(&control.name, &message));
+            };
+            entry.conflicts.push(first.clone());
+            entry.conflicts_when_later = true;
+        }
+    }
     for entry in codes {
         let number = CodeNumber::parse(&entry.code)
             .ok_or_else(|| data_error(&control.name, &format!("`{}` is not a code", entry.code)))?;

@@ -575,6 +575,10 @@ pub struct CodeEntry {
     /// two is lost.
     #[serde(default)]
     pub conflicts_when_later: bool,
+    /// Codes that the control refuses after this one in a block. Before it they are read, and their motion is lost. The loader
+    /// writes it into `conflicts` of these codes.
+    #[serde(default)]
+    pub refused_after: Vec<String>,
     /// Codes that this one ends.
     #[serde(default)]
     pub cancels: Vec<String>,

@@ -3,6 +3,9 @@
 //! Knows: what an entry must satisfy. Must not know: TOML. Law 9 of the architecture ("data is true") starts here;
 //! that examples are legal blocks is proved where programs can be checked.
 
+use std::collections::BTreeSet;
+use std::sync::LazyLock;
+
 use crate::control::Variable;
 use crate::schema::{Confidence, LetterCase, Motion, VariableKind};
 use crate::{BarFeederRules, CodeNumber, Control, CornerRules, Effect, Letter, SystemValue, SystemVariable};
@@ -24,6 +27,9 @@ pub fn problems(control: &Control) -> Vec<String> {
     found.list
 }
 
+/// The names of all sources, whichever control they tell of.
+static REFERENCES: LazyLock<BTreeSet<&str>> = LazyLock::new(|| crate::loader::all_references().collect());
+
 struct Problems<'c> {
     control: &'c Control,
     list: Vec<String>,
@@ -37,6 +43,13 @@ impl Problems<'_> {
     fn source(&mut self, place: &str, source: &str) {
         if source.trim().is_empty() {
             self.say(place, "has no source");
+        }
+        // Sources have notes in words too: of names only those that another control has are surely wrong here.
+        for id in source.split(';').filter_map(|part| part.split_whitespace().next()) {
+            let is_own = self.control.references().iter().any(|reference| reference.id == id);
+            if !is_own && REFERENCES.contains(id) {
+                self.say(place, format!("the source `{id}` is of another control"));
+            }
         }
     }
 
@@ -386,6 +399,11 @@ impl Problems<'_> {
                 self.say(PLACE, format!("the source `{part}` is not a reference of the control"));
             }
         }
+        for code in &semantics.millimetre_distances {
+            if CodeNumber::parse(code).is_none_or(|n| control.code(n).is_none()) {
+                self.say(PLACE, format!("`{code}`, whose words are millimetres, is not a code here"));
+            }
+        }
         for code in semantics.at_end.iter().chain(&semantics.at_start) {
             if CodeNumber::parse(code).is_none_or(|n| control.code(n).is_none()) {
                 self.say(PLACE, format!("`{code}` at the start or end is not a code here"));
@@ -718,6 +736,21 @@ mod tests {
             }
         }
         assert!(wrong.is_empty(), "{} problems:\n{}", wrong.len(), wrong.join("\n"));
+    }
+
+    #[test]
+    fn a_source_of_another_control_is_refused() {
+        let control = crate::load("fluidnc").unwrap();
+        let said = |source: &str| {
+            let mut found = super::Problems { control: &control, list: Vec::new() };
+            found.source("M62", source);
+            found.list
+        };
+        assert_eq!(said("FNC-GCODE; FNC-ERRORS; seen in real programs"), [] as [&str; 0]);
+        assert_eq!(
+            said("FNC-GCODE; GHAL-ERRORS p. 4"),
+            ["fluidnc: M62: the source `GHAL-ERRORS` is of another control"]
+        );
     }
 
     /// Groups whose codes all do something that the engine follows, or explicitly do nothing (`"none"`).

@@ -167,6 +167,8 @@ pub(crate) struct CodeModel {
     pub(crate) takes_axes: bool,
     /// A canned cycle that drills along X, whatever the plane.
     pub(crate) across: bool,
+    /// The words of its block are millimetres and distances, whatever the modes.
+    pub(crate) millimetre_distances: bool,
 }
 
 /// Value of the setting of helices that measures their feed along the path of the tool.
@@ -201,6 +203,8 @@ pub struct Model<'c> {
     /// By role: the code in effect at power-on.
     pub(crate) defaults: [CodeIx; Role::COUNT],
     pub(crate) at_end: Vec<CodeIx>,
+    /// Some code has words that are millimetres and distances, whatever the modes.
+    pub(crate) has_millimetre_distances: bool,
     /// The code that ends canned cycles.
     pub(crate) cycle_cancel: CodeIx,
     /// Canned cycles and motion are one modal group, so that a cycle replaces the motion mode.
@@ -228,6 +232,8 @@ impl<'c> Model<'c> {
         let rank = |name: &str| Rank(phases.iter().position(|p| p == name).unwrap_or(phases.len()) as u8);
         let across: Vec<CodeNumber> =
             semantics.cycles.across.iter().filter_map(|name| CodeNumber::parse(name)).collect();
+        let millimetre_distances: Vec<CodeNumber> =
+            semantics.millimetre_distances.iter().filter_map(|name| CodeNumber::parse(name)).collect();
         let codes: Vec<CodeModel> = control
             .codes()
             .map(|code| CodeModel {
@@ -238,6 +244,7 @@ impl<'c> Model<'c> {
                 modal: code.group().modal,
                 takes_axes: code.entry().takes_axes,
                 across: across.contains(&code.number()),
+                millimetre_distances: millimetre_distances.contains(&code.number()),
             })
             .collect();
         let increments: Vec<(Letter, Axis)> = semantics
@@ -286,6 +293,7 @@ impl<'c> Model<'c> {
             named: FxHashMap::default(),
             defaults: [CodeIx::NONE; Role::COUNT],
             at_end: Vec::new(),
+            has_millimetre_distances: !millimetre_distances.is_empty(),
             cycle_cancel: CodeIx::NONE,
             cycles_are_motion: false,
             codes,

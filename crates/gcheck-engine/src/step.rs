@@ -872,9 +872,28 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
         Some(if number == 0.0 { 0.0 } else { number * self.unit(state) })
     }
 
-    /// Millimetres in a unit of the program; NaN when not known.
+    /// Millimetres in a unit of the block; NaN when not known.
     fn unit(&self, state: &State<D>) -> f64 {
+        if self.has_millimetre_distances() {
+            return 1.0;
+        }
         state.units(self.model).map_or(f64::NAN, Units::in_mm)
+    }
+
+    /// Are the axis words of the block distances from the present point? `None` when not known.
+    fn is_incremental(&self, state: &State<D>) -> Option<bool> {
+        // `G53` makes coordinates of them.
+        if self.has_millimetre_distances() && !self.machine_coordinates {
+            Some(true)
+        } else {
+            state.is_incremental(self.model)
+        }
+    }
+
+    /// Does the block name a code whose words are millimetres and distances, whatever the modes?
+    fn has_millimetre_distances(&self) -> bool {
+        let is_it = |code: &CodeIx| self.model.code(*code).is_some_and(|code| code.millimetre_distances);
+        self.model.has_millimetre_distances && self.words.codes().iter().any(is_it)
     }
 
     /// Is the address, elsewhere an angle that counts smallest steps, a count to a code of the block (`G43 H1` on a lathe)?

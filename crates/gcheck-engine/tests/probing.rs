@@ -179,3 +179,47 @@ fn a_length_is_measured_by_a_move_without_an_end() {
         at x0 y0 z?"#]],
     );
 }
+
+/// On a control whose codes for macros have millimetres and distances as words, from Z10 mm.
+fn check_for_macros(text: &str, expected: &Expect) {
+    let machine = Machine { fresh: false, ..machine(10.0) };
+    expected.assert_eq(&shown_on(
+        "fluidnc",
+        "XYZ",
+        &machine,
+        &format!("G21 G90 G54 G0 X0 Y0\nZ10\n{text}\nM30\n"),
+    ));
+}
+
+#[test]
+fn codes_for_macros_read_millimetres_and_distances_whatever_the_modes() {
+    let to_5 = expect![[r#"
+        rapid x0 y0 z0
+        rapid x0 y0 z10
+        probe x0 y0 z5
+        at x? y? z?"#]];
+    for text in ["G38.6 Z-5 F100", "G20\nG38.6 Z-5 F100", "G91 G38.8 Z-5 F100"] {
+        check_for_macros(text, &to_5);
+    }
+}
+
+#[test]
+fn a_later_block_without_the_code_for_macros_reads_its_words_as_usual() {
+    check_for_macros(
+        "G38.6 Z-5 F100\nZ-2",
+        &expect![[r#"
+        rapid x0 y0 z0
+        rapid x0 y0 z10
+        probe x0 y0 z5
+        probe x0 y0 z-2
+        at x? y? z?"#]],
+    );
+    check_for_macros(
+        "G38.2 Z-5 F100",
+        &expect![[r#"
+        rapid x0 y0 z0
+        rapid x0 y0 z10
+        probe x0 y0 z-5
+        at x? y? z?"#]],
+    );
+}

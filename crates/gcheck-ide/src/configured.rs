@@ -4,8 +4,9 @@
 
 use std::ops::Range;
 
-use gcheck_controls::{Code, CodeIx, CodeNumber, Effect, Letter};
+use gcheck_controls::{Code, CodeNumber, Effect, Letter};
 use gcheck_db::Snapshot;
+use gcheck_program::Word;
 
 use crate::tool_words::{tool_of, tool_word_at};
 
@@ -25,39 +26,58 @@ pub fn configured_at(snapshot: &Snapshot, offset: u32) -> Option<(Configured, Ra
     if let Some(word) = tool_word_at(snapshot, offset) {
         return Some((Configured::Tool(tool_of(snapshot, &word)), word.range));
     }
-    let (ix, range) = code_word_at(snapshot, offset)?;
-    let code = snapshot.control().code_at(ix)?;
-    Some(match code.effect() {
-        Effect::WorkOffset(number) => (Configured::Offset(number), range),
-        Effect::WorkOffsetByP(first) => {
-            let place = snapshot.block_at(offset)?;
-            let mut words = place.table.words(place.block()).iter();
-            let p =
-                words.find(|word| word.letter == Letter::of('P')).and_then(gcheck_program::Word::integer)?;
-            let number = first.checked_add(u16::try_from(p.checked_sub(1)?).ok()?)?;
-            (Configured::Offset(number), range)
-        }
-        _ => (Configured::Code(code.number()), range),
+    let place = snapshot.block_at(offset)?;
+    let is_here = |word: &&Word| {
+        let range = place.in_file(word.range());
+        range.start <= offset && offset <= range.end
+    };
+    let words = place.table.words(place.block());
+    // A place between two words belongs to both; the first that names something is meant.
+    words.iter().filter(is_here).find_map(|word| {
+        let named = named_by(snapshot, words, word).or_else(|| {
+            // The `P` of `G154 P2` names the offset with its code.
+            let is_p = word.letter == Letter::of('P');
+            is_p.then(|| words.iter().find_map(|code| offset_by_p(snapshot, words, code))).flatten()
+        })?;
+        Some((named, place.in_file(word.range())))
     })
+}
+
+/// What a G or M word names, in a block of these words.
+fn named_by(snapshot: &Snapshot, words: &[Word], word: &Word) -> Option<Configured> {
+    let code = snapshot.control().code_at(word.code)?;
+    match code.effect() {
+        Effect::WorkOffset(number) => Some(Configured::Offset(number)),
+        Effect::WorkOffsetByP(_) => offset_by_p(snapshot, words, word),
+        _ => Some(Configured::Code(code.number())),
+    }
+}
+
+/// The work offset of a code that takes its number from `P`.
+fn offset_by_p(snapshot: &Snapshot, words: &[Word], code: &Word) -> Option<Configured> {
+    let Effect::WorkOffsetByP(first) = snapshot.control().code_at(code.code)?.effect() else { return None };
+    let p = words.iter().find(|word| word.letter == Letter::of('P')).and_then(Word::integer)?;
+    Some(Configured::Offset(first.checked_add(u16::try_from(p.checked_sub(1)?).ok()?)?))
 }
 
 /// All words of a file that name the same work offset or code of the shop as the one at `offset`, in text order. Other codes are
 /// in nearly every block, and have none.
 pub(crate) fn configured_words(snapshot: &Snapshot, offset: u32) -> Vec<Range<u32>> {
-    let Some((code, _)) = code_word_at(snapshot, offset) else { return Vec::new() };
     let Some((named, _)) = configured_at(snapshot, offset) else { return Vec::new() };
-    if matches!(named, Configured::Code(number) if !is_of_shop(snapshot, number)) {
-        return Vec::new();
+    match named {
+        Configured::Tool(_) => return Vec::new(),
+        Configured::Code(number) if !is_of_shop(snapshot, number) => return Vec::new(),
+        Configured::Code(_) | Configured::Offset(_) => {}
     }
     let mut found = Vec::new();
     for chunk in snapshot.chunks() {
         let Some(table) = snapshot.table(chunk.index) else { continue };
         for (_, block) in table.blocks() {
-            let words = table.words(block).iter().filter(|word| word.code == code);
-            found.extend(words.map(|word| chunk.base + word.range().start..chunk.base + word.range().end));
+            let words = table.words(block);
+            let same = words.iter().filter(|word| named_by(snapshot, words, word) == Some(named));
+            found.extend(same.map(|word| chunk.base + word.range().start..chunk.base + word.range().end));
         }
     }
-    found.retain(|range| configured_at(snapshot, range.start + 1).is_some_and(|(other, _)| other == named));
     found
 }
 
@@ -69,22 +89,11 @@ fn is_of_shop(snapshot: &Snapshot, number: CodeNumber) -> bool {
     control.code(number).map(Code::entry) != plain.map(Code::entry)
 }
 
-/// The G or M word at an offset, by its code.
-fn code_word_at(snapshot: &Snapshot, offset: u32) -> Option<(CodeIx, Range<u32>)> {
-    let place = snapshot.block_at(offset)?;
-    let words = place.table.words(place.block());
-    words.iter().find_map(|word| {
-        let range = place.in_file(word.range());
-        let is_here = range.start <= offset && offset <= range.end;
-        (is_here && snapshot.control().code_at(word.code).is_some()).then_some((word.code, range))
-    })
-}
-
 #[cfg(test)]
 mod tests {
     use gcheck_controls::CodeNumber;
 
-    use super::{Configured, configured_at};
+    use super::{Configured, configured_at, configured_words};
     use crate::fixture::Fixture;
 
     fn at(control: &str, text: &str) -> Option<Configured> {
@@ -110,5 +119,27 @@ mod tests {
         assert_eq!(number("O1\nG1$054 P2\nM30\n"), number("O1\nG1$054 P1\nM30\n") + 1);
         assert_eq!(at("haas-mill", "O1\nG154$0\nM30\n"), None, "without `P` it names none");
         assert_eq!(at("haas-mill", "O1\nX$01. (T3)\nM30\n"), None);
+    }
+
+    #[test]
+    fn a_work_offset_is_one_by_whichever_name() {
+        let text = "O1\nG110 X0.\nG154 P1 X0.\nG154 P2 X0.\nG54 X0.\nM30\n";
+        let named = |at: &str| {
+            let fixture =
+                Fixture::new("haas-mill", &text.replacen(at, &format!("{}$0{}", &at[..1], &at[1..]), 1));
+            let words = configured_words(&fixture.snapshot(), fixture.offset);
+            words
+                .iter()
+                .map(|range| text[range.start as usize..range.end as usize].to_owned())
+                .collect::<Vec<_>>()
+        };
+        for at in ["G110", "G154 P1", "P1 X0"] {
+            assert_eq!(named(at), ["G110", "G154"], "{at}");
+        }
+        assert_eq!(named("P2 X0"), ["G154"]);
+        assert_eq!(named("G54"), ["G54"]);
+        assert_eq!(named("X0"), [] as [&str; 0]);
+        assert_eq!(at("haas-mill", "O1\nG154 P$01\nM30\n"), at("haas-mill", "O1\nG1$010\nM30\n"));
+        assert_eq!(at("haas-mill", "O1\nG4 P$01\nM30\n"), None);
     }
 }

@@ -95,7 +95,7 @@ const INCOMPLETE: &str = "analysis-incomplete";
 /// The rule that reports a file as one that is for no control of ours.
 const UNSUPPORTED: &str = "unsupported-dialect";
 
-/// So many files show the same finding; with more of them, the others are folded.
+/// How many files show the same finding; those after them are folded.
 const SHOWN: usize = 5;
 
 /// A file among others that have the same only finding.

@@ -212,7 +212,9 @@ const REFUSED_BY_GRBLHAL: &[(&str, &str)] = &[
     ("G5 X1 Y1 Z1 I1 J1 P1 Q1 F100", "word-forbidden error 24"),
     ("G5.1 X1 Y1 I1 F100", "required-word-missing error 28"),
     ("G0 X#<depth>", "named-parameter-unset error 2"),
-    ("G2 X10 Y0 I5 P0 F100", "arc-turns-not-whole "),
+    ("G2 X10 Y0 I5 P0 F100", "arc-turns-not-whole error 39"),
+    ("G51 X2 G0", "codes-conflict error 24"),
+    ("G51 X2 G1 F100", "codes-conflict error 24"),
 ];
 
 #[test]
@@ -286,6 +288,10 @@ fn what_the_descendants_read_is_no_error() {
         ("grblhal", "G2 I5 F100"),
         ("grblhal", "G92 X0\nG92.2\nG92.3\nG92.1"),
         ("grblhal", "/G0 X1"),
+        // The factor is read, and the motion is lost, which is no alarm.
+        ("grblhal", "G0 G51 X2\nG50"),
+        ("grblhal", "G51 X2\nG0 X1\nG50"),
+        ("grblhal", "G50 G80"),
         ("fluidnc", "G53 G38.2 Z-20 F60"),
         ("fluidnc", "G38.2 Z-20 F60 P0"),
         ("fluidnc", "M7\nM8\nM7.1\nM8.1"),

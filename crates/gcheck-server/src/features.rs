@@ -58,23 +58,43 @@ impl Owner {
         reply: Reply<T>,
         work: impl FnOnce(&dyn Fn() -> bool) -> Result<T> + Send + 'static,
     ) {
+        self.finish_elsewhere(uri, is_large, reply, work, |answer, reply| reply.send(Ok(answer)));
+    }
+
+    /// As [`Self::answer_elsewhere`], where `then` gives the answer from what the work found.
+    fn finish_elsewhere<T: Send + 'static, F: 'static>(
+        &self,
+        uri: &Uri,
+        is_large: bool,
+        reply: Reply<T>,
+        work: impl FnOnce(&dyn Fn() -> bool) -> Result<F> + Send + 'static,
+        then: impl FnOnce(F, Reply<T>) + Send + 'static,
+    ) {
         let clock = self.documents.get(uri).map(|document| document.clock.clone()).unwrap_or_default();
         if is_large {
-            self.workers.start_work(move || answer_if_fresh(&clock, reply, work));
+            self.workers.start_work(move || finish_if_fresh(&clock, reply, work, then));
         } else {
-            answer_if_fresh(&clock, reply, work);
+            finish_if_fresh(&clock, reply, work, then);
         }
     }
 }
 
-fn answer_if_fresh<T>(clock: &Clock, reply: Reply<T>, work: impl FnOnce(&dyn Fn() -> bool) -> Result<T>) {
+fn finish_if_fresh<T, F>(
+    clock: &Clock,
+    reply: Reply<T>,
+    work: impl FnOnce(&dyn Fn() -> bool) -> Result<F>,
+    then: impl FnOnce(F, Reply<T>),
+) {
     let before = clock.now();
     if reply.is_cancelled() {
         return;
     }
-    let answer = work(&|| reply.is_cancelled() || clock.now() != before);
-    let is_fresh = clock.now() == before;
-    reply.send(if is_fresh { answer } else { Err(Error::content_modified()) });
+    let found = work(&|| reply.is_cancelled() || clock.now() != before);
+    match found {
+        _ if clock.now() != before => reply.send(Err(Error::content_modified())),
+        Ok(found) => then(found, reply),
+        Err(error) => reply.send(Err(error)),
+    }
 }
 
 /// A refusal in words for people.

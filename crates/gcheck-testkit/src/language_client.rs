@@ -32,6 +32,8 @@ pub struct LanguageClient {
     pub requests: Vec<Value>,
     /// What the user has set, as `workspace/configuration` tells it, whatever the scope.
     pub settings: Value,
+    /// Why edits of the server are not written; `None` where they are.
+    pub refuses_edits: Option<String>,
 }
 
 impl LanguageClient {
@@ -69,6 +71,7 @@ impl LanguageClient {
             notifications: Vec::new(),
             requests: Vec::new(),
             settings: Value::Null,
+            refuses_edits: None,
         }
     }
 
@@ -203,7 +206,10 @@ impl LanguageClient {
                 let items = message.pointer("/params/items").and_then(Value::as_array).map_or(0, Vec::len);
                 Value::Array(vec![self.settings.clone(); items])
             }
-            Some("workspace/applyEdit") => json!({ "applied": true }),
+            Some("workspace/applyEdit") => match &self.refuses_edits {
+                None => json!({ "applied": true }),
+                Some(reason) => json!({ "applied": false, "failureReason": reason }),
+            },
             Some("window/showDocument") => json!({ "success": true }),
             _ => Value::Null,
         }

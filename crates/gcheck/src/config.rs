@@ -190,7 +190,9 @@ impl Configs {
 
 /// The JSON schema of `gcheck.toml`.
 pub(crate) fn json_schema() -> schemars::Schema {
-    schemars::schema_for!(ConfigFile)
+    let mut schema = schemars::schema_for!(ConfigFile);
+    file::describe_overrides(&mut schema);
+    schema
 }
 
 /// The JSON schema of `gcheck.toml`, as `gcheck schema` prints it.

@@ -1,4 +1,4 @@
-//! Help for who writes a configuration: what a key means, what may be written, where an entry is.
+//! Help in a configuration: what a key means, what may be written, where an entry is.
 //!
 //! Knows: the text as it is, half-typed and broken too, the schema, and the forms in which the server is answered. Must not know: files,
 //! editors.

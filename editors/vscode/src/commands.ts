@@ -121,7 +121,7 @@ async function askAndChange(server: Server, asked: AskedChange): Promise<void> {
   }
 }
 
-/** The lengths of a shift, each as it is typed; `undefined` where the text is none. */
+/** The lengths of a shift, each as it is typed; `undefined` where the text is not a shift. */
 function readShift(text: string): Record<string, string> | undefined {
   const word = /([XYZ])\s*([-+]?(?:\d+\.?\d*|\.\d+)\s*(?:mm|inch|in)?)(?=[\sXYZ,;]|$)[\s,;]*/giy;
   const shift: Record<string, string> = {};

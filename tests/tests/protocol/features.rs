@@ -645,6 +645,57 @@ fn a_shift_and_new_numbers_are_made_with_their_proof() {
     assert!(!all.iter().any(|action| action["title"].as_str().unwrap().contains('…')), "{all:?}");
 }
 
+#[test]
+fn a_change_of_an_empty_range_is_one_of_its_line() {
+    let mut session = Session::new(&[]);
+    let text = DRILLED.replace("G80\nM30", "G80\nG0 Z50.\nM30");
+    session.open("a.nc", &text);
+    let uri = session.uri("a.nc");
+    let asked = |range: Option<[u32; 4]>| {
+        let range = range.map(range_of);
+        let argument = json!({ "uri": uri, "change": "translate", "z": "1", "range": range });
+        json!({ "command": "gcheck.changePath", "arguments": [argument] })
+    };
+    let mut lines = |range| {
+        ask(&mut session, "workspace/executeCommand", asked(range));
+        let edit =
+            session.client.requests.iter().rev().find(|asked| asked["method"] == "workspace/applyEdit");
+        let edit = edit.unwrap()["params"]["edit"]["documentChanges"][0].clone();
+        let edits = edit["edits"].as_array().unwrap();
+        edits.iter().map(|edit| edit["range"]["start"]["line"].as_u64().unwrap()).collect::<Vec<_>>()
+    };
+    assert_eq!(lines(Some([4, 3, 4, 3])), [4], "an empty range");
+    assert_eq!(lines(Some([4, 0, 5, 0])), [4], "a whole line");
+    assert_eq!(lines(None), [4, 5, 5, 7]);
+    assert_eq!(lines(Some([0, 0, 11, 0])), [4, 5, 5, 7], "all lines, to the end of the last");
+    let count = session.client.requests.len();
+    for (range, reason) in [
+        ([40, 0, 50, 3], "the range is not in the program, which has 11 lines"),
+        ([4, 0, 40, 0], "the range is not in the program"),
+        ([11, 0, 11, 0], "the range is not in the program"),
+        ([5, 0, 4, 0], "the range ends before it begins"),
+        ([4, 5, 4, 2], "the range ends before it begins"),
+    ] {
+        let refused = session.client.refused("workspace/executeCommand", asked(Some(range)));
+        assert!(refused["message"].as_str().unwrap().contains(reason), "{range:?}: {refused}");
+    }
+    assert_eq!(session.client.requests.len(), count, "nothing is written");
+}
+
+#[test]
+fn a_change_that_the_editor_does_not_write_is_refused() {
+    let mut session = Session::new(&[]);
+    session.open("a.nc", DRILLED);
+    session.client.refuses_edits = Some("the file is read-only".to_owned());
+    let argument = json!({ "uri": session.uri("a.nc"), "change": "translate", "z": "1" });
+    let command = json!({ "command": "gcheck.changePath", "arguments": [argument] });
+    let refused = session.client.refused("workspace/executeCommand", command.clone());
+    assert_eq!(refused["message"], "the editor did not write the change: the file is read-only");
+    session.client.refuses_edits = None;
+    let done = ask(&mut session, "workspace/executeCommand", command);
+    assert_eq!(done["changes"], true, "{done}");
+}
+
 /// A configuration that each step of somebody who types makes broken and whole again.
 const SHOP: &str = "control = \"haas-mill\"\n[machine]\nunits = \"mm\"\nmax_rpm = 8000\n[tools]\n3 = { length = 80.0 }\n[offsets]\nG54 = { X = -400.0 }\n\"G154 P2\" = { X = 1.0 }\n[codes]\nM51 = { title = \"door\", alias = \"O9010\" }\n";
 

@@ -183,8 +183,6 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         self.model.semantics().strict
     }
 
-    /// What a block without a known mode of motion does: it may be a move of any kind that the modes allow, or a cycle, with
-    /// the words that each keeps.
     /// May the motion go to a point in machine coordinates (`G53`)? A probing code may where the control reads the limit of its
     /// move so, in its own block.
     pub(super) fn moves_to_machine_point(&self, motion: CodeIx) -> bool {
@@ -195,6 +193,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         probes || matches!(effect, Effect::Rapid | Effect::Linear)
     }
 
+    /// What a block without a known mode of motion does: it may be a move of any kind that the modes allow, or a cycle, with
+    /// the words that each keeps.
     fn lose_motion(&mut self, state: &mut State<D>) -> Step {
         let may_be = |role: Role, is: &dyn Fn(Effect) -> bool| {
             let modes = state.mode(role);
@@ -246,7 +246,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             // It turns though no word of the program names it.
             target.set(cylinder.rotary, state.actual().raw(cylinder.rotary));
         }
-        let incremental = state.is_incremental(self.model);
+        let incremental = self.is_incremental(state);
         let unit = self.unit(state);
         let named = self.words.present().and(self.model.axis_letters);
         for letter in named.iter() {

@@ -15,7 +15,7 @@ use crate::state::{State, Touch, Way, Ways};
 use crate::value::{Domain, Truth};
 
 impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
-    /// `G38.2` to `G38.5`.
+    /// `G38.2` to `G38.9`.
     pub(super) fn probe_move(&mut self, effect: Effect, state: &mut State<D>) -> Step {
         let target = self.target(state)?;
         if self.compensates(state) {
@@ -132,7 +132,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let mut ways = Ways::STILL;
         for letter in self.words.present().and(self.model.axis_letters).iter() {
             let Some((axis, is_increment)) = self.model.axis_of(letter) else { continue };
-            let increment = self.words.number(letter).filter(|_| match state.is_incremental(self.model) {
+            let increment = self.words.number(letter).filter(|_| match self.is_incremental(state) {
                 Some(incremental) => incremental || is_increment,
                 None => is_increment,
             });

@@ -15,8 +15,8 @@ use crate::mailbox::Reply;
 use crate::owner::{Addressed, Owner};
 use crate::position::Places;
 use crate::proto::{
-    ApplyWorkspaceEdit, ApplyWorkspaceEditParams, CodeAction, CodeActionKind, CodeActionOrCommand,
-    CodeActionParams, CodeActionResponse, Command, Diagnostic, DocumentFormattingParams,
+    ApplyWorkspaceEdit, ApplyWorkspaceEditParams, ApplyWorkspaceEditResponse, CodeAction, CodeActionKind,
+    CodeActionOrCommand, CodeActionParams, CodeActionResponse, Command, Diagnostic, DocumentFormattingParams,
     DocumentOnTypeFormattingParams, DocumentRangeFormattingParams, Error, NumberOrString, Result, TextEdit,
     Uri,
 };
@@ -235,23 +235,32 @@ impl Owner {
             (Ok((id, version)), Ok(snapshot)) => (id, version, snapshot),
             (Err(error), _) | (_, Err(error)) => return reply.send(Err(error)),
         };
-        let range = asked.range.map(|range| self.places(&snapshot).bytes(range));
-        let range = range.filter(|range| !range.is_empty());
-        let range = range.map(|range| gcheck_ide::whole_lines(&snapshot, &range));
+        let range = asked.range.map(|range| lines_of(&self.places(&snapshot), &snapshot, range)).transpose();
+        let range = match range {
+            Ok(range) => range,
+            Err(reason) => return reply.send(Err(refused(reason))),
+        };
         let files = Addressed::of(&uri, id, version, document_name(self, &uri), snapshot.clone());
         let (encoding, versioned) = (self.abilities.encoding, self.abilities.versioned_edits);
         let outbox = std::sync::Arc::clone(&self.outbox);
-        self.answer_elsewhere(&uri, true, reply, move |stop| {
+        let work = move |stop: &dyn Fn() -> bool| {
             let proved = gcheck_ide::proved(&snapshot, &change, range, PROOF_FUEL, stop).map_err(given_up)?;
             let proved = proved.map_err(refused)?;
-            let changes = !proved.edits.is_empty();
-            if changes && !stop() {
+            let edit = (!proved.edits.is_empty()).then(|| {
                 let edits = vec![FileEdits { file: id, edits: proved.edits }];
-                let edit = workspace_edit(&files, edits, encoding, versioned);
-                let params = ApplyWorkspaceEditParams { label: Some(proved.claim.clone()), edit };
-                outbox.ask::<ApplyWorkspaceEdit>(params, |_| ());
-            }
-            Ok(serde_json::to_value(Changed { claim: proved.claim, changes }).ok())
+                workspace_edit(&files, edits, encoding, versioned)
+            });
+            Ok((proved.claim, edit))
+        };
+        self.finish_elsewhere(&uri, true, reply, work, move |(claim, edit), reply| {
+            let changed = Changed { changes: edit.is_some(), claim };
+            let answer = |changed: &Changed| serde_json::to_value(changed).ok();
+            let Some(edit) = edit else { return reply.send(Ok(answer(&changed))) };
+            let params = ApplyWorkspaceEditParams { label: Some(changed.claim.clone()), edit };
+            // The claim holds of the text that the client writes, so the answer waits for it.
+            outbox.ask::<ApplyWorkspaceEdit>(params, move |written| {
+                reply.send(written.and_then(is_applied).map(|()| answer(&changed)));
+            });
         });
     }
 
@@ -329,6 +338,34 @@ impl Owner {
         let edits = edits(&snapshot, &places, &style);
         Ok(Some(text_edits(edits, &mut places)))
     }
+}
+
+/// The lines that a range touches: an empty one the line that it is in. The error says why it has none.
+fn lines_of(
+    places: &Places<'_>,
+    snapshot: &Snapshot,
+    range: crate::proto::Range,
+) -> std::result::Result<std::ops::Range<u32>, String> {
+    let (start, end) = (range.start, range.end);
+    if (end.line, end.character) < (start.line, start.character) {
+        return Err("the range ends before it begins".to_owned());
+    }
+    let lines = snapshot.line_count();
+    // All lines end where one more would begin.
+    let is_all = start.line < end.line && (end.line, end.character) == (lines, 0);
+    if start.line >= lines || end.line >= lines && !is_all {
+        return Err(format!("the range is not in the program, which has {lines} lines"));
+    }
+    Ok(gcheck_ide::whole_lines(snapshot, &places.bytes(range)))
+}
+
+/// Did the client write an edit? The error says why it did not.
+fn is_applied(answer: ApplyWorkspaceEditResponse) -> Result<()> {
+    if answer.applied {
+        return Ok(());
+    }
+    let reason = answer.failure_reason.map(|reason| format!(": {reason}")).unwrap_or_default();
+    Err(refused(format!("the editor did not write the change{reason}")))
 }
 
 fn document_name(owner: &Owner, uri: &Uri) -> std::sync::Arc<str> {

@@ -10,6 +10,7 @@ use gcheck_diagnostics::Severity;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{self, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer};
+use serde_json::Value;
 
 use super::listed_names::{ControlName, RuleSelector, list_rules};
 use super::{FormatTable, Placed, PresetName};
@@ -52,35 +53,39 @@ pub struct ConfigFile {
     pub format: FormatTable,
 }
 
-/// What differs for the files that fit a pattern.
+/// What differs for the files that fit a pattern. Keys without a description here have that of [`ConfigFile`], which
+/// [`describe_overrides`] copies.
 #[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case", default)]
-#[schemars(rename = "Override")]
+#[schemars(rename = "Override", description = "What differs for the files that fit a pattern.")]
+#[expect(missing_docs, reason = "the schema takes them from the keys of the file")]
 pub struct OverrideTable {
     /// Patterns as in `per-file-ignores`.
     #[schemars(required)]
     pub files: Vec<Placed<String>>,
-    /// The control that runs the programs. `gcheck controls` lists the names. Without it the control is detected.
     #[schemars(with = "Option<ControlName>")]
     pub control: Option<Placed<String>>,
-    /// The machine: axes, travels, limits.
     pub machine: MachineTable,
-    /// The control's own numbered settings, values as its page words them: `162 = false`, `34 = 6.0`, `40 = "diameter"`.
     pub settings: BTreeMap<Placed<String>, Placed<Scalar>>,
-    /// Macro variables and named parameters set before a program starts: `"#3100" = 2.5`, `"#<name>" = 1`.
     pub variables: BTreeMap<Placed<String>, f64>,
-    /// Work offsets in machine coordinates: `G54 = { X = -400.0, Y = -200.0 }`. An axis that is left out is zero.
     pub offsets: BTreeMap<Placed<String>, BTreeMap<Placed<String>, f64>>,
-    /// Tools by number, or `table = "tool.tbl"`: then there are no others.
     pub tools: ToolsTable,
-    /// Codes of the shop: M codes of the builder, aliases of macros.
     pub codes: BTreeMap<Placed<String>, CodeTable>,
-    /// Where called programs live.
     pub search: SearchTable,
-    /// Which rules run, and how severe they are.
     pub rules: RulesTable,
-    /// How `gcheck fmt` writes programs.
     pub format: FormatTable,
+}
+
+/// Gives the keys of an override the descriptions that the same keys of the file have.
+pub(super) fn describe_overrides(schema: &mut Schema) {
+    let described = schema.get("properties").and_then(Value::as_object).cloned().unwrap_or_default();
+    let overrides = schema.pointer_mut("/$defs/Override/properties").and_then(Value::as_object_mut);
+    for (key, property) in overrides.into_iter().flatten() {
+        let description = described.get(key).and_then(|key| key.get("description"));
+        if let (Some(property), Some(description)) = (property.as_object_mut(), description) {
+            property.entry("description").or_insert_with(|| description.clone());
+        }
+    }
 }
 
 /// `[machine]`.

@@ -2,7 +2,7 @@
 //!
 //! Knows: how keys and values are written. Must not know: any key.
 
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 use gcheck_server::ConfigurationOffer;
@@ -19,19 +19,45 @@ pub(crate) fn completion(text: &str, offset: usize) -> Vec<ConfigurationOffer> {
     let outline = Outline::read(text);
     let asked = Asked { text, outline: &outline, offset };
     let (mut offers, typed) = match outline.at(offset) {
-        Spot::Key(key) => {
-            let table = key.path.split_last().map_or(&[][..], |(_, table)| table);
+        Spot::Key(key, path) => {
+            let table = path.split_last().map_or(&[][..], |(_, table)| table);
             (asked.keys(table, key.form, Some(key)), asked.before(&key.range))
         }
-        Spot::NewKey(table, form) => (asked.keys(table, form, None), ""),
-        Spot::Value(value) => (asked.values(&value.path, Some(value)), asked.before(&value.range)),
-        Spot::NewValue(path) => (asked.values(path, None), ""),
+        Spot::NewKey(table, form) => (asked.keys(&table, form, None), ""),
+        Spot::Value(value, path) => (asked.values(&path, Some(value)), asked.before(&value.range)),
+        Spot::NewValue(path) => (asked.values(&path, None), ""),
         Spot::Nothing => (Vec::new(), ""),
     };
     let typed = typed.trim_start_matches(['"', '\'']).to_lowercase();
     offers.retain(|offer| offer.label.to_lowercase().contains(&typed));
     offers.sort_by_key(|offer| !offer.label.to_lowercase().starts_with(&typed));
     offers
+}
+
+/// How a key may be written once more.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Way {
+    /// As one that the table does not have.
+    Whole,
+    /// As the head of another key: `tools.` for `[tools.7]`.
+    Head,
+}
+
+/// How a key may be written beside the places where its table has it already; `None` where TOML allows it once.
+fn way(form: Form, value: &Shape, there: &[&KeyPlace]) -> Option<Way> {
+    let only_in = |form: Form| there.iter().all(|place| place.form == form);
+    let only_heads = there.iter().all(|place| place.is_head);
+    match form {
+        _ if there.is_empty() => Some(Way::Whole),
+        // Each header begins another table of the list.
+        Form::ListHeader => there.iter().all(|place| place.form != Form::Plain).then_some(Way::Whole),
+        // What is the value of a key has no header.
+        Form::Header if there.iter().any(|place| place.form == Form::Plain && !place.is_head) => None,
+        // Of a table of tables, such as the tools, there may be a header for each.
+        Form::Header if value.is_of_tables() => Some(Way::Head),
+        Form::Header => (only_in(Form::Header) && only_heads).then_some(Way::Whole),
+        Form::Plain => (value.may_be_table() && only_in(Form::Plain) && only_heads).then_some(Way::Head),
+    }
 }
 
 struct Asked<'a> {
@@ -55,7 +81,10 @@ impl<'a> Asked<'a> {
         let Some(shape) = Shape::at(table) else { return Vec::new() };
         let range = typed.map_or(self.offset..self.offset, |key| key.range.clone());
         let others = self.outline.keys_of(table).filter(|(_, place)| place.range != range);
-        let there: BTreeSet<&str> = others.map(|(name, _)| name).collect();
+        let mut there: BTreeMap<&str, Vec<&KeyPlace>> = BTreeMap::new();
+        for (name, place) in others {
+            there.entry(name).or_default().push(place);
+        }
         let control = control_at(self.outline, self.text, table);
         let open = names(table, control.as_deref()).into_iter();
         let open = open.filter_map(|name| shape.value_of(&name.name).map(|value| (name, value)));
@@ -64,19 +93,30 @@ impl<'a> Asked<'a> {
             (Name { name: name.to_owned(), description }, value)
         });
         let is_at_top = table.is_empty();
+        let takes_keys = !self.is_followed(range.end, &['=', '.']) && self.outline.header_takes_keys(&range);
         let mut offers = Vec::new();
         for (Name { name, description }, value) in listed.chain(open) {
-            // Of a table with keys of its own, such as the tools, there may be a header for each.
-            let is_again = form == Form::Header && value.is_open() || form == Form::ListHeader;
             let fits = match form {
                 Form::Header => value.kind() == Kind::Table,
                 Form::ListHeader => value.kind() == Kind::ListOfTables,
                 Form::Plain => true,
             };
-            if !fits || !is_again && there.contains(name.as_str()) {
+            let places = there.get(name.as_str()).map(Vec::as_slice).unwrap_or_default();
+            let Some(way) = way(form, &value, places).filter(|_| fits) else { continue };
+            let is_header = match form {
+                Form::Header | Form::ListHeader => true,
+                Form::Plain => way == Way::Whole && matches!(value.kind(), Kind::Table | Kind::ListOfTables),
+            };
+            if is_header && is_at_top && takes_keys {
                 continue;
             }
-            let (text, snippet) = self.key_written(&name, &value, form, &range, is_at_top);
+            let (text, snippet) = match way {
+                Way::Whole => self.key_written(&name, &value, form, &range, is_at_top),
+                // What is the head of other keys has no value.
+                Way::Head if self.is_followed(range.end, &['=']) => continue,
+                Way::Head if self.is_followed(range.end, &['.']) => (quoted(&name), None),
+                Way::Head => (format!("{}.", quoted(&name)), None),
+            };
             let quote = self.before(&range).chars().next().filter(|first| ['"', '\''].contains(first));
             let filter = quote.map_or_else(|| name.clone(), |quote| format!("{quote}{name}"));
             let range = range.clone();
@@ -102,10 +142,11 @@ impl<'a> Asked<'a> {
         range: &Range<usize>,
         is_at_top: bool,
     ) -> (String, Option<String>) {
-        let is_bare = name.bytes().all(|b| b.is_ascii_alphanumeric() || b == b'_' || b == b'-');
-        let key = if is_bare { name.to_owned() } else { format!("\"{name}\"") };
+        let key = quoted(name);
         match form {
-            Form::Header if !self.is_followed(range.end, &[']', '.']) => return (format!("{key}]"), None),
+            Form::Header if !self.is_followed(range.end, &[']', '.']) => {
+                return (format!("{key}]"), None);
+            }
             Form::ListHeader if !self.is_followed(range.end, &[']', '.']) => {
                 return (format!("{key}]]"), None);
             }
@@ -187,6 +228,12 @@ impl<'a> Asked<'a> {
         let is_inside = range.start <= self.offset && self.offset <= range.end;
         is_inside.then_some(Gap { range, quote: Some(quote), is_closed, blank: "" })
     }
+}
+
+/// A key as TOML writes it.
+fn quoted(name: &str) -> String {
+    let is_bare = name.bytes().all(|b| b.is_ascii_alphanumeric() || b == b'_' || b == b'-');
+    if is_bare { name.to_owned() } else { format!("\"{name}\"") }
 }
 
 /// Where a value is written.
@@ -313,6 +360,71 @@ mod tests {
             ),
         ] {
             assert_eq!(taken(text, label), expected, "{text}");
+        }
+    }
+
+    #[test]
+    fn a_table_that_is_there_has_no_second_header() {
+        for (text, label, expected) in [
+            ("[tools]\n1 = {}\n[$0", "tools", "[tools]\n1 = {}\n[tools."),
+            ("[tools.7]\n[too$0]", "tools", "[tools.7]\n[tools.]"),
+            ("[tools.7]\n[too$0.8]", "tools", "[tools.7]\n[tools.8]"),
+            ("[machine.travel]\n[mach$0", "machine", "[machine.travel]\n[machine]"),
+            (
+                "[[overrides]]\n[overrides.tools]\n[overrides.$0",
+                "tools",
+                "[[overrides]]\n[overrides.tools]\n[overrides.tools.",
+            ),
+            ("[[overrides]]\n[[$0", "overrides", "[[overrides]]\n[[overrides]]"),
+        ] {
+            assert_eq!(taken(text, label), expected, "{text}");
+        }
+        for (text, label) in [
+            ("[variables]\n\"#500\" = 1\n[$0", "variables"),
+            ("[rules]\n[$0", "rules"),
+            ("[machine]\n[$0", "machine"),
+            ("tools = { 1 = {} }\n[$0", "tools"),
+            ("machine.units = \"mm\"\n[$0", "machine"),
+            ("overrides = []\n[[$0", "overrides"),
+            ("control = \"haas-mill\"\n[offsets]\nG54 = { X = 1 }\n[offsets.$0", "G54"),
+        ] {
+            assert!(!labels(text).iter().any(|offered| offered == label), "{label} in {text}");
+        }
+    }
+
+    #[test]
+    fn no_header_is_offered_above_keys_of_the_top_table() {
+        let is_offered = |text: &str| labels(text).iter().any(|label| label == "machine");
+        for text in ["$0\ncontrol = \"haas-mill\"\n", "mach$0\ncontrol = 1\n[tools]\n"] {
+            assert!(!is_offered(text), "{text}");
+        }
+        for text in ["[$0\ncontrol = 1\n", "[mach$0]\ncontrol = 1\n", "over$0\ncontrol = 1\n"] {
+            assert_eq!(labels(text), [] as [&str; 0], "{text}");
+        }
+        assert!(labels("$0\ncontrol = \"haas-mill\"\n").contains(&"extend".to_owned()));
+        for text in ["control = 1\n$0\n[tools]\n1 = {}\n", "[$0\n[tools]\n1 = {}\n", "[rules]\n[$0\nx = 1"] {
+            assert!(is_offered(text), "{text}");
+        }
+        assert_eq!(taken("mach$0.units = 1\ncontrol = 1", "machine"), "machine.units = 1\ncontrol = 1");
+    }
+
+    #[test]
+    fn the_head_of_dotted_keys_is_written_again_with_its_point() {
+        for (text, label, expected) in [
+            ("[machine]\ntravel.X = [0, 1]\ntra$0", "travel", "[machine]\ntravel.X = [0, 1]\ntravel."),
+            ("[machine]\nrapid.X = 1\nrap$0", "rapid", "[machine]\nrapid.X = 1\nrapid."),
+            ("[machine]\ntravel.X = [0, 1]\ntra$0.Y", "travel", "[machine]\ntravel.X = [0, 1]\ntravel.Y"),
+            ("machine.units = 1\nmach$0\ncontrol = 1", "machine", "machine.units = 1\nmachine.\ncontrol = 1"),
+        ] {
+            assert_eq!(taken(text, label), expected, "{text}");
+        }
+        for text in [
+            "[machine]\ntravel = { X = [0, 1] }\ntra$0",
+            "[machine]\ntra$0\n[machine.travel]",
+            "[machine]\ntravel.X = [0, 1]\ntra$0 = 1",
+            "control.x = 1\ncontr$0",
+        ] {
+            assert_eq!(labels(text), [] as [&str; 0], "{text}");
         }
     }
 

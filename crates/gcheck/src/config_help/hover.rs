@@ -17,18 +17,18 @@ const MOST_VALUES: usize = 12;
 pub(crate) fn hover(text: &str, offset: usize) -> Option<ConfigurationHover> {
     let outline = Outline::read(text);
     match outline.at(offset) {
-        Spot::Key(key) => {
-            let shape = Shape::at(&key.path)?;
-            let markdown = of_key(&outline, text, &key.path, &shape);
+        Spot::Key(key, path) => {
+            let shape = Shape::at(&path)?;
+            let markdown = of_key(&outline, text, &path, &shape);
             Some(ConfigurationHover { markdown, range: key.range.clone() })
         }
-        Spot::Value(value) => {
-            let shape = Shape::at(&value.path)?;
+        Spot::Value(value, path) => {
+            let shape = Shape::at(&path)?;
             let written = text.get(value.range.clone())?.trim_matches(['"', '\'']);
             let allowed = shape.allowed().into_iter().find(|allowed| allowed.text == written);
             let markdown = match allowed.filter(|allowed| !allowed.description.is_empty()) {
                 Some(allowed) => format!("**{}**\n\n{}", allowed.text, flowing(allowed.description)),
-                None => of_key(&outline, text, &value.path, &shape),
+                None => of_key(&outline, text, &path, &shape),
             };
             Some(ConfigurationHover { markdown, range: value.range.clone() })
         }
@@ -83,7 +83,7 @@ fn units(outline: &Outline, text: &str, path: &[Step]) -> String {
     }
 }
 
-/// A text without the breaks of its lines.
+/// The text as one line.
 fn flowing(text: &str) -> String {
     text.replace('\n', " ")
 }

@@ -3,6 +3,7 @@
 //! Knows: TOML's form, which key or value a place belongs to. Must not know: which keys there are.
 
 use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 use std::ops::Range;
 
 use toml_parser::decoder::Encoding;
@@ -42,20 +43,50 @@ pub(super) enum Form {
     Plain,
 }
 
+/// A path from the top of the file, as a number of the outline.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct PathIx(u32);
+
+impl PathIx {
+    const TOP: Self = Self(0);
+}
+
+/// A path: one step from another, so that the paths of a text take no more room than the text.
+#[derive(Debug)]
+struct PathNode {
+    /// The path before the last step, and this step; `None` at the top.
+    last: Option<(PathIx, Step)>,
+    /// The keys of the table at this path, in text order.
+    keys: Vec<usize>,
+    /// The values at this path, in text order.
+    values: Vec<usize>,
+    /// The items of the list at this path, in text order.
+    items: Vec<PathIx>,
+    /// How many tables the list of tables at this path has.
+    tables: usize,
+}
+
+impl PathNode {
+    fn new(last: Option<(PathIx, Step)>) -> Self {
+        Self { last, keys: Vec::new(), values: Vec::new(), items: Vec::new(), tables: 0 }
+    }
+}
+
 /// A key in the text.
 #[derive(Debug, Clone)]
 pub(super) struct KeyPlace {
-    /// From the top of the file to the key itself.
-    pub(super) path: Vec<Step>,
+    path: PathIx,
     /// Bytes, with quotation marks.
     pub(super) range: Range<usize>,
     pub(super) form: Form,
+    /// A point and another key follow: `tools` in `[tools.7]`.
+    pub(super) is_head: bool,
 }
 
 /// A single value in the text.
 #[derive(Debug, Clone)]
 pub(super) struct ValuePlace {
-    pub(super) path: Vec<Step>,
+    path: PathIx,
     /// Bytes, with quotation marks.
     pub(super) range: Range<usize>,
     pub(super) is_quoted: bool,
@@ -64,21 +95,25 @@ pub(super) struct ValuePlace {
 /// What is at a place, or may be written there.
 #[derive(Debug)]
 pub(super) enum Spot<'o> {
-    /// A key that is there.
-    Key(&'o KeyPlace),
+    /// A key that is there, with its path from the top of the file to the key itself.
+    Key(&'o KeyPlace, Vec<Step>),
     /// A key of this table may begin here.
-    NewKey(&'o [Step], Form),
-    /// A value that is there.
-    Value(&'o ValuePlace),
+    NewKey(Vec<Step>, Form),
+    /// A value that is there, with its path.
+    Value(&'o ValuePlace, Vec<Step>),
     /// The value of this key may begin here.
-    NewValue(&'o [Step]),
+    NewValue(Vec<Step>),
     /// Neither.
     Nothing,
 }
 
 /// The keys and values of a text.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(super) struct Outline {
+    paths: Vec<PathNode>,
+    /// The path one step further than another.
+    steps: BTreeMap<(PathIx, Step), PathIx>,
+    /// In text order.
     keys: Vec<KeyPlace>,
     values: Vec<ValuePlace>,
     comments: Vec<Range<usize>>,
@@ -88,8 +123,8 @@ pub(super) struct Outline {
 
 #[derive(Debug)]
 enum Mark {
-    Key(Vec<Step>, Form),
-    Value(Vec<Step>),
+    Key(PathIx, Form),
+    Value(PathIx),
     Nothing,
 }
 
@@ -110,52 +145,75 @@ impl Outline {
             return Spot::Nothing;
         }
         if let Some(key) = self.keys.iter().find(|key| !key.range.is_empty() && touches(&key.range)) {
-            return Spot::Key(key);
+            return Spot::Key(key, self.steps_to(key.path));
         }
         if let Some(value) = self.values.iter().find(|value| touches(&value.range)) {
-            return Spot::Value(value);
+            return Spot::Value(value, self.steps_to(value.path));
         }
         match self.marks.iter().take_while(|(from, _)| *from <= offset).last() {
-            Some((_, Mark::Key(table, form))) => Spot::NewKey(table, *form),
-            Some((_, Mark::Value(path))) => Spot::NewValue(path),
+            Some((_, Mark::Key(table, form))) => Spot::NewKey(self.steps_to(*table), *form),
+            Some((_, Mark::Value(path))) => Spot::NewValue(self.steps_to(*path)),
             _ => Spot::Nothing,
         }
     }
 
     /// The keys that a table has, each as often as it is written.
-    pub(super) fn keys_of<'o>(&'o self, table: &'o [Step]) -> impl Iterator<Item = (&'o str, &'o KeyPlace)> {
-        self.keys.iter().filter_map(move |key| {
-            let (last, before) = key.path.split_last()?;
-            Some((last.key().filter(|_| before == table)?, key))
+    pub(super) fn keys_of(&self, table: &[Step]) -> impl Iterator<Item = (&str, &KeyPlace)> {
+        let keys = self.node_at(table).map(|node| node.keys.as_slice()).unwrap_or_default();
+        keys.iter().filter_map(|ix| {
+            let key = self.keys.get(*ix)?;
+            let (_, last) = self.node(key.path)?.last.as_ref()?;
+            Some((last.key()?, key))
         })
     }
 
     /// The tables of a list of tables: `[[overrides]]`.
     pub(super) fn items_of(&self, list: &[Step]) -> Vec<Vec<Step>> {
-        let items = self.keys.iter().filter_map(|key| {
-            let item = key.path.get(list.len()).filter(|step| matches!(step, Step::Item(_)))?;
-            key.path.starts_with(list).then(|| [list, std::slice::from_ref(item)].concat())
-        });
-        let mut items: Vec<_> = items.collect();
-        items.sort();
-        items.dedup();
-        items
+        let items = self.node_at(list).map(|node| node.items.as_slice()).unwrap_or_default();
+        items.iter().map(|item| self.steps_to(*item)).collect()
     }
 
     /// The values at a path, or of the list there.
     pub(super) fn values_of(&self, path: &[Step]) -> impl Iterator<Item = &ValuePlace> {
-        self.values.iter().filter(move |value| {
-            let rest = value.path.strip_prefix(path);
-            matches!(rest, Some([] | [Step::Item(_)]))
-        })
+        let own = self.node_at(path);
+        let items = own.map(|node| node.items.as_slice()).unwrap_or_default();
+        let nodes = own.into_iter().chain(items.iter().filter_map(|item| self.node(*item)));
+        nodes.flat_map(|node| &node.values).filter_map(|ix| self.values.get(*ix))
+    }
+
+    /// Would a header in these bytes take keys that are of the top table without it?
+    pub(super) fn header_takes_keys(&self, range: &Range<usize>) -> bool {
+        let mut before = self.keys.iter().take_while(|key| key.range.start < range.start);
+        let next = self.keys.iter().find(|key| range.end <= key.range.start);
+        before.all(|key| key.form == Form::Plain) && next.is_some_and(|key| key.form == Form::Plain)
+    }
+
+    fn node(&self, path: PathIx) -> Option<&PathNode> {
+        self.paths.get(path.0 as usize)
+    }
+
+    fn node_at(&self, path: &[Step]) -> Option<&PathNode> {
+        let find = |path, step: &Step| self.steps.get(&(path, step.clone())).copied();
+        self.node(path.iter().try_fold(PathIx::TOP, find)?)
+    }
+
+    fn steps_to(&self, path: PathIx) -> Vec<Step> {
+        let mut steps = Vec::new();
+        let mut at = path;
+        while let Some((before, step)) = self.node(at).and_then(|node| node.last.as_ref()) {
+            steps.push(step.clone());
+            at = *before;
+        }
+        steps.reverse();
+        steps
     }
 }
 
 /// What a value is written in.
 #[derive(Debug)]
 enum Frame {
-    Table(Vec<Step>),
-    List(Vec<Step>, usize),
+    Table(PathIx),
+    List(PathIx, usize),
 }
 
 /// Follows the text and writes down what is where.
@@ -163,30 +221,34 @@ struct Reader<'t> {
     source: Source<'t>,
     outline: Outline,
     /// Of the last header.
-    table: Vec<Step>,
+    table: PathIx,
     /// The header that is being read.
     header: Option<Form>,
     /// The key that was read last, from the top of the file.
-    key: Vec<Step>,
+    key: PathIx,
     /// The key goes on after a point.
     goes_on: bool,
     frames: Vec<Frame>,
-    /// How many tables each list of tables has.
-    lists: BTreeMap<Vec<Step>, usize>,
 }
 
 impl<'t> Reader<'t> {
     fn new(source: Source<'t>) -> Self {
-        let outline = Outline { marks: vec![(0, Mark::Key(Vec::new(), Form::Plain))], ..Outline::default() };
+        let outline = Outline {
+            paths: vec![PathNode::new(None)],
+            steps: BTreeMap::new(),
+            keys: Vec::new(),
+            values: Vec::new(),
+            comments: Vec::new(),
+            marks: vec![(0, Mark::Key(PathIx::TOP, Form::Plain))],
+        };
         Self {
             source,
             outline,
-            table: Vec::new(),
+            table: PathIx::TOP,
             header: None,
-            key: Vec::new(),
+            key: PathIx::TOP,
             goes_on: false,
             frames: Vec::new(),
-            lists: BTreeMap::new(),
         }
     }
 
@@ -198,29 +260,52 @@ impl<'t> Reader<'t> {
         self.header.unwrap_or(Form::Plain)
     }
 
+    fn node(&mut self, path: PathIx) -> Option<&mut PathNode> {
+        self.outline.paths.get_mut(path.0 as usize)
+    }
+
+    /// The path one step further.
+    fn step(&mut self, before: PathIx, step: Step) -> PathIx {
+        let new = PathIx(self.outline.paths.len() as u32);
+        match self.outline.steps.entry((before, step.clone())) {
+            Entry::Occupied(known) => return *known.get(),
+            Entry::Vacant(place) => place.insert(new),
+        };
+        if matches!(step, Step::Item(_))
+            && let Some(list) = self.node(before)
+        {
+            list.items.push(new);
+        }
+        self.outline.paths.push(PathNode::new(Some((before, step))));
+        new
+    }
+
     /// The table that keys belong to.
-    fn base(&self) -> Vec<Step> {
+    fn base(&mut self) -> PathIx {
         match self.frames.last() {
-            _ if self.header.is_some() => Vec::new(),
-            Some(Frame::Table(path)) => path.clone(),
-            Some(Frame::List(path, item)) => [path.as_slice(), &[Step::Item(*item)]].concat(),
-            None => self.table.clone(),
+            _ if self.header.is_some() => PathIx::TOP,
+            Some(Frame::Table(path)) => *path,
+            Some(Frame::List(path, item)) => {
+                let (path, item) = (*path, *item);
+                self.step(path, Step::Item(item))
+            }
+            None => self.table,
         }
     }
 
     /// The path of the value that comes next.
-    fn value_path(&self) -> Vec<Step> {
+    fn value_path(&mut self) -> PathIx {
         match self.frames.last() {
             Some(Frame::List(..)) => self.base(),
-            _ => self.key.clone(),
+            _ => self.key,
         }
     }
 
     fn begin_header(&mut self, span: Span, form: Form) {
         self.header = Some(form);
         self.goes_on = false;
-        self.key.clear();
-        self.mark(span.end(), Mark::Key(Vec::new(), form));
+        self.key = PathIx::TOP;
+        self.mark(span.end(), Mark::Key(PathIx::TOP, form));
     }
 
     /// One that is never closed goes on to the end of the text.
@@ -233,20 +318,23 @@ impl<'t> Reader<'t> {
 
     fn end_header(&mut self) {
         let Some(form) = self.header.take() else { return };
-        self.table = self.key.clone();
-        if form == Form::ListHeader {
-            let count = self.lists.entry(self.key.clone()).or_default();
-            self.table.push(Step::Item(*count));
-            *count += 1;
+        self.table = self.key;
+        if form == Form::ListHeader
+            && let Some(list) = self.node(self.table)
+        {
+            let item = Step::Item(list.tables);
+            list.tables += 1;
+            self.table = self.step(self.table, item);
         }
     }
 
     /// In a list of tables a header means the last of them.
     fn enter_list(&mut self) {
+        let tables = self.node(self.key).map_or(0, |list| list.tables);
         if self.header.is_some()
-            && let Some(count) = self.lists.get(&self.key)
+            && let Some(last) = tables.checked_sub(1)
         {
-            self.key.push(Step::Item(count.saturating_sub(1)));
+            self.key = self.step(self.key, Step::Item(last));
         }
     }
 
@@ -281,7 +369,7 @@ impl EventReceiver for Reader<'_> {
 
     fn inline_table_open(&mut self, span: Span, _: &mut dyn ErrorSink) -> bool {
         let path = self.value_path();
-        self.frames.push(Frame::Table(path.clone()));
+        self.frames.push(Frame::Table(path));
         self.mark(span.end(), Mark::Key(path, Form::Plain));
         true
     }
@@ -307,30 +395,42 @@ impl EventReceiver for Reader<'_> {
             self.key = self.base();
         }
         self.enter_list();
-        self.key.push(Step::Key(self.text_of(span, encoding)));
+        let table = self.key;
+        self.key = self.step(table, Step::Key(self.text_of(span, encoding)));
         if span.is_empty() {
             return;
         }
-        let (path, form) = (self.key.clone(), self.form());
-        let range = span.start()..span.end();
-        self.outline.keys.push(KeyPlace { path, range, form });
+        let (path, form, range) = (self.key, self.form(), span.start()..span.end());
+        let number = self.outline.keys.len();
+        if let Some(table) = self.node(table) {
+            table.keys.push(number);
+        }
+        self.outline.keys.push(KeyPlace { path, range, form, is_head: false });
         self.mark(span.end(), Mark::Nothing);
     }
 
     fn key_sep(&mut self, span: Span, _: &mut dyn ErrorSink) {
         self.goes_on = true;
+        let own = self.key;
+        if let Some(key) = self.outline.keys.last_mut().filter(|key| key.path == own) {
+            key.is_head = true;
+        }
         self.enter_list();
-        self.mark(span.end(), Mark::Key(self.key.clone(), self.form()));
+        self.mark(span.end(), Mark::Key(self.key, self.form()));
     }
 
     fn key_val_sep(&mut self, span: Span, _: &mut dyn ErrorSink) {
-        self.mark(span.end(), Mark::Value(self.key.clone()));
+        self.mark(span.end(), Mark::Value(self.key));
     }
 
     fn scalar(&mut self, span: Span, encoding: Option<Encoding>, _: &mut dyn ErrorSink) {
         // A value that is missing is an empty one.
         if !span.is_empty() {
             let (path, range) = (self.value_path(), span.start()..span.end());
+            let number = self.outline.values.len();
+            if let Some(node) = self.node(path) {
+                node.values.push(number);
+            }
             self.outline.values.push(ValuePlace { path, range, is_quoted: encoding.is_some() });
             self.mark(span.end(), Mark::Nothing);
         }
@@ -383,11 +483,11 @@ mod tests {
         let offset = text.find("$0").unwrap();
         let outline = Outline::read(&text.replace("$0", ""));
         match outline.at(offset) {
-            Spot::Key(key) => format!("key {}", written(&key.path)),
-            Spot::NewKey(table, Form::Plain) => format!("a key of [{}]", written(table)),
-            Spot::NewKey(table, _) => format!("a header in [{}]", written(table)),
-            Spot::Value(value) => format!("value of {}", written(&value.path)),
-            Spot::NewValue(path) => format!("a value for {}", written(path)),
+            Spot::Key(_, path) => format!("key {}", written(&path)),
+            Spot::NewKey(table, Form::Plain) => format!("a key of [{}]", written(&table)),
+            Spot::NewKey(table, _) => format!("a header in [{}]", written(&table)),
+            Spot::Value(_, path) => format!("value of {}", written(&path)),
+            Spot::NewValue(path) => format!("a value for {}", written(&path)),
             Spot::Nothing => "nothing".to_owned(),
         }
     }
@@ -451,5 +551,11 @@ mod tests {
         Outline::read(&"[".repeat(200_000));
         Outline::read(&"{a=".repeat(200_000));
         Outline::read(&format!("a = {}", "[".repeat(200_000)));
+        // Paths of that many keys take no more room than the text.
+        for text in ["a.".repeat(200_000), format!("[{}a]\nb = 1\n", "a.".repeat(200_000))] {
+            let outline = Outline::read(&text);
+            outline.at(text.len());
+            outline.at(0);
+        }
     }
 }

@@ -29,7 +29,7 @@ pub(super) struct Allowed {
     pub(super) is_text: bool,
 }
 
-/// The kinds of values that matter to who writes one.
+/// The kinds of values that are written in different ways.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Kind {
     Text,
@@ -80,9 +80,15 @@ impl Shape {
         properties.flatten().map(|(key, node)| (key.as_str(), Self::of(node))).collect()
     }
 
-    /// Is it a table whose keys are not listed?
-    pub(super) fn is_open(&self) -> bool {
-        self.forms.iter().any(|form| form.get("additionalProperties").is_some_and(Value::is_object))
+    /// Is it a table of tables whose names are not listed, such as the tools?
+    pub(super) fn is_of_tables(&self) -> bool {
+        let mut others = self.forms.iter().filter_map(|form| form.get("additionalProperties"));
+        others.any(|node| node.is_object() && Self::of(node).kind() == Kind::Table)
+    }
+
+    /// May it be a table?
+    pub(super) fn may_be_table(&self) -> bool {
+        self.forms.iter().any(|form| is(form, "object"))
     }
 
     /// What it means.
@@ -114,7 +120,7 @@ impl Shape {
         all
     }
 
-    /// What it is for who writes it.
+    /// How it is written.
     pub(super) fn kind(&self) -> Kind {
         let has = |name: &str| self.forms.iter().any(|form| is(form, name));
         if has("string") || self.allowed().iter().any(|allowed| allowed.is_text) {

@@ -70,7 +70,7 @@ impl PathRule for ChuckLeftOpen {
 
     fn changed(&mut self, cx: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
         match event {
-            // That it opens while the spindle turns is a finding of its own, and the worse one.
+            // Another rule reports a chuck that opens while the spindle turns, and that finding is the worse one.
             Event::Chuck(_) => self.is_settled = cx.state().spindle() != Some(Spindle::Stopped),
             Event::Stop(_) => self.is_settled = true,
             _ => {}
