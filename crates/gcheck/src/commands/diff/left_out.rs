@@ -109,7 +109,7 @@ impl<'s> Executions<'s> {
                 let read = self.reads.get(first as usize..(first + count) as usize).unwrap_or_default();
                 read.iter().any(|number| {
                     let of_program = || state.variables().get(*number);
-                    state.local(*number).cloned().unwrap_or_else(of_program) == ConcreteValue::Unknown
+                    state.local(*number).copied().unwrap_or_else(of_program) == ConcreteValue::Unknown
                 })
             }
             Reads::More => true,
