@@ -5,14 +5,21 @@
 //!
 //! Both runs are read with a cursor that may be inside a move. Of two moves the shorter one decides how far both go on, so
 //! that a line in two pieces, or a circle in four quarters, is the line or the circle.
+//!
+//! Where two paths part, a second pass pairs the sections of the runs ([`Sections`]) and compares each with its partner.
 
+mod alignment;
 mod corner;
 mod curve;
 mod difference;
 mod digest;
+mod outline;
+mod print;
 mod same;
+mod sections;
 mod stands;
 
+use std::collections::VecDeque;
 use std::iter::Peekable;
 use std::sync::Arc as Shared;
 
@@ -23,7 +30,14 @@ use corner::{Leaving, Off};
 use curve::Curve;
 use digest::Digest;
 
-pub use difference::{Again, Aspect, Corner, Difference, Differences, Parting, Place, Value};
+pub use difference::{
+    Again, Aspect, By, Change, Corner, Difference, Differences, Parting, Place, SectionAt, SectionChange,
+    Title, Value,
+};
+pub use outline::{Marks, Outline};
+pub use sections::Sections;
+use sections::Within;
+
 use same::{corners_differ, known_differ, rate_differs, table_differs};
 
 /// Acts that are given together and are matched with each other at most.
@@ -32,31 +46,25 @@ const MAX_STANDS: usize = 64;
 /// Compares two runs. Paths are the same while they stay within `tolerance` millimetres (degrees on rotary axes) of each other
 /// on every axis. Coordinates that are unknown in one of them are not compared.
 ///
-/// Where they part for good, both are left there, or read to their ends for a digest of all that they do differently.
+/// Where they part, both are left there, or read to their ends for a digest of all that they do differently.
 pub fn compare(
     a: impl IntoIterator<Item = Act>,
     b: impl IntoIterator<Item = Act>,
     tolerance: f64,
     rest: Rest,
 ) -> Differences {
-    let mut comparison = Comparison {
-        a: Cursor::new(a.into_iter()),
-        b: Cursor::new(b.into_iter()),
-        tolerance,
-        leaving: None,
-        found: if rest == Rest::Read { Differences::with_digest() } else { Differences::default() },
-    };
+    let mut found = if rest == Rest::Leave { Differences::default() } else { Differences::with_digest() };
+    let of_whole = |act| (0, act);
+    let (a, b) = (a.into_iter().map(of_whole), b.into_iter().map(of_whole));
+    let mut comparison = Comparison::new(a, b, tolerance, None, &mut found);
     comparison.run();
     if rest == Rest::Read {
-        let mut over = comparison.found.another_digest();
-        comparison.a.pass_over(&mut over, |_| false);
-        comparison.b.pass_over(&mut over, |_| false);
-        comparison.found.pass_over(&over);
+        comparison.pass_over_all();
     }
-    comparison.found
+    found
 }
 
-/// What becomes of two runs after the place where their paths part for good.
+/// What becomes of two runs after the place where their paths part.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Rest {
     /// They are left there.
@@ -65,28 +73,48 @@ pub enum Rest {
     Read,
 }
 
-struct Comparison<A: Iterator<Item = Act>, B: Iterator<Item = Act>> {
+/// An act, and in which of the sections that are compared it is, from 0.
+type Placed = (u32, Act);
+
+struct Comparison<'f, A: Iterator<Item = Placed>, B: Iterator<Item = Placed>> {
     a: Cursor<A>,
     b: Cursor<B>,
     tolerance: f64,
+    /// Which sections these are; `None` where the runs are compared as a whole.
+    within: Option<Within<'f>>,
     /// The cutting move of the first run that ended last, where the next one begins a corner.
     leaving: Option<Leaving>,
-    found: Differences,
+    /// What the sections at hand still have from those before them, where these are not the same in both runs.
+    inherited: Option<Inherited>,
+    found: &'f mut Differences,
+}
+
+/// What two sections have from those before them and have not set themselves. It is compared from their first cut on.
+#[derive(Default)]
+struct Inherited {
+    /// By axis: one of the runs has moved it.
+    moved: [bool; Axis::ALL.len()],
+    /// The tool length offsets of both.
+    lengths: Option<[Option<u32>; 2]>,
 }
 
 /// A place in a run.
-struct Cursor<I: Iterator<Item = Act>> {
+struct Cursor<I: Iterator<Item = Placed>> {
     acts: Peekable<I>,
+    /// What is read again before the next act.
+    back: VecDeque<Placed>,
+    /// The section of what was read last.
+    section: u32,
+    /// The section in which a move was done last.
+    done_in: Option<u32>,
     /// The move at hand, as far as it is not done.
     piece: Option<Piece>,
     /// Where the axes are.
     at: Position,
     /// An axis has moved. Before that, a move that goes nowhere may be the other side's way from an unknown place.
     started: bool,
-    /// The next move is the first one that is compared after a place where the paths parted.
+    /// The next move is the first one that is compared after what was not compared.
     is_afresh: bool,
-    /// The tool change that was passed since the last move that was done.
-    passed: Option<(u32, Place)>,
     /// The last move that was done.
     last: Option<Place>,
 }
@@ -100,31 +128,41 @@ struct Piece {
     done: f64,
 }
 
-impl<I: Iterator<Item = Act>> Cursor<I> {
-    fn new(acts: I) -> Self {
+impl<I: Iterator<Item = Placed>> Cursor<I> {
+    fn new(acts: I, is_afresh: bool) -> Self {
         Self {
             acts: acts.peekable(),
+            back: VecDeque::new(),
+            section: 0,
+            done_in: None,
             piece: None,
             at: Position::UNKNOWN,
             started: false,
-            is_afresh: false,
-            passed: None,
+            is_afresh,
             last: None,
         }
     }
 
+    fn next(&mut self) -> Option<Placed> {
+        let placed = self.back.pop_front().or_else(|| self.acts.next())?;
+        self.section = placed.0;
+        Some(placed)
+    }
+
+    fn peek(&mut self) -> Option<&Placed> {
+        match self.back.front() {
+            Some(placed) => Some(placed),
+            None => self.acts.peek(),
+        }
+    }
+
     /// Collects what happens before the next move, and takes up that move.
-    fn advance(&mut self, found: &mut Differences) -> Vec<Act> {
+    fn advance(&mut self, found: &mut Differences) -> Vec<Placed> {
         let mut stands = Vec::new();
         while self.piece.is_none() && stands.len() < MAX_STANDS {
-            let Some(act) = self.acts.next() else { break };
+            let Some((section, act)) = self.next() else { break };
             match &act.doing {
-                Doing::Stand(stand) => {
-                    if let Stand::ToolChange(tool) = stand {
-                        self.passed = tool.map(|tool| (tool, act.place()));
-                    }
-                    stands.push(act);
-                }
+                Doing::Stand(_) => stands.push((section, act)),
                 Doing::Move(made) => {
                     let curve = if std::mem::take(&mut self.is_afresh) {
                         from_anywhere(made)
@@ -150,53 +188,45 @@ impl<I: Iterator<Item = Act>> Cursor<I> {
         if let Some(piece) = self.piece.take() {
             self.at = piece.curve.end();
             self.last = Some(piece.place());
-            self.passed = None;
+            self.done_in = Some(self.section);
         }
     }
 
-    /// Passes over what is left of the move at hand, and the acts up to the first that is the end, which it gives.
-    fn pass_over(&mut self, over: &mut Digest, is_end: impl Fn(&Act) -> bool) -> Option<Act> {
+    /// Passes over everything before a section, and begins there afresh.
+    fn begin(&mut self, section: u32, over: &mut Digest) {
+        (self.at, self.started, self.is_afresh) = (Position::UNKNOWN, false, true);
+        if self.section >= section {
+            // It is there, and has not moved.
+            if let Some(piece) = self.piece.take() {
+                self.back.push_back((self.section, piece.act));
+            }
+            return;
+        }
         if let Some(piece) = self.piece.take() {
             over.add(&(piece.done, &piece.act.setting, &piece.act.doing));
         }
-        self.acts.find(|act| {
-            over.add(&(&act.setting, &act.doing));
-            is_end(act)
-        })
+        while self.peek().is_some_and(|(of, _)| *of < section) {
+            if let Some((_, act)) = self.next() {
+                over.add(&(&act.setting, &act.doing));
+            }
+        }
+        self.section = section;
     }
 
-    /// Passes over what is before the next tool change, and over that; the tool, and where it comes. `None` when no tool comes
-    /// whose number is known.
-    fn next_tool(&mut self, over: &mut Digest) -> Option<(u32, Place)> {
-        if let Some(passed) = self.passed.take() {
-            if let Some(piece) = &mut self.piece
-                && let Doing::Move(made) = &piece.act.doing
-            {
-                (piece.curve, piece.done) = (from_anywhere(made), 0.0);
-            }
-            (self.at, self.started) = (Position::UNKNOWN, false);
-            return Some(passed);
-        }
-        let change = self.pass_over(over, Act::changes_tool)?;
-        (self.at, self.started, self.is_afresh) = (Position::UNKNOWN, false, true);
-        let Doing::Stand(Stand::ToolChange(tool)) = change.doing else { return None };
-        Some((tool?, change.place()))
+    /// Was a part of the section done?
+    fn has_moved(&self) -> bool {
+        self.done_in == Some(self.section) || self.piece.as_ref().is_some_and(|piece| piece.done > 0.0)
     }
 
     /// Is there no further move?
     fn is_over(&mut self) -> bool {
-        self.piece.is_none() && self.acts.peek().is_none()
+        self.piece.is_none() && self.peek().is_none()
     }
 
     /// Is the next act one without motion?
     fn stands_next(&mut self) -> bool {
-        self.piece.is_none() && self.acts.peek().is_some_and(|act| matches!(act.doing, Doing::Stand(_)))
+        self.piece.is_none() && self.peek().is_some_and(|(_, act)| matches!(act.doing, Doing::Stand(_)))
     }
-}
-
-/// Acts up to the first change of the tool.
-fn before_change(stands: &[Act]) -> &[Act] {
-    stands.split(Act::changes_tool).next().unwrap_or_default()
 }
 
 /// The move, from wherever the run comes: where the paths had parted, both may come from different places.
@@ -205,12 +235,8 @@ fn from_anywhere(made: &Move) -> Curve {
 }
 
 impl Act {
-    fn place(&self) -> Place {
+    pub(crate) fn place(&self) -> Place {
         Place { file: Shared::clone(&self.file), line: self.line }
-    }
-
-    fn changes_tool(&self) -> bool {
-        matches!(self.doing, Doing::Stand(Stand::ToolChange(_)))
     }
 }
 
@@ -224,50 +250,60 @@ impl Piece {
     }
 }
 
-impl<A: Iterator<Item = Act>, B: Iterator<Item = Act>> Comparison<A, B> {
+impl<'f, A: Iterator<Item = Placed>, B: Iterator<Item = Placed>> Comparison<'f, A, B> {
+    fn new(a: A, b: B, tolerance: f64, within: Option<Within<'f>>, found: &'f mut Differences) -> Self {
+        let is_afresh = within.as_ref().is_some_and(|within| !within.is_from_start());
+        Self {
+            a: Cursor::new(a, is_afresh),
+            b: Cursor::new(b, is_afresh),
+            tolerance,
+            within,
+            leaving: None,
+            inherited: is_afresh.then(Inherited::default),
+            found,
+        }
+    }
+
     fn run(&mut self) {
         loop {
             // A move that is not done on one side, while the other one is: what is there is one-sided.
-            let mut before_a = self.a.advance(&mut self.found);
-            let mut before_b = self.b.advance(&mut self.found);
-            if self.a.is_over() != self.b.is_over() {
+            let mut before_a = self.a.advance(self.found);
+            let mut before_b = self.b.advance(self.found);
+            let are_over = [self.a.is_over(), self.b.is_over()];
+            if are_over[0] != are_over[1] {
                 // That one ends while the other goes on is told as such.
                 for stands in [&mut before_a, &mut before_b] {
-                    stands.retain(|act| act.doing != Doing::Stand(Stand::End));
+                    stands.retain(|(_, act)| act.doing != Doing::Stand(Stand::End));
                 }
             }
-            // One of them may have come to its next tool because the other one goes on where it does not: then what comes with
-            // the tool is not compared here.
-            let [early_a, early_b] = [&before_a, &before_b].map(|stands| before_change(stands));
-            let is_one_sided = (early_a.len() < before_a.len()) != (early_b.len() < before_b.len());
-            let before = is_one_sided.then(|| {
+            if are_over != [false; 2] && self.within.as_ref().is_some_and(Within::ends_one_program) {
+                // What the programs do between two tools, and at their end, are two things.
+                before_a.clear();
+                before_b.clear();
+            }
+            // One of them may be in its next section because the other one goes on where it does not. If the paths part
+            // here, what is of that section is compared from its begin on.
+            let section = self.a.section.max(self.b.section);
+            let before = (self.a.section != self.b.section).then(|| {
                 let mut found = self.found.clone();
-                stands::compare(&mut found, early_a, early_b);
+                let is_early = |placed: &&Placed| placed.0 < section;
+                let [early_a, early_b] =
+                    [&before_a, &before_b].map(|stands| acts(stands.iter().filter(is_early)));
+                stands::compare(&mut found, &early_a, &early_b);
                 found
             });
             if !before_a.is_empty() || !before_b.is_empty() {
-                self.stands(&before_a, &before_b);
+                stands::compare(self.found, &acts(&before_a), &acts(&before_b));
                 if self.a.stands_next() || self.b.stands_next() {
                     continue;
                 }
             }
-            match (&self.a.piece, &self.b.piece) {
+            let parting = match (&self.a.piece, &self.b.piece) {
                 (None, None) => return,
-                (Some(_), Some(_)) => {
-                    if let Some(parting) = self.pieces() {
-                        let mut over = self.found.another_digest();
-                        let again = self.go_on(&mut over);
-                        let is_over = again.is_none();
-                        if let Some(before) = before.filter(|_| !is_over) {
-                            self.found = before;
-                        }
-                        self.found.pass_over(&over);
-                        self.found.part(Parting { again, ..parting });
-                        if is_over {
-                            return;
-                        }
-                    }
-                }
+                (Some(_), Some(_)) => match self.pieces() {
+                    Some(parting) => parting,
+                    None => continue,
+                },
                 (Some(piece), None) => {
                     let parting = Parting {
                         a: Some(piece.place()),
@@ -275,10 +311,13 @@ impl<A: Iterator<Item = Act>, B: Iterator<Item = Act>> Comparison<A, B> {
                         at: self.b.at,
                         to: [Some(piece.curve.end()), None],
                         apart: f64::NAN,
+                        within: None,
                         again: None,
                     };
-                    self.found.part(parting);
-                    return;
+                    if self.a_closes() {
+                        return;
+                    }
+                    parting
                 }
                 (None, Some(piece)) => {
                     let parting = Parting {
@@ -287,25 +326,101 @@ impl<A: Iterator<Item = Act>, B: Iterator<Item = Act>> Comparison<A, B> {
                         at: self.a.at,
                         to: [None, Some(piece.curve.end())],
                         apart: f64::NAN,
+                        within: None,
                         again: None,
                     };
-                    self.found.part(parting);
-                    return;
+                    if self.b_closes() {
+                        return;
+                    }
+                    parting
                 }
+            };
+            let mut over = self.found.another_digest();
+            if self.within.is_none() {
+                self.found.part(parting);
+                return;
             }
+            if let Some(before) = before {
+                *self.found = before;
+                let late = |stands: Vec<Placed>| stands.into_iter().filter(|(of, _)| *of >= section);
+                self.a.back.extend(late(before_a));
+                self.b.back.extend(late(before_b));
+            }
+            let (told, next) = self.next_section();
+            self.a.begin(next, &mut over);
+            self.b.begin(next, &mut over);
+            (self.leaving, self.inherited) = (None, Some(Inherited::default()));
+            self.found.pass_over(&over);
+            let at = self.within.as_ref().and_then(|within| within.at(told));
+            let (within, again) = at.map(|(sections, again)| (Box::new(sections), again)).unzip();
+            self.found.part(Parting { within, again: again.flatten(), ..parting });
         }
     }
 
-    /// Passes over what is before the next tool change of both runs, if they change to the same tool there.
-    fn go_on(&mut self, over: &mut Digest) -> Option<Again> {
-        let (tool, a) = self.a.next_tool(over)?;
-        let (other, b) = self.b.next_tool(over)?;
-        self.leaving = None;
-        (tool == other).then_some(Again { tool, a, b })
+    /// Where the paths part: in which section that is, and from which one on they are compared again.
+    fn next_section(&self) -> (u32, u32) {
+        let (a, b) = (self.a.section, self.b.section);
+        let further = a.max(b);
+        let has_moved = (a == further && self.a.has_moved()) || (b == further && self.b.has_moved());
+        (a.min(b), if a == b || has_moved { further + 1 } else { further })
+    }
+
+    /// Reads both to their ends for the digest.
+    fn pass_over_all(&mut self) {
+        let mut over = self.found.another_digest();
+        self.a.begin(u32::MAX, &mut over);
+        self.b.begin(u32::MAX, &mut over);
+        self.found.pass_over(&over);
+    }
+
+    /// Are the moves that only the first run has those with which its program closes?
+    fn a_closes(&mut self) -> bool {
+        let Some(within) = self.within.as_ref().filter(|within| within.ends_a_alone()) else { return false };
+        within.closes(&mut self.a, 1, self.tolerance)
+    }
+
+    /// The same of the second run.
+    fn b_closes(&mut self) -> bool {
+        let Some(within) = self.within.as_ref().filter(|within| within.ends_b_alone()) else { return false };
+        within.closes(&mut self.b, 0, self.tolerance)
+    }
+
+    /// Leaves out of a rapid move, up to the first cut of a section, the axes that no run has moved in it. Do the tool length
+    /// offsets count?
+    fn approach(&mut self) -> bool {
+        let Some(inherited) = &mut self.inherited else { return true };
+        let (Some(a), Some(b)) = (self.a.piece.as_mut(), self.b.piece.as_mut()) else { return true };
+        let (Doing::Move(made_a), Doing::Move(made_b)) = (&a.act.doing, &b.act.doing) else { return true };
+        if a.driven != Driven::Rapid || b.driven != Driven::Rapid {
+            self.inherited = None;
+            return true;
+        }
+        let lengths = [a.act.setting.length, b.act.setting.length];
+        let is_inherited = *inherited.lengths.get_or_insert(lengths) == lengths;
+        let lengths_count = !is_inherited || moves(made_a, Axis::Z) || moves(made_b, Axis::Z);
+        if a.done > 0.0 || b.done > 0.0 {
+            return lengths_count;
+        }
+        let (mut of_a, mut of_b) = (made_a.clone(), made_b.clone());
+        for (axis, moved) in Axis::ALL.into_iter().zip(&mut inherited.moved) {
+            if *moved {
+                continue;
+            }
+            *moved = moves(made_a, axis) || moves(made_b, axis);
+            for made in [&mut of_a, &mut of_b] {
+                made.from.set(axis, f64::NAN);
+                if !*moved {
+                    made.to.set(axis, f64::NAN);
+                }
+            }
+        }
+        (a.curve, b.curve) = (Curve::new(&of_a), Curve::new(&of_b));
+        lengths_count
     }
 
     /// Goes on along both moves by the shorter one of them; tells when they part.
     fn pieces(&mut self) -> Option<Parting> {
+        let lengths_count = self.approach();
         let (Some(a), Some(b)) = (self.a.piece.as_mut(), self.b.piece.as_mut()) else { return None };
         // A move that goes nowhere is passed over, unless it is the other side's way there from an unknown place.
         let (a_is_nothing, b_is_nothing) = (a.curve.is_nothing(), b.curve.is_nothing());
@@ -326,6 +441,7 @@ impl<A: Iterator<Item = Act>, B: Iterator<Item = Act>> Comparison<A, B> {
             at,
             to: [Some(a.curve.end()), Some(b.curve.end())],
             apart,
+            within: None,
             again: None,
         };
         let parted = if a.curve.is_open() || b.curve.is_open() {
@@ -353,7 +469,7 @@ impl<A: Iterator<Item = Act>, B: Iterator<Item = Act>> Comparison<A, B> {
         if parted.is_some() {
             return parted;
         }
-        settings(&mut self.found, a, b, self.tolerance);
+        settings(self.found, a, b, self.tolerance, lengths_count);
         let is_cut = |piece: &Piece| piece.driven == Driven::Feed && !piece.curve.is_open();
         if begins && let Some(leaving) = self.leaving.take().filter(|_| is_cut(a) && is_cut(b)) {
             let modes = a.act.setting.corners.zip(b.act.setting.corners);
@@ -377,10 +493,11 @@ impl<A: Iterator<Item = Act>, B: Iterator<Item = Act>> Comparison<A, B> {
         }
         None
     }
+}
 
-    fn stands(&mut self, a: &[Act], b: &[Act]) {
-        stands::compare(&mut self.found, a, b);
-    }
+/// The acts alone.
+fn acts<'p>(placed: impl IntoIterator<Item = &'p Placed>) -> Vec<&'p Act> {
+    placed.into_iter().map(|(_, act)| act).collect()
 }
 
 /// Goes to the end of the shorter move, and along the longer one as far as that is; the error is how far they are apart.
@@ -405,8 +522,15 @@ fn follow(short: &mut Piece, long: &mut Piece, tolerance: f64) -> Result<(), f64
     Ok(())
 }
 
-/// Compares what is in effect while both move.
-fn settings(found: &mut Differences, a: &Piece, b: &Piece, tolerance: f64) {
+/// Does a move change an axis?
+fn moves(made: &Move, axis: Axis) -> bool {
+    let (from, to) = (made.from.raw(axis), made.to.raw(axis));
+    // From an unknown place it may.
+    from.is_nan() != to.is_nan() || (from - to).abs() > 1e-9
+}
+
+/// Compares what is in effect while both move; tool length offsets, if they count.
+fn settings(found: &mut Differences, a: &Piece, b: &Piece, tolerance: f64, lengths_count: bool) {
     let places = || (Some(a.place()), Some(b.place()));
     let (of_a, of_b) = (&a.act.setting, &b.act.setting);
     let mut compare = |aspect: Aspect, differs: bool, values: [Value; 2]| {
@@ -431,6 +555,7 @@ fn settings(found: &mut Differences, a: &Piece, b: &Piece, tolerance: f64) {
         ),
     }
     match (of_a.length, of_b.length) {
+        _ if !lengths_count => {}
         (Some(length), Some(same)) if length == same && length != 0 => {
             let differs = table_differs(of_a.length_by, of_b.length_by, tolerance);
             compare(Aspect::Length, differs, [of_a, of_b].map(|of| Value::of_length(length, of)));

@@ -31,7 +31,10 @@ mod values;
 
 pub use bar::BarFigures;
 pub use canonical::{Canonical, Ending, Start};
-pub use compare::{Again, Aspect, Corner, Difference, Differences, Parting, Place, Rest, Value, compare};
+pub use compare::{
+    Again, Aspect, By, Change, Corner, Difference, Differences, Marks, Outline, Parting, Place, Rest,
+    SectionAt, SectionChange, Sections, Title, Value, compare,
+};
 pub use corner_mode::{Contour, CornerMode};
 pub use csv::{Csv, csv_cell};
 pub use jsonl::JsonLines;

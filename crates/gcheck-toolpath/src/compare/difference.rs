@@ -6,6 +6,7 @@ use std::sync::Arc as Shared;
 
 use gcheck_engine::{Position, Spindle};
 
+use super::Rest;
 use super::digest::Digest;
 use crate::corner_mode::CornerMode;
 use crate::trail::{Driven, Feed, Setting, Stand};
@@ -143,7 +144,7 @@ pub struct Difference {
     pub values: [Option<Value>; 2],
 }
 
-/// Where two paths part. What follows is not compared, up to where both change to the same tool next.
+/// Where two paths part. What follows is not compared, up to the end of the section.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Parting {
     /// The move of the first run, or its last one when it has none left; `None` when it has none at all.
@@ -156,19 +157,96 @@ pub struct Parting {
     pub to: [Option<Position>; 2],
     /// How far they come apart, millimetres or degrees, on the axis where it is most; NaN where one does not go on.
     pub apart: f64,
+    /// In which sections that is; `None` where the runs are compared as a whole.
+    pub within: Option<Box<[SectionAt; 2]>>,
     /// From where they are compared again; `None` where they are not.
     pub again: Option<Again>,
 }
 
-/// Where two runs whose paths parted are compared again: both change to the same tool.
+/// Where two runs whose paths parted are compared again: at the next section that both have.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Again {
-    /// The tool.
-    pub tool: u32,
-    /// The tool change in the first run.
+    /// What the section is.
+    pub title: Title,
+    /// Where it begins in the first run.
     pub a: Place,
     /// In the second.
     pub b: Place,
+}
+
+/// At what runs are cut into sections.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum By {
+    /// At tool changes.
+    Tools,
+    /// At comments that name operations.
+    Operations,
+}
+
+/// What a section is.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Title {
+    /// What comes before the first of the others.
+    Start,
+    /// From the change of a tool to the next change.
+    Tool(Option<u32>),
+    /// From a comment that names what follows to the next one.
+    Operation(Shared<str>),
+}
+
+/// A section of a run.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct SectionAt {
+    /// What it is.
+    pub title: Title,
+    /// What the program calls it; may be empty.
+    pub name: Shared<str>,
+    /// Its place among the sections of its run, 1 the first.
+    pub place: u32,
+    /// Its first block.
+    pub first: Place,
+    /// Its last line in the file of the first.
+    pub last: u32,
+}
+
+/// What became of a section.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Change {
+    /// The first run has it alone.
+    Removed,
+    /// The second run has it alone.
+    Added,
+    /// Both have it, at different places among the others.
+    Moved {
+        /// It was compared with its partner.
+        is_compared: bool,
+    },
+}
+
+impl Change {
+    /// All kinds, in the order of reports.
+    pub const NAMES: [&str; 3] = ["section-removed", "section-added", "section-moved"];
+
+    /// Its name for people and other programs.
+    pub const fn name(self) -> &'static str {
+        let [removed, added, moved] = Self::NAMES;
+        match self {
+            Self::Removed => removed,
+            Self::Added => added,
+            Self::Moved { .. } => moved,
+        }
+    }
+}
+
+/// A section that one of the runs has alone, or has at another place.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct SectionChange {
+    /// What became of it.
+    pub change: Change,
+    /// In the first run.
+    pub a: Option<SectionAt>,
+    /// In the second.
+    pub b: Option<SectionAt>,
 }
 
 /// The corner at which two paths may differ most, because the runs take corners differently.
@@ -194,7 +272,7 @@ pub struct Differences {
     later: Vec<Parting>,
     /// How often the paths part.
     partings: u64,
-    /// Set when nothing after the last parting is compared: which runs go on there.
+    /// Set when nothing after the parting is compared: which runs go on there.
     left_alone: Option<[bool; 2]>,
     /// Pieces of path that were compared and are the same.
     pub moves: u64,
@@ -204,6 +282,9 @@ pub struct Differences {
     pub half_known: Option<[Place; 2]>,
     /// The corner at which the paths may differ most.
     pub corner: Option<Corner>,
+    /// At what the runs were cut into sections; `None` where they were compared as a whole.
+    by: Option<By>,
+    sections: Vec<SectionChange>,
     kept: Vec<Difference>,
     counts: [u64; Aspect::ALL.len()],
     /// The values that differ at the moment: that they differ still is not a further difference.
@@ -214,7 +295,7 @@ pub struct Differences {
 impl Differences {
     /// Do both move the machine the same way?
     pub fn is_same(&self) -> bool {
-        self.parting.is_none() && self.counts.iter().all(|count| *count == 0)
+        self.parting.is_none() && self.sections.is_empty() && self.counts.iter().all(|count| *count == 0)
     }
 
     /// The first places at which the paths part.
@@ -227,9 +308,35 @@ impl Differences {
         self.partings
     }
 
-    /// Is nothing compared after the last place at which the paths part?
+    /// Is nothing compared after the place at which the paths part?
     pub const fn is_cut_short(&self) -> bool {
         self.left_alone.is_some()
+    }
+
+    /// At what the runs were cut into sections; `None` where they were compared as a whole.
+    pub const fn by(&self) -> Option<By> {
+        self.by
+    }
+
+    /// The sections that one of the runs has alone, or has at another place: in the order of the second run, and those that
+    /// it has not after them.
+    pub fn sections(&self) -> &[SectionChange] {
+        &self.sections
+    }
+
+    /// What was found of sections, before any of them is compared.
+    pub(super) fn of_sections(by: By, sections: Vec<SectionChange>, rest: Rest) -> Self {
+        let mut found = if rest == Rest::Read { Self::with_digest() } else { Self::default() };
+        for SectionChange { change, a, b } in &sections {
+            let at = |at: &Option<SectionAt>| at.as_ref().map(|at| (at.title.clone(), at.place));
+            found.digest.add(&(change, at(a), at(b)));
+        }
+        Self { by: Some(by), sections, ..found }
+    }
+
+    /// Sections follow that were not compared after those before: what differed there is told again.
+    pub(super) fn begin_afresh(&mut self) {
+        self.current = [const { None }; Aspect::ALL.len()];
     }
 
     /// Nothing yet; with a digest to ask for.
@@ -260,9 +367,10 @@ impl Differences {
     /// The paths part, and are compared again from there if they are.
     pub(super) fn part(&mut self, parting: Parting) {
         self.partings += 1;
-        let Parting { a: _, b: _, at, to, apart, again } = &parting;
-        self.digest.add(&(at, to, apart, again.as_ref().map(|again| again.tool)));
-        self.left_alone = parting.again.is_none().then(|| parting.to.map(|to| to.is_some()));
+        let Parting { a: _, b: _, at, to, apart, within, again } = &parting;
+        self.digest.add(&(at, to, apart, again.as_ref().map(|again| &again.title)));
+        // Sections are compared in runs that go to their ends.
+        self.left_alone = within.is_none().then(|| parting.to.map(|to| to.is_some()));
         if self.parting.is_none() {
             self.parting = Some(parting);
         } else if self.later.len() + 1 < KEPT {

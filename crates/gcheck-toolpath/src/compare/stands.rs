@@ -9,7 +9,7 @@ use super::same::{known_differ, rate_differs};
 use crate::trail::{Act, Doing, Stand};
 
 /// Matches what both sides do between the same two moves, in order, and adds what has no counterpart or another value.
-pub(super) fn compare(found: &mut Differences, a: &[Act], b: &[Act]) {
+pub(super) fn compare(found: &mut Differences, a: &[&Act], b: &[&Act]) {
     let (a, b) = (&without_shuttle(a), &without_shuttle(b));
     let pairs = pairs(a, b);
     let (mut next_a, mut next_b) = (0, 0);
@@ -28,11 +28,11 @@ pub(super) fn compare(found: &mut Differences, a: &[Act], b: &[Act]) {
 }
 
 /// Where the end of a program moves pallets, it is an end all the same.
-fn without_shuttle(acts: &[Act]) -> Vec<&Act> {
-    let is_end = |act: Option<&Act>| act.and_then(stand) == Some(&Stand::End);
+fn without_shuttle<'a>(acts: &[&'a Act]) -> Vec<&'a Act> {
+    let is_end = |act: Option<&&Act>| act.and_then(|act| stand(act)) == Some(&Stand::End);
     let next = (1..).map(|next| is_end(acts.get(next)));
     let is_kept = |act: &Act, ends: bool| !(ends && stand(act) == Some(&Stand::Pallet));
-    acts.iter().zip(next).filter(|(act, ends)| is_kept(act, *ends)).map(|(act, _)| act).collect()
+    acts.iter().copied().zip(next).filter(|(act, ends)| is_kept(act, *ends)).map(|(act, _)| act).collect()
 }
 
 /// The longest sequence of pairs of one kind.

@@ -303,6 +303,84 @@ fn computed_words_of_commands_count_with_the_values_of_the_run() {
 }
 
 #[test]
+fn values_that_nobody_knows_are_not_called_equal() {
+    let verdict = |a: &str, b: &str, arguments: &str| {
+        let run = diff(&program(a), &program(b), &format!("--strict {arguments}"));
+        format!("{} {}", run.code, run.stdout.lines().last().unwrap_or_default())
+    };
+    let [a, b] = ["1.", "2."].map(|by| format!("G1 X10. F[#500+{by}]\nY5."));
+    assert_eq!(verdict(&a, &b, ""), "1 not compared: F[#500+1.] (a.nc:8), F[#500+2.] (b.nc:8)");
+    // The variable may be another one when the other program runs.
+    assert_eq!(verdict(&a, &a, ""), "1 not compared: F[#500+1.] (a.nc:8, b.nc:8)");
+    let [a, b] = ["1.", "2."].map(|by| format!("G0 Z5.\nG0 Y[#500+{by}]\nG4 P#501\nG0 X0. Y0."));
+    let told = "1 not compared: P#501 (a.nc:10, b.nc:10), Y[#500+1.] (a.nc:9), Y[#500+2.] (b.nc:9)";
+    assert_eq!(verdict(&a, &b, ""), told);
+    let same = "0 a.nc and b.nc make the machine do the same, within 0.001 mm";
+    assert_eq!(verdict("#500=1.\nG1 X10. F[#500+99.]", "G1 X10. F100.", ""), same);
+    assert_eq!(verdict("G1 X10. F[#500+99.]", "G1 X10. F100.", "--set 500=1"), same);
+}
+
+#[test]
+fn a_section_that_is_added_or_moved_is_one_difference() {
+    let tool = |number: u32, name: &str, x: u32| {
+        format!(
+            "({name})\nT{number} M6\nG54 G0 X{x}. Y0. S1000 M3\nG43 H{number} Z5.\nG1 Z-1. F100.\nY20.\nG0 Z50.\n"
+        )
+    };
+    let whole = |tools: &[(u32, &str, u32)]| {
+        let tools: String = tools.iter().map(|(number, name, x)| tool(*number, name, *x)).collect();
+        format!("%\nO1\nG21 G17 G90 G94\n{tools}G91 G28 Z0.\nG28 X0. Y0.\nM30\n%\n")
+    };
+    let (side, drill, tap, burr) = ((1, "SIDE", 10), (2, "DRILL", 20), (3, "TAP", 30), (5, "DEBURR", 40));
+    let old = whole(&[side, drill, tap]);
+    let run = diff(&old, &whole(&[side, burr, drill, tap]), "");
+    expect![[r#"
+        tool section T5 (DEBURR) is only in b.nc, lines 12 to 17
+        a.nc and b.nc do not have the same sections in the same order; those that both have make the machine do the same, within 0.001 mm
+    "#]].assert_eq(&run.stdout);
+    assert_eq!(run.code, 1);
+    let moved = whole(&[tap, side, (2, "DRILL", 21)])
+        .replace("F100.\nY20.\nG0 Z50.\n(SIDE)", "F90.\nY20.\nG0 Z50.\n(SIDE)");
+    let run = diff(&old, &moved, "");
+    expect![[r#"
+        tool section T3 (TAP) moved from place 3 (a.nc, lines 19 to 26) to place 1 (b.nc, lines 5 to 10)
+        tool section T2 (DRILL) changed: the paths part at X10 Y20 Z50
+          - a.nc:13  to X20 Y0 Z50   | G54 G0 X20. Y0. S1000 M3
+          + b.nc:20  to X21 Y0 Z50   | G54 G0 X21. Y0. S1000 M3
+        the feed differs, once
+          - a.nc:22  100 mm/min   | G1 Z-1. F100.
+          + b.nc:8  90 mm/min   | G1 Z-1. F90.
+        a.nc and b.nc move differently; from there to the next tool change they are not compared
+    "#]]
+    .assert_eq(&run.stdout);
+    let json: Value = serde_json::from_str(&diff(&old, &moved, "--output-format json").stdout).unwrap();
+    expect![[r#"
+        "tools"
+        {"a":{"first":{"file":"a.nc","line":19,"text":"T3 M6"},"last":26,"name":"TAP","place":3,"tool":3},"b":{"first":{"file":"b.nc","line":5,"text":"T3 M6"},"last":10,"name":"TAP","place":1,"tool":3},"change":"section-moved","compared":true}
+        {"first":{"file":"a.nc","line":12,"text":"T2 M6"},"last":17,"name":"DRILL","place":2,"tool":2}
+    "#]].assert_eq(&format!(
+        "{}\n{}\n{}\n",
+        json["sections_by"], json["sections"][0], json["parting"]["section"]["a"]
+    ));
+}
+
+#[test]
+fn operations_are_the_sections_of_a_program_with_one_tool() {
+    let operation = |name: &str, x: u32| format!("({name})\nG0 X{x}. Y0.\nG1 Z-1. F100.\nY20.\nG0 Z5.");
+    let [rough, finish, engrave] =
+        [("ROUGH", 10), ("FINISH", 20), ("ENGRAVE", 30)].map(|(name, x)| operation(name, x));
+    let run = diff(
+        &program(&format!("G0 Z5.\n{rough}\n{finish}")),
+        &program(&format!("G0 Z5.\n{rough}\n{engrave}\n{finish}")),
+        "",
+    );
+    expect![[r#"
+        operation (ENGRAVE) is only in b.nc, lines 15 to 18
+        a.nc and b.nc do not have the same sections in the same order; those that both have make the machine do the same, within 0.001 mm
+    "#]].assert_eq(&run.stdout);
+}
+
+#[test]
 fn the_help_of_diff_says_what_the_verdict_is_about() {
     let run = Shop::new().gcheck("diff --help");
     assert!(

@@ -67,8 +67,8 @@ fn a_changed_tool_is_one_difference_and_the_next_tool_is_compared_again() {
     ]);
     let run = diff(&shop, "");
     expect![[r#"
-        plate.nc  differs: path, feed  [digest 70c106c6]
-            the paths part at X50 Y20 Z-1
+        plate.nc  differs: path, feed  [digest fcb387a8]
+            tool section T1 changed: the paths part at X50 Y20 Z-1
               - old/plate.nc:10  to X50 Y20 Z50   | G0 Z50.
               + new/plate.nc:9  to X50 Y20.5 Z-1   | Y20.5
               compared again from tool 2 on (old/plate.nc:11, new/plate.nc:12)
@@ -91,18 +91,44 @@ fn a_retract_of_another_height_is_a_difference_of_that_tool_alone() {
         .map(|end| program(1, SIDE, HOLE).replacen("Y20.\nG0 Z50.", &format!("Y20.\n{end}"), 1));
     let run = diff(&shop(&[("old/plate.nc", &stays), ("new/plate.nc", &moves)]), "");
     expect![[r#"
-        plate.nc  differs: path  [digest 5afcdb37]
-            the paths part at X50 Y20 Z50
+        plate.nc  differs: path  [digest 05457a67]
+            tool section T1 changed: the paths part at X50 Y20 Z50
               - old/plate.nc:13  to X0 Y0 Z50   | G0 X0. Y0. S900 M3
               + new/plate.nc:11  to X50 Y20 Z40   | G0 Z40.
               compared again from tool 2 on (old/plate.nc:12, new/plate.nc:12)
-            the paths part at an unknown place
-              - old/plate.nc:13  to X0 Y0 Z50   | G0 X0. Y0. S900 M3
-              + new/plate.nc:13  to X0 Y0 Z40   | G0 X0. Y0. S900 M3
-            old/plate.nc and new/plate.nc move differently; what follows is not compared
+            old/plate.nc and new/plate.nc move differently; from there to the next tool change they are not compared
         1 pair of programs compared, within 0.001 mm: 0 the same, 1 different
     "#]]
     .assert_eq(&run.stdout);
+}
+
+#[test]
+fn an_added_section_is_named_and_can_be_accepted() {
+    let more =
+        program(1, SIDE, HOLE).replace("M30", "T9 M6\nG0 X80. Y0. S900 M3\nG43 H9 Z5.\nG1 Z-1. F100.\nM30");
+    let shop = shop(&[("new/plate.nc", &more)]);
+    shop.file(
+        "ok.toml",
+        "[[accepted]]\nfile = \"plate.nc\"\ndifferences = [\"section-added\"]\nreason = \"chamfered now\"\n",
+    );
+    let run = diff(&shop, "");
+    assert!(
+        run.code == 1 && run.stdout.starts_with("plate.nc  differs: section-added  [digest "),
+        "{}",
+        run.stdout
+    );
+    let run = diff(&shop, "--accepted ok.toml");
+    assert!(
+        run.code == 0 && run.stdout.contains("accepted: section-added (chamfered now)"),
+        "{}",
+        run.stdout
+    );
+    let run = diff(&shop, "--output-format github");
+    assert!(
+        run.stdout.contains("line=17,") && run.stdout.contains("tool section T9 is only in new/plate.nc"),
+        "{}",
+        run.stdout
+    );
 }
 
 #[test]
@@ -134,14 +160,14 @@ fn an_accepted_difference_says_what_was_not_compared_after_it() {
     shop.file("ok.toml", "[[accepted]]\nfile = \"plate.nc\"\nreason = \"seen\"\n");
     let run = diff(&shop, "--accepted ok.toml");
     expect![[r#"
-        plate.nc  accepted: path (seen); from there to the next tool change they are not compared  [digest 84f76859]
+        plate.nc  accepted: path (seen); from there to the next tool change they are not compared  [digest 40c89663]
         1 pair of programs compared, within 0.001 mm: 0 the same, 1 accepted and not compared as a whole
     "#]].assert_eq(&run.stdout);
     assert_eq!(run.code, 0);
     let changed = program(1, "X50.\nY20.5", HOLE).replace("T2 M6", "T3 M6");
     shop.file("new/plate.nc", changed);
     let run = diff(&shop, "--accepted ok.toml");
-    assert!(run.stdout.contains("accepted: path (seen); what follows is not compared"), "{}", run.stdout);
+    assert!(run.stdout.contains("accepted: path, tool (seen); from there to the next"), "{}", run.stdout);
 }
 
 /// Cuts from a place that nobody knows.
@@ -280,7 +306,7 @@ fn ci_servers_get_their_formats() {
           <testsuite name="new/plate.nc" tests="1" failures="1" errors="0" file="new/plate.nc">
             <testcase name="9:1 program-differs" classname="new/plate.nc">
               <failure type="error" message="differs: path">new/plate.nc:9:1: error[program-differs] differs: path
-        note: the paths part at X50 Y20 Z-1
+        note: tool section T1 changed: the paths part at X50 Y20 Z-1
           - old/plate.nc:10  to X50 Y20 Z50   | G0 Z50.
           + new/plate.nc:9  to X50 Y21 Z-1   | Y21.
           compared again from tool 2 on (old/plate.nc:11, new/plate.nc:11)
@@ -295,7 +321,7 @@ fn ci_servers_get_their_formats() {
     let run = diff(&shop, "--output-format github");
     expect![[r#"
         ::error title=gcheck (program-added),file=new/more.nc,line=1,endLine=1,col=1,endColumn=1::new/more.nc:1:1: program-added the program is in the second folder only
-        ::error title=gcheck (program-differs),file=new/plate.nc,line=9,endLine=9,col=1,endColumn=5::new/plate.nc:9:1: program-differs differs: path%0A  note: the paths part at X50 Y20 Z-1%0A  - old/plate.nc:10  to X50 Y20 Z50   | G0 Z50.%0A  + new/plate.nc:9  to X50 Y21 Z-1   | Y21.%0A  compared again from tool 2 on (old/plate.nc:11, new/plate.nc:11)%0Aold/plate.nc and new/plate.nc move differently; from there to the next tool change they are not compared
+        ::error title=gcheck (program-differs),file=new/plate.nc,line=9,endLine=9,col=1,endColumn=5::new/plate.nc:9:1: program-differs differs: path%0A  note: tool section T1 changed: the paths part at X50 Y20 Z-1%0A  - old/plate.nc:10  to X50 Y20 Z50   | G0 Z50.%0A  + new/plate.nc:9  to X50 Y21 Z-1   | Y21.%0A  compared again from tool 2 on (old/plate.nc:11, new/plate.nc:11)%0Aold/plate.nc and new/plate.nc move differently; from there to the next tool change they are not compared
     "#]].assert_eq(&run.stdout);
     assert_eq!(run.code, 1);
 }

@@ -19,7 +19,8 @@ pub(super) fn first(compared: &Compared, with_text: bool) -> Spot {
     let own = |file: &str| file == b.shown;
     let of_parting = differences.parting.as_ref().and_then(|parting| parting.b.as_ref());
     let of_others = differences.kept().iter().find_map(|difference| difference.b.as_ref());
-    let lines = [of_parting, of_others].into_iter().flatten().filter(|place| own(&place.file));
+    let of_sections = differences.sections().iter().find_map(|of| of.b.as_ref()).map(|at| &at.first);
+    let lines = [of_parting, of_sections, of_others].into_iter().flatten().filter(|place| own(&place.file));
     let line = lines.map(|place| place.line).min().unwrap_or(1);
     let text = if with_text { b.source.clone() } else { SourceText::from("") };
     Spot { line, control: b.chosen.choice.clone(), path: b.shown.clone(), text }

@@ -9,7 +9,7 @@ use std::thread;
 
 use gcheck_report::{FileReport, Report, one_line};
 use gcheck_syntax::SourceText;
-use gcheck_toolpath::{Aspect, Rest};
+use gcheck_toolpath::{Aspect, Change, Rest};
 use rayon::prelude::*;
 use serde_json::{Value as Json, json};
 
@@ -120,7 +120,7 @@ pub(super) fn run(global: &Global, options: &DiffOptions) -> Result<u8, Problem>
 /// Names of all differences that there may be.
 fn kinds() -> Vec<&'static str> {
     let aspects = Aspect::ALL.into_iter().map(Aspect::name);
-    [PATH].into_iter().chain(aspects).chain(ALONE).collect()
+    [PATH].into_iter().chain(Change::NAMES).chain(aspects).chain(ALONE).collect()
 }
 
 fn compare_all(
@@ -177,6 +177,8 @@ impl Outcome {
         if differences.parting.is_some() {
             names.push(PATH);
         }
+        let sections = || differences.sections().iter().map(|of| of.change.name());
+        names.extend(Change::NAMES.into_iter().filter(|name| sections().any(|of| of == *name)));
         names.extend(Aspect::ALL.into_iter().filter(|a| differences.count(*a) > 0).map(Aspect::name));
         let sides = compared.sides();
         let detail = sides.json(differences);

@@ -1,14 +1,18 @@
-//! Codes that a comparison leaves out, and which of them one of two runs has and the other one has not.
+//! What a comparison leaves out: codes that leave nothing in the acts of a run, as far as one of two runs has them and the
+//! other one has not, and words whose values nobody knows.
 //!
-//! Knows: which codes leave nothing in the acts of a run, how often and with which values a run executes them. Must not know: how differences are worded.
+//! Knows: which codes leave nothing in the acts of a run, how often and with which values a run executes them, which words a run
+//! computes from what is not given. Must not know: how differences are worded.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::sync::Arc;
 
 use gcheck_controls::{CodeIx, CodeNumber, Control, Effect, Letter, LetterSet};
-use gcheck_engine::{Abstract, AbstractValue, At, Concrete, Domain as _, Look, Origin, ProgramFile, State};
-use gcheck_program::{BlockFlags, Word};
+use gcheck_engine::{
+    Abstract, AbstractValue, At, Concrete, ConcreteValue, Domain as _, Look, Origin, ProgramFile, State,
+};
+use gcheck_program::{BlockFlags, Op, Value, Word};
 use gcheck_toolpath::Place;
 
 use crate::execution::Session;
@@ -45,6 +49,8 @@ pub(super) struct Executions<'s> {
     blocks: Vec<Vec<Executed>>,
     /// Commands with computed words: the values are those of each execution.
     computed: LeftOut,
+    /// Variables that blocks read.
+    reads: Vec<u32>,
 }
 
 /// Of one block.
@@ -53,17 +59,32 @@ struct Executed {
     count: u32,
     /// Has it a computed word that may belong to a command that is not compared? `None` before somebody has looked.
     is_computed: Option<bool>,
+    /// On what the values of its words depend; `None` before somebody has looked.
+    source: Option<Reads>,
+}
+
+/// On what the values of the computed words of a block depend.
+#[derive(Debug, Clone, Copy)]
+enum Reads {
+    /// It has none.
+    Nothing,
+    /// On these variables of its program, of all that were noted.
+    Variables { first: u32, count: u32 },
+    /// On more: variables of the control, names, numbers of variables that are computed.
+    More,
 }
 
 impl<'s> Executions<'s> {
     pub(super) fn new(session: &'s Session<'s>) -> Self {
         let look = Look::new(session.program, session.model, &session.prepared.equipment.machine);
-        Self { session, look, blocks: Vec::new(), computed: LeftOut::default() }
+        Self { session, look, blocks: Vec::new(), computed: LeftOut::default(), reads: Vec::new() }
     }
 
     /// A block is executed in this state.
     pub(super) fn count(&mut self, origin: Origin, state: &State<Concrete>) {
-        if !origin.flags.contains(BlockFlags::CODE) {
+        let has_code = origin.flags.contains(BlockFlags::CODE);
+        let has_expression = origin.flags.contains(BlockFlags::EXPRESSION);
+        if !has_code && !has_expression {
             return;
         }
         let (file, block) = (origin.at.file as usize, origin.at.block as usize);
@@ -76,34 +97,120 @@ impl<'s> Executions<'s> {
         }
         let Some(executed) = blocks.get_mut(block) else { return };
         executed.count = executed.count.saturating_add(1);
-        if origin.flags.contains(BlockFlags::EXPRESSION) && executed.is_computed != Some(false) {
-            let is_computed = self.compute(origin.at, state);
-            // The two are of one block: its list is still there.
-            if let Some(executed) = self.blocks.get_mut(file).and_then(|blocks| blocks.get_mut(block)) {
-                executed.is_computed = Some(is_computed);
+        if !has_expression {
+            return;
+        }
+        let Executed { is_computed, source, .. } = *executed;
+        let source = source.unwrap_or_else(|| self.reads_of(origin.at));
+        // Most expressions are of variables that the program has set: then there is nothing to evaluate.
+        let may_be_unknown = match source {
+            Reads::Nothing => false,
+            Reads::Variables { first, count } => {
+                let read = self.reads.get(first as usize..(first + count) as usize).unwrap_or_default();
+                read.iter().any(|number| {
+                    let of_program = || state.variables().get(*number);
+                    state.local(*number).copied().unwrap_or_else(of_program) == ConcreteValue::Unknown
+                })
             }
+            Reads::More => true,
+        };
+        let may_be_command = has_code && is_computed != Some(false);
+        let mut now_computed = is_computed;
+        if may_be_unknown || may_be_command {
+            let is_command = self.compute(origin.at, state, may_be_unknown);
+            if has_code {
+                now_computed = Some(is_command);
+            }
+        }
+        // Its list is still there.
+        if let Some(executed) = self.blocks.get_mut(file).and_then(|blocks| blocks.get_mut(block)) {
+            (executed.is_computed, executed.source) = (now_computed, Some(source));
         }
     }
 
-    /// Notes the commands of a block with the values that its words have in this state, if it has any.
-    fn compute(&mut self, at: At, state: &State<Concrete>) -> bool {
+    /// On what the values of the words of a block depend.
+    fn reads_of(&mut self, at: At) -> Reads {
+        let session = self.session;
+        let dialect = session.program.dialect();
+        let file = session.program.file(at.file);
+        let Some(block) = file.and_then(|file| file.loaded.place(at.block, dialect)) else {
+            return Reads::Nothing;
+        };
+        let table = &*block.table;
+        let semantics = session.model.semantics();
+        let is_own = |number: u32| {
+            let is_of_control = semantics.system_variables.iter().any(|of| of.cell(number).is_some());
+            number != 0 && semantics.kept_as(number) == number && !is_of_control
+        };
+        let first = self.reads.len();
+        let mut is_computed = false;
+        for word in table.words(block.block()) {
+            let Value::Expr(expr) = word.value else { continue };
+            is_computed = true;
+            for op in table.ops(table.expr(expr)) {
+                match op {
+                    Op::Variable(number) if is_own(*number) => self.reads.push(*number),
+                    Op::Variable(_) | Op::Named { .. } | Op::Indirect => {
+                        self.reads.truncate(first);
+                        return Reads::More;
+                    }
+                    Op::Number(_) | Op::Negate | Op::Binary(_) | Op::Call(..) => {}
+                }
+            }
+        }
+        let count = self.reads.len() - first;
+        match (is_computed, u32::try_from(first), u32::try_from(count)) {
+            (false, ..) => Reads::Nothing,
+            (true, Ok(first), Ok(count)) => Reads::Variables { first, count },
+            (true, ..) => Reads::More,
+        }
+    }
+
+    /// Notes the commands of a block that are not compared, with the values that its words have in this state, and its words
+    /// whose values are not known, if some may be. Has it such commands?
+    fn compute(&mut self, at: At, state: &State<Concrete>, may_be_unknown: bool) -> bool {
         let session = self.session;
         let Some(file) = session.program.file(at.file) else { return false };
         let Some(block) = file.loaded.place(at.block, session.program.dialect()) else { return false };
         let words = block.table.words(block.block());
-        let has_computed_code = words.iter().any(|word| CODES.contains(word.letter) && word.is_computed());
-        if !has_computed_code && commands(words, &[], session).is_empty() {
+        let is_code = |word: &Word| CODES.contains(word.letter);
+        let has_computed_code = words.iter().any(|word| is_code(word) && word.is_computed());
+        let is_command = has_computed_code || !commands(words, &[], session).is_empty();
+        if !is_command && !may_be_unknown {
             return false;
         }
         let values = self.look.words(&block, at, &state.as_abstract());
-        for (name, words) in commands(words, &values, session) {
-            let mut command = (name, words);
-            if self.computed.0.len() >= MOST_COMPUTED && !self.computed.0.contains_key(&command) {
-                command.1 = None;
+        let place = || place(session, &file, block.range().start);
+        let mut told = LetterSet::EMPTY;
+        for command in commands(words, &values, session) {
+            let Command { name, mut words, reads } = command;
+            told = told.or(reads);
+            if self.computed.0.len() >= MOST_COMPUTED
+                && !self.computed.0.contains_key(&(name.clone(), words.clone()))
+            {
+                words = None;
             }
-            self.computed.add(command.0, command.1, 1, || place(session, &file, block.range().start));
+            self.computed.add(name, words, 1, place);
         }
-        true
+        // What is beside the call of a macro is known to who reads the variables there.
+        if !may_be_unknown || calls_macro(words, session) {
+            return is_command;
+        }
+        for word in words {
+            let Value::Expr(expr) = word.value else { continue };
+            if told.contains(word.letter) || UNCOMPARED.contains(word.letter) {
+                continue;
+            }
+            if let Said::Unknown = said(word, &values) {
+                let range = block.table.expr(expr).range.clone();
+                let bytes = (block.base + range.start) as usize..(block.base + range.end) as usize;
+                let text = file.loaded.text();
+                let written: String =
+                    text.get(bytes).unwrap_or_default().chars().filter(|c| !c.is_whitespace()).collect();
+                self.computed.add(format!("{}{written}", word.letter), None, 1, place);
+            }
+        }
+        is_command
     }
 
     /// What these blocks say that is not compared.
@@ -117,7 +224,7 @@ impl<'s> Executions<'s> {
                 let Some(block) = file.loaded.place(block, session.program.dialect()) else { continue };
                 let place = || place(session, &file, block.range().start);
                 let words = block.table.words(block.block());
-                for (name, words) in commands(words, &[], session) {
+                for Command { name, words, .. } in commands(words, &[], session) {
                     found.add(name, words, u64::from(executed.count), place);
                 }
             }
@@ -163,16 +270,11 @@ fn said(word: &Word, values: &[(Word, AbstractValue)]) -> Said {
 
 /// The commands of a block that are not compared, with the values of its computed words: the name of each, and its other words,
 /// `None` where the value of one is not known.
-fn commands(
-    words: &[Word],
-    values: &[(Word, AbstractValue)],
-    session: &Session<'_>,
-) -> Vec<(String, Option<String>)> {
+fn commands(words: &[Word], values: &[(Word, AbstractValue)], session: &Session<'_>) -> Vec<Command> {
     let control = session.model.control();
     let codes = || words.iter().filter(|word| CODES.contains(word.letter));
-    let effect = |word: &Word| control.code_at(word.code).map(gcheck_controls::Code::effect);
     // What is beside the call of a macro may be an argument.
-    if codes().any(|word| matches!(effect(word), Some(Effect::MacroCall | Effect::MacroModal))) {
+    if calls_macro(words, session) {
         return Vec::new();
     }
     let number = |word: &Word| match said(word, values) {
@@ -211,9 +313,26 @@ fn commands(
             Said::Nothing => Some(String::new()),
             Said::Unknown => None,
         });
-        found.push((name, text.collect()));
+        found.push(Command { name, words: text.collect(), reads });
     }
     found
+}
+
+/// A command that is not compared.
+struct Command {
+    name: String,
+    /// Its other words, `None` where the value of one is not known.
+    words: Option<String>,
+    /// The letters of these.
+    reads: LetterSet,
+}
+
+/// Does a block call a macro? Then its words may be arguments.
+fn calls_macro(words: &[Word], session: &Session<'_>) -> bool {
+    let control = session.model.control();
+    let codes = words.iter().filter(|word| CODES.contains(word.letter));
+    let mut effects = codes.filter_map(|word| control.code_at(word.code).map(gcheck_controls::Code::effect));
+    effects.any(|effect| matches!(effect, Effect::MacroCall | Effect::MacroModal))
 }
 
 /// The code that a computed number is.
@@ -224,15 +343,15 @@ fn computed_code(letter: Letter, value: f64, control: &Control) -> CodeIx {
 
 /// Addresses of codes.
 const CODES: LetterSet = LetterSet::of("GM");
+/// Words that name a block or a program, and move nothing.
+const UNCOMPARED: LetterSet = LetterSet::of("NO");
 /// Words that a code may have of which nothing is known.
 const COMMON: LetterSet = LetterSet::of("PQRLE");
 
-/// The commands of a run that are not compared.
+/// The commands of a run that are not compared, by their names and their words with their values, and the words whose values are
+/// not known.
 #[derive(Debug, Default)]
-pub(super) struct LeftOut(BTreeMap<Command, Commanded>);
-
-/// A command: its name, and its words with their values, `None` where the value of one is not known.
-type Command = (String, Option<String>);
+pub(super) struct LeftOut(BTreeMap<(String, Option<String>), Commanded>);
 
 #[derive(Debug)]
 struct Commanded {
@@ -247,10 +366,10 @@ impl LeftOut {
     }
 }
 
-/// A command that is not compared, and that the two runs do not have alike.
+/// A command that is not compared, and that the two runs do not have alike, or a word whose value is not known.
 #[derive(Debug, Clone, PartialEq)]
 pub(in crate::commands) struct NotCompared {
-    /// What people call it: `M51`, `G10 L12`.
+    /// What people call it: `M51`, `G10 L12`, `F[#500+1.]`.
     pub(in crate::commands) name: String,
     /// By run: how often it has the command more than the other one, and the first place of it.
     pub(in crate::commands) sides: [Option<(u64, Place)>; 2],

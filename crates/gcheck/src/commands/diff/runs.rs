@@ -3,19 +3,23 @@
 //! Knows: threads, how acts are handed over. Must not know: when paths are the same, how differences are worded.
 
 use std::io;
+use std::iter::Flatten;
 use std::path::Path;
 use std::sync::Arc;
-use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
+use std::sync::mpsc::{IntoIter, Receiver, SyncSender, sync_channel};
 use std::{mem, thread};
 
 use gcheck_engine::{Concrete, Origin, State, Units};
-use gcheck_toolpath::{Act, Differences, Rest, Step, Trail, WorkCoordinates, compare};
+use gcheck_report::LineIndex;
+use gcheck_toolpath::{
+    Act, Differences, Marks, Outline, Place, Rest, Sections, Step, Title, Trail, WorkCoordinates, compare,
+};
 
 use super::left_out::{self, Executions, LeftOut, NotCompared};
 use super::words::{Sides, Stopped};
 use crate::Problem;
 use crate::args::{DiffOptions, Global};
-use crate::execution::{self, Prepared, Steps};
+use crate::execution::{self, Prepared, Session, Steps};
 use crate::programs::ProgramFolders;
 
 /// Acts that are handed over together, and how many such batches may wait.
@@ -68,7 +72,8 @@ impl Compared {
     }
 }
 
-/// Executes both and compares what they do while they do it.
+/// Executes both and compares what they do while they do it. Where their paths part, both run again, and their sections are
+/// compared one by one.
 ///
 /// # Errors
 /// A program, or what is in force for it, cannot be read.
@@ -80,7 +85,27 @@ pub(super) fn both(
     rest: Rest,
 ) -> Result<Compared, Problem> {
     let [a, b] = prepared(global, options, files, folders)?;
-    let (differences, ran_a, ran_b) = run_both(&a, &b, options.tolerance, rest)?;
+    let tolerance = options.tolerance;
+    let mut outlines = [Outline::of_tools(), Outline::of_tools()];
+    let (mut differences, ran_a, ran_b) = run_both(&a, &b, |acts_a, acts_b| {
+        let [of_a, of_b] = &mut outlines;
+        let mut acts_a = acts_a.inspect(|act| of_a.add(act));
+        let mut acts_b = acts_b.inspect(|act| of_b.add(act));
+        let differences = compare(&mut acts_a, &mut acts_b, tolerance, rest);
+        // What is not compared is for the outlines.
+        acts_a.for_each(drop);
+        acts_b.for_each(drop);
+        differences
+    })?;
+    if differences.parting.is_some()
+        && [&ran_a, &ran_b].iter().all(|ran| ran.fault.is_none())
+        && let Some(sections) = sections([&a, &b], outlines, tolerance, rest)?
+    {
+        differences = sections.begun();
+        for pass in 0..sections.passes() {
+            run_both(&a, &b, |acts_a, acts_b| sections.compare(pass, acts_a, acts_b, &mut differences))?;
+        }
+    }
     // A run that was cut off because the paths had parted before ended nowhere of its own.
     let [a_is_left, b_is_left] = differences.left_alone();
     let faults = [ran_a.fault.filter(|_| !a_is_left), ran_b.fault.filter(|_| !b_is_left)];
@@ -91,10 +116,68 @@ pub(super) fn both(
         faults,
         controls: [ran_a.control, ran_b.control],
         units: ran_a.units,
-        tolerance: options.tolerance,
+        tolerance,
         prepared: [a, b],
         differences,
     })
+}
+
+/// How the sections of two programs are compared, if they have any: tool sections, or what their comments call operations where
+/// no program changes the tool more than once.
+fn sections(
+    prepared: [&Prepared; 2],
+    mut outlines: [Outline; 2],
+    tolerance: f64,
+    rest: Rest,
+) -> Result<Option<Sections>, Problem> {
+    if outlines.iter().all(|outline| outline.len() <= 1) {
+        let marks = prepared.map(|prepared| prepared.session(marks));
+        if marks.iter().any(Marks::is_empty) {
+            return Ok(None);
+        }
+        outlines = marks.map(Outline::of_operations);
+        let [a, b] = prepared;
+        let [of_a, of_b] = &mut outlines;
+        run_both(a, b, |acts_a, acts_b| {
+            acts_a.for_each(|act| of_a.add(&act));
+            acts_b.for_each(|act| of_b.add(&act));
+        })?;
+    } else {
+        for (prepared, outline) in prepared.into_iter().zip(&mut outlines) {
+            prepared.session(|session| {
+                let marks = lines(session);
+                outline.name(|title, after, first| name(session, &marks, title, after, first));
+            });
+        }
+    }
+    Ok(Sections::new(outlines, tolerance, rest))
+}
+
+/// Where the comments of a program name what follows: lines, and names.
+fn lines(session: &Session<'_>) -> Vec<(u32, String)> {
+    let text = session.prepared.source.text();
+    let index = LineIndex::new(text);
+    session.headings.iter().map(|heading| (index.line(heading.from), heading.name.clone())).collect()
+}
+
+fn marks(session: &Session<'_>) -> Marks {
+    Marks::new(&session.prepared.shown, lines(session))
+}
+
+/// What a program calls a section: by the last comment above its first block, else what it calls the tool.
+fn name(
+    session: &Session<'_>,
+    marks: &[(u32, String)],
+    title: &Title,
+    after: u32,
+    first: &Place,
+) -> Option<String> {
+    let Title::Tool(tool) = title else { return None };
+    let above = || {
+        let (_, name) = marks.iter().rfind(|(line, _)| *line > after && *line <= first.line)?;
+        (*first.file == *session.prepared.shown).then(|| name.clone())
+    };
+    above().or_else(|| session.tool_name((*tool)?))
 }
 
 /// Both programs, ready to run.
@@ -130,12 +213,12 @@ struct Ran {
     left_out: LeftOut,
 }
 
-fn run_both(
+/// Runs both; `with` gets their acts.
+fn run_both<T>(
     a: &Prepared,
     b: &Prepared,
-    tolerance: f64,
-    rest: Rest,
-) -> Result<(Differences, Ran, Ran), Problem> {
+    with: impl FnOnce(Acts, Acts) -> T,
+) -> Result<(T, Ran, Ran), Problem> {
     thread::scope(|scope| {
         let start = |prepared| {
             let (sender, receiver) = sync_channel(WAITING);
@@ -148,15 +231,18 @@ fn run_both(
         let (run_a, acts_a) = start(a)?;
         let (run_b, acts_b) = start(b)?;
         // With the receivers goes the reason to run on.
-        let differences = compare(acts(acts_a), acts(acts_b), tolerance, rest);
+        let made = with(acts(acts_a), acts(acts_b));
         let end = |run: thread::ScopedJoinHandle<'_, Ran>, prepared: &Prepared| {
             run.join().map_err(|payload| Problem::own_mistake(payload.as_ref()).in_file(&prepared.path))
         };
-        Ok((differences, end(run_a, a)?, end(run_b, b)?))
+        Ok((made, end(run_a, a)?, end(run_b, b)?))
     })
 }
 
-fn acts(batches: Receiver<Vec<Act>>) -> impl Iterator<Item = Act> {
+/// The acts of a run.
+type Acts = Flatten<IntoIter<Vec<Act>>>;
+
+fn acts(batches: Receiver<Vec<Act>>) -> Acts {
     batches.into_iter().flatten()
 }
 

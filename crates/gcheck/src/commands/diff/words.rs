@@ -8,7 +8,8 @@ use std::path::Path;
 use gcheck_controls::Control;
 use gcheck_engine::{Axis, Model, Position, Spindle, Units};
 use gcheck_toolpath::{
-    Again, Aspect, Corner, Difference, Differences, Driven, Feed, Parting, Place, Stand, Value,
+    Again, Aspect, By, Change, Corner, Difference, Differences, Driven, Feed, Parting, Place, SectionAt,
+    SectionChange, Stand, Title, Value,
 };
 use serde_json::{Value as Json, json};
 
@@ -28,6 +29,8 @@ pub(in crate::commands) struct Stopped {
 const VERSION: u32 = 1;
 /// Longer lines are cut.
 const SHOWN: usize = 100;
+/// Sections without a partner or at other places that text names; further ones are counted.
+const SECTIONS: usize = 20;
 
 /// Both programs.
 pub(in crate::commands) struct Sides<'s> {
@@ -44,10 +47,17 @@ pub(in crate::commands) struct Sides<'s> {
 impl Sides<'_> {
     pub(in crate::commands) fn text(&self, differences: &Differences) -> String {
         let mut out = String::new();
+        for change in differences.sections().iter().take(SECTIONS) {
+            // Writing to a string cannot fail.
+            let _ = writeln!(out, "{}", self.section(change));
+        }
+        let more = differences.sections().len().saturating_sub(SECTIONS);
+        if more > 0 {
+            let _ = writeln!(out, "… and {more} more sections that are added, removed or moved");
+        }
         let told = differences.partings().map(|parting| self.parting(&mut out, parting)).count() as u64;
         let more = differences.partings_count().saturating_sub(told);
         if more > 0 {
-            // Writing to a string cannot fail.
             let _ = writeln!(out, "… and part {more} more times");
         }
         for aspect in Aspect::ALL {
@@ -90,7 +100,20 @@ impl Sides<'_> {
                 let known = if is_known { "" } else { " as far as known" };
                 format!("{a} and {b} make the machine do the same{known}, {within}\n")
             }
-            (false, None) => format!("{a} and {b} move along the same path, {within}, with differences\n"),
+            (false, None) if differences.sections().is_empty() => {
+                format!("{a} and {b} move along the same path, {within}, with differences\n")
+            }
+            (false, None) => {
+                let differs = Aspect::ALL.into_iter().any(|aspect| differences.count(aspect) > 0);
+                let same = if differs {
+                    format!("move along the same path, {within}, with differences")
+                } else {
+                    format!("make the machine do the same, {within}")
+                };
+                format!(
+                    "{a} and {b} do not have the same sections in the same order; those that both have {same}\n"
+                )
+            }
         };
         for line in self.limits(differences) {
             // Writing to a string cannot fail.
@@ -125,12 +148,23 @@ impl Sides<'_> {
             });
             format!("not compared: {}", each.collect::<Vec<_>>().join(", "))
         };
-        unknown.into_iter().chain((!self.left_out.is_empty()).then(names)).collect()
+        let unpaired =
+            differences.sections().iter().filter(|of| of.change == Change::Moved { is_compared: false });
+        let moved = match unpaired.count() {
+            0 => None,
+            1 => Some("1 section that moved was not compared".to_owned()),
+            count => Some(format!("{count} sections that moved were not compared")),
+        };
+        unknown.into_iter().chain(moved).chain((!self.left_out.is_empty()).then(names)).collect()
     }
 
     fn parting(&self, out: &mut String, parting: &Parting) {
+        let at = self.point(&parting.at);
         // Writing to a string cannot fail.
-        let _ = writeln!(out, "the paths part at {}", self.point(&parting.at));
+        let _ = match parting.within.as_deref() {
+            Some([a, b]) => writeln!(out, "{} changed: the paths part at {at}", changed(a, b)),
+            None => writeln!(out, "the paths part at {at}"),
+        };
         for (side, (place, to)) in [&parting.a, &parting.b].into_iter().zip(&parting.to).enumerate() {
             let words = match (to, self.faults.get(side)) {
                 (Some(to), _) => format!("to {}", self.point(to)),
@@ -147,13 +181,40 @@ impl Sides<'_> {
             };
             self.one(out, side, place.as_ref(), &words);
         }
-        if let Some(Again { tool, a, b }) = &parting.again {
+        if let Some(Again { title, a, b }) = &parting.again {
+            let from = match title {
+                Title::Start => "the first block".to_owned(),
+                Title::Tool(Some(tool)) => format!("tool {tool}"),
+                Title::Tool(None) => "the next tool change".to_owned(),
+                Title::Operation(name) => format!("({name})"),
+            };
             // Writing to a string cannot fail.
             let _ = writeln!(
                 out,
-                "  compared again from tool {tool} on ({}:{}, {}:{})",
+                "  compared again from {from} on ({}:{}, {}:{})",
                 a.file, a.line, b.file, b.line
             );
+        }
+    }
+
+    /// A section that one of the programs has alone, or at another place.
+    fn section(&self, change: &SectionChange) -> String {
+        let [a, b] = self.prepared.map(|prepared| prepared.shown.as_str());
+        let moved = |of_a: &SectionAt, of_b: &SectionAt| {
+            format!(
+                "{} moved from place {} ({a}, {}) to place {} ({b}, {})",
+                changed(of_a, of_b),
+                of_a.place,
+                span(of_a),
+                of_b.place,
+                span(of_b)
+            )
+        };
+        match (&change.a, &change.b) {
+            (Some(of_a), Some(of_b)) => moved(of_a, of_b),
+            (Some(only), None) => format!("{} is only in {a}, {}", section_name(only), span(only)),
+            (None, Some(only)) => format!("{} is only in {b}, {}", section_name(only), span(only)),
+            (None, None) => String::new(),
         }
     }
 
@@ -365,14 +426,34 @@ impl Sides<'_> {
                 json!({ "aspect": aspect.name(), "count": differences.count(aspect), "first": first })
             })
             .collect();
+        let section = |side: usize, at: &SectionAt| {
+            json!({
+                "tool": tool_of(&at.title), "name": called(at), "place": at.place,
+                "first": place(side, Some(&at.first)), "last": at.last,
+            })
+        };
+        let sections: Vec<Json> = differences
+            .sections()
+            .iter()
+            .map(|of| {
+                let side = |index, at: &Option<SectionAt>| at.as_ref().map(|at| section(index, at));
+                json!({
+                    "change": of.change.name(), "a": side(0, &of.a), "b": side(1, &of.b),
+                    "compared": of.change == Change::Moved { is_compared: true },
+                })
+            })
+            .collect();
         let parting = |parting: &Parting| {
             let [to_a, to_b] = parting.to.map(|to| to.map(|to| coordinates(&to)));
             json!({
                 "a": place(0, parting.a.as_ref()), "b": place(1, parting.b.as_ref()),
                 "at": coordinates(&parting.at), "to_a": to_a, "to_b": to_b,
                 "apart": Some(parting.apart).filter(|apart| apart.is_finite()),
+                "section": parting.within.as_deref().map(|[a, b]| {
+                    json!({ "a": section(0, a), "b": section(1, b) })
+                }),
                 "again": parting.again.as_ref().map(|again| {
-                    json!({ "tool": again.tool, "a": place(0, Some(&again.a)), "b": place(1, Some(&again.b)) })
+                    json!({ "tool": tool_of(&again.title), "a": place(0, Some(&again.a)), "b": place(1, Some(&again.b)) })
                 }),
             })
         };
@@ -410,6 +491,11 @@ impl Sides<'_> {
             "moves": differences.moves,
             "unknown": differences.unknown,
             "not_compared": not_compared,
+            "sections_by": differences.by().map(|by| match by {
+                By::Tools => "tools",
+                By::Operations => "operations",
+            }),
+            "sections": sections,
             "parting": partings.first(),
             "partings": partings,
             "partings_count": differences.partings_count(),
@@ -421,11 +507,58 @@ impl Sides<'_> {
 
 /// What of two programs is not compared that move differently.
 pub(super) const fn rest(differences: &Differences) -> &'static str {
-    if differences.is_cut_short() {
-        "what follows is not compared"
-    } else {
-        "from there to the next tool change they are not compared"
+    match differences.by() {
+        None => "what follows is not compared",
+        Some(By::Tools) => "from there to the next tool change they are not compared",
+        Some(By::Operations) => "from there to the next operation they are not compared",
     }
+}
+
+/// A section as text calls it at the begin of a line.
+fn section_name(at: &SectionAt) -> String {
+    match &at.title {
+        Title::Start => "what is before the first section".to_owned(),
+        Title::Tool(Some(tool)) if at.name.is_empty() => format!("tool section T{tool}"),
+        Title::Tool(Some(tool)) => format!("tool section T{tool} ({})", at.name),
+        Title::Tool(None) if at.name.is_empty() => "the section of an unknown tool".to_owned(),
+        Title::Tool(None) => format!("the section of an unknown tool ({})", at.name),
+        Title::Operation(name) => format!("operation ({name})"),
+    }
+}
+
+/// A section of both programs, by the name of the second where that is another tool.
+fn changed(a: &SectionAt, b: &SectionAt) -> String {
+    match (&a.title, &b.title) {
+        (Title::Tool(was), Title::Tool(Some(is))) if *was != Some(*is) => {
+            format!("{}, which is T{is},", section_name(a))
+        }
+        _ => section_name(a),
+    }
+}
+
+/// The lines of a section.
+fn span(at: &SectionAt) -> String {
+    if at.first.line == at.last {
+        format!("line {}", at.last)
+    } else {
+        format!("lines {} to {}", at.first.line, at.last)
+    }
+}
+
+const fn tool_of(title: &Title) -> Option<u32> {
+    match title {
+        Title::Tool(tool) => *tool,
+        Title::Start | Title::Operation(_) => None,
+    }
+}
+
+/// What the program calls a section; `None` where it does not.
+fn called(at: &SectionAt) -> Option<&str> {
+    let name = match &at.title {
+        Title::Operation(name) => name,
+        Title::Start | Title::Tool(_) => &at.name,
+    };
+    (!name.is_empty()).then_some(name)
 }
 
 fn title(aspect: Aspect) -> &'static str {
