@@ -237,7 +237,7 @@ impl<'c> Folds<'c> {
             let line = sheet.loaded.line_number(miss.range.start);
             format!("line {line} stays as it is: {}", miss.reason)
         });
-        Ok(told.collect())
+        Ok(told.chain(writer.note_on_pecks(machine)).collect())
     }
 
     /// The blocks from a number on that make nothing but moves, one after another in one setting.
@@ -475,6 +475,26 @@ impl Writer<'_, '_, '_> {
         };
         let mut places = sheet.loaded.blocks_with(BlockFlags::CODE, self.program.dialect());
         self.has_cycles = places.any(|(_, place)| place.table.words(place.block()).iter().any(is_cycle));
+    }
+
+    /// What the proof takes for how far pecks back off, where it is not given.
+    fn note_on_pecks(&self, machine: &Machine) -> Option<String> {
+        let model = self.folds.model;
+        let rules = &model.semantics().cycles;
+        let holes = || self.cycles.iter().flat_map(|(_, series)| &series.holes);
+        let (hole, _) = holes().find(|(hole, _)| hole.pecks != Pecks::None)?;
+        // A control that computes its cycles in the open has no such setting.
+        if rules.rise_to_r || machine.settings_of_pecks(rules, 1.0).0.is_some() {
+            return None;
+        }
+        let breaks_chips = model.effect(hole.cycle) == Effect::CycleChipBreak;
+        let taken = if breaks_chips { rules.chip_break_retract } else { rules.peck_clearance };
+        let name = model.control().code_at(hole.cycle)?.number();
+        let decides = match &rules.clearance_setting {
+            Some(number) => format!("setting {number}"),
+            None => "a parameter of the control".to_owned(),
+        };
+        Some(format!("{decides} decides how far {name} backs off between pecks; the proof takes {taken} mm"))
     }
 
     fn write(&self, sheet: &mut Sheet<'_, '_>) {

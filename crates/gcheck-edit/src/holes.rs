@@ -296,7 +296,7 @@ impl Finder<'_> {
                 Stroke::Rapid(_) => Kind::Rapid,
                 Stroke::Feed(_) => Kind::Feed,
                 Stroke::Dwell(seconds) => Kind::Dwell(seconds.0),
-                // The moves are made in this mode, which whoever collects them looks after.
+                // The program has to be in this mode: the collector of the moves looks at it.
                 Stroke::ExactPath => return,
                 _ => {
                     is_plain = false;

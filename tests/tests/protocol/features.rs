@@ -561,6 +561,20 @@ fn changes_of_the_path_are_proved_when_they_are_chosen() {
     let feeds =
         ask(&mut session, "codeAction/resolve", named(&all, "Scale the feeds to 90 % in the selected lines"));
     assert_eq!(feeds["edit"]["documentChanges"][0]["edits"][0]["newText"], "72.");
+    // The moves of selected holes become a cycle.
+    let holes = "G0 Z2.\nG1 Z-3. F80.\nG0 Z2.\nX5.\nG1 Z-3.\nG0 Z2.\n";
+    let mut session = Session::with(&resolving(), &[]);
+    session.open("a.nc", &DRILLED.replace("G99 G81 X5. Z-3. R2. F80.\n", holes));
+    let all = actions(&mut session, [5, 0, 10, 2], Some("refactor"));
+    let fold = ask(&mut session, "codeAction/resolve", named(&all, "Write drilled holes"));
+    assert_eq!(
+        fold["title"],
+        "Write drilled holes as canned cycles in the selected lines, with proof: every move is as before, within 0.001 mm (7 moves compared)"
+    );
+    assert_eq!(
+        fold["edit"]["documentChanges"][0]["edits"][0]["newText"],
+        "G99 G81 X1. Y2. Z-3. R2. F80.\nX5."
+    );
 }
 
 #[test]

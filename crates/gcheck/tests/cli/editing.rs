@@ -1088,13 +1088,14 @@ fn pecks_and_dwells_become_words_of_a_cycle() {
         "fanuc-mill",
         "fold-cycle",
         &expect![[r#"
-         7 G98 G83 X10. Y10. Z-11. R2. Q5. P500 F120.
-         8 G80
-         9 M30
-        10 %
-        ! part.nc: changed for fanuc-mill: every move is as before, within 0.001 mm (11 moves compared)
-        exit 0
-    "#]],
+             7 G98 G83 X10. Y10. Z-11. R2. Q5. P500 F120.
+             8 G80
+             9 M30
+            10 %
+            ! part.nc: changed for fanuc-mill: every move is as before, within 0.001 mm (11 moves compared)
+            ! note: a parameter of the control decides how far G83 backs off between pecks; the proof takes 1 mm
+            exit 0
+        "#]],
     );
     let chips = "G0 X10. Y10.\nZ2.\nG1 Z-3. F120.\nG0 Z-2.\nG1 Z-8.\nG0 Z-7.\nG1 Z-11.\nG0 Z2.\nG1 Z-3.\nG0 X20.\nM30\n%\n";
     changes(
@@ -1102,15 +1103,16 @@ fn pecks_and_dwells_become_words_of_a_cycle() {
         "fanuc-mill",
         "fold-cycle",
         &expect![[r#"
-         7 G99 G73 X10. Y10. Z-11. R2. Q5. F120.
-         8 G80
-         9 G1 Z-3.
-        10 G0 X20.
-        11 M30
-        12 %
-        ! part.nc: changed for fanuc-mill: every move is as before, within 0.001 mm (11 moves compared)
-        exit 0
-    "#]],
+             7 G99 G73 X10. Y10. Z-11. R2. Q5. F120.
+             8 G80
+             9 G1 Z-3.
+            10 G0 X20.
+            11 M30
+            12 %
+            ! part.nc: changed for fanuc-mill: every move is as before, within 0.001 mm (11 moves compared)
+            ! note: a parameter of the control decides how far G73 backs off between pecks; the proof takes 1 mm
+            exit 0
+        "#]],
     );
     let bores = "G0 X10. Y10.\nZ2.\nG1 Z-3. F120.\nG1 Z2.\nG0 X20.\nG1 Z-3.\nZ2.\nM30\n%\n";
     changes(
@@ -1190,6 +1192,7 @@ fn a_lathe_drills_on_its_axis() {
              8 G0 X50. Z50.
              9 M30
             ! part.nc: changed for haas-lathe: every move is as before, within 0.001 mm (11 moves compared)
+            ! note: a parameter of the control decides how far G83 backs off between pecks; the proof takes 2.54 mm
             exit 0
         "#]],
     );
