@@ -219,8 +219,8 @@ impl<'c> Folds<'c> {
                 continue;
             };
             number = region.blocks.last().map_or(number, |(number, _, _)| *number) + 1;
-            let (series, missed) = region.series(self.model, machine);
-            misses.extend(missed.into_iter().filter_map(|miss| region.refusal(&miss)));
+            let (series, left) = region.series(self.model, machine);
+            misses.extend(left.into_iter().filter_map(|miss| region.refusal(&miss)));
             for series in series {
                 if let Some(reason) = region.unfit(&series, self.model) {
                     misses.push(reason);
@@ -556,7 +556,9 @@ impl Writer<'_, '_, '_> {
         let (last_hole, _) = series.holes.last()?;
         let is_own_number = blocks.len() > series.holes.len();
         closing.extend(
-            number_word(last_place).filter(|_| is_own_number).map(|word| self.text(sheet, last_place, &word)),
+            number_word(last_place)
+                .filter(|_| is_own_number)
+                .map(|word| Self::text(sheet, last_place, &word)),
         );
         let next = sheet.loaded.place(last_number + 1, self.program.dialect());
         let cancels = |place: &Place| {
@@ -591,7 +593,7 @@ impl Writer<'_, '_, '_> {
         place.table.words(place.block()).iter().any(is)
     }
 
-    fn text(&self, sheet: &Sheet<'_, '_>, place: &Place, word: &Word) -> String {
+    fn text(sheet: &Sheet<'_, '_>, place: &Place, word: &Word) -> String {
         sheet.loaded.slice(Sheet::range(place, word)).to_owned()
     }
 
@@ -608,7 +610,7 @@ impl Writer<'_, '_, '_> {
             let words = place.table.words(place.block());
             let remark = remark(sheet, place);
             if number.is_none() && !part.deeds.is_empty() {
-                number = Some(number_word(place).map(|word| self.text(sheet, place, &word)));
+                number = Some(number_word(place).map(|word| Self::text(sheet, place, &word)));
             }
             if remark.is_empty() {
                 continue;
@@ -707,7 +709,7 @@ impl Writer<'_, '_, '_> {
         let feed = word.number().map(f64::to_bits);
         let is_new = written.feed != feed;
         written.feed = feed;
-        is_new.then(|| self.text(sheet, place, &word))
+        is_new.then(|| Self::text(sheet, place, &word))
     }
 
     /// The motion code that goes on after a series and that no block there gives.
@@ -722,7 +724,7 @@ impl Writer<'_, '_, '_> {
         let graph = sheet.loaded.flow_graph();
         let code = sheet.spelled(last.facts.motion)?;
         for number in last_number + 1..=last_number + LOOK_AHEAD {
-            let Some(place) = sheet.loaded.place(number, self.program.dialect()) else { return None };
+            let place = sheet.loaded.place(number, self.program.dialect())?;
             if begins.contains(&number) {
                 return None;
             }

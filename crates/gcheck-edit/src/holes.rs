@@ -214,7 +214,7 @@ impl Finder<'_> {
             let pecks = matches!(effect, Effect::CyclePeck | Effect::CycleChipBreak);
             let last = if pecks { deepest } else { first };
             let dwells = matches!(effect, Effect::CycleDrillDwell | Effect::CycleBoreDwell);
-            if dwells && last.dwell.is_none() || pecks && first.end == last.end {
+            if dwells && last.dwell.is_none() || pecks && is_same(first.end, last.end) {
                 continue;
             }
             let ways = if pecks { self.pecks(cuts, guess.r) } else { vec![(Pecks::None, Vec::new())] };
