@@ -21,6 +21,8 @@ pub enum Change {
     Renumber,
     /// Canned cycles as plain moves.
     ExpandCycle,
+    /// Plain moves that drill holes as canned cycles.
+    FoldCycle,
     /// Loops turn by turn.
     UnrollLoop,
     /// Increments as absolute coordinates.
@@ -83,6 +85,7 @@ impl Change {
             Self::Rotate(..) => "rotate",
             Self::Renumber => "renumber",
             Self::ExpandCycle => "expand-cycle",
+            Self::FoldCycle => "fold-cycle",
             Self::UnrollLoop => "unroll-loop",
             Self::Absolute => "absolute",
             Self::Incremental => "incremental",
@@ -120,6 +123,7 @@ impl Change {
             Self::Rotate(..) => "rotate the path",
             Self::Renumber => "renumber",
             Self::ExpandCycle => "write the cycle as moves",
+            Self::FoldCycle => "write the moves as a cycle",
             Self::UnrollLoop => "unroll the loop",
             Self::Absolute => "write absolute coordinates",
             Self::Incremental => "write increments",
@@ -142,6 +146,7 @@ impl Change {
         match self {
             Self::Renumber
             | Self::ExpandCycle
+            | Self::FoldCycle
             | Self::UnrollLoop
             | Self::Absolute
             | Self::Incremental

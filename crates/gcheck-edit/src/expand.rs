@@ -201,7 +201,7 @@ fn lines(sheet: &mut Sheet<'_, '_>, place: &Place, expansion: &Expansion) -> Opt
         false if is_number_alone => head = format!("{rest}{}", sheet.hand.gap()),
         false => lines.push(rest),
     }
-    let (rapid, cut) = (code(sheet, Effect::Rapid)?, code(sheet, Effect::Linear)?);
+    let (rapid, cut) = (sheet.spelled(Effect::Rapid)?, sheet.spelled(Effect::Linear)?);
     let mut feed = feed;
     for stroke in &expansion.strokes {
         let gap = sheet.hand.gap();
@@ -283,7 +283,7 @@ fn words(sheet: &Sheet<'_, '_>, from: &Position, to: &Position, facts: &Facts) -
 
 /// A dwell as the control reads it.
 fn dwell(sheet: &Sheet<'_, '_>, seconds: f64) -> Option<String> {
-    let code = code(sheet, Effect::Dwell)?;
+    let code = sheet.spelled(Effect::Dwell)?;
     let rules = &sheet.model.semantics().dwell;
     let (letter, kind) = rules.get_key_value("P").or_else(|| rules.iter().next())?;
     let gap = sheet.hand.gap();
@@ -300,17 +300,9 @@ fn corners(sheet: &Sheet<'_, '_>, mode: PathMode, facts: &Facts) -> Option<Strin
     let (effect, lengths) = mode.written();
     let unit = facts.units.map(Units::in_mm)?;
     let (form, decimals) = (sheet.hand.form(sheet.model.control()), sheet.decimals(facts.units));
-    let mut words = vec![code(sheet, effect)?];
+    let mut words = vec![sheet.spelled(effect)?];
     for (letter, length) in lengths {
         words.push(format!("{letter}{}", sheet.hand.write(form, length.0 / unit, decimals)));
     }
     Some(words.join(sheet.hand.gap()))
-}
-
-/// The first code with an effect, written with a zero in front where the program does that.
-fn code(sheet: &Sheet<'_, '_>, effect: Effect) -> Option<String> {
-    let code = sheet.model.control().codes().find(|code| code.effect() == effect)?;
-    let name = code.number().to_string();
-    let is_short = name.len() == 2 && sheet.hand.zeros();
-    Some(if is_short { name.replacen('G', "G0", 1) } else { name })
 }

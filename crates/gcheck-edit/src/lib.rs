@@ -13,6 +13,8 @@ mod distance;
 mod expand;
 mod expecting;
 mod facts;
+mod fold;
+mod holes;
 mod meaning;
 mod modal;
 mod number;

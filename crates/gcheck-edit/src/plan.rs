@@ -43,6 +43,10 @@ pub fn plan(
     }
     let Some(file) = program.file(0) else { return Err(Refusal::whole("the text has no program")) };
     let mut sheet = Sheet::new(program, &file.loaded, model, machine);
+    if let Tracker::Folds(folds) = &witness.following.tracker {
+        let notes = folds.write(&mut sheet, program, machine)?;
+        return Ok(Plan { edits: sheet.into_edits(), notes });
+    }
     let mut planner = Planner { change, scope, witness, model, cuts: false };
     for number in 0..file.loaded.flow_graph().blocks() {
         let Some(place) = file.loaded.place(number, program.dialect()) else { continue };
@@ -167,7 +171,11 @@ impl Planner<'_> {
     fn concerns(&self, block: &Block, place: &Place) -> bool {
         let words = place.table.words(place.block());
         let is_about = |word: &Word| match self.change {
-            Change::Renumber | Change::ExpandCycle | Change::UnrollLoop | Change::SafeStart => false,
+            Change::Renumber
+            | Change::ExpandCycle
+            | Change::FoldCycle
+            | Change::UnrollLoop
+            | Change::SafeStart => false,
             Change::Convert(_) => !matches!(word.letter.ascii(), b'G' | b'M' | b'N' | b'O' | b'T'),
             Change::ScaleFeeds(_) => word.letter.ascii() == b'F',
             Change::ScaleSpeeds(_) => word.letter.ascii() == b'S',

@@ -121,6 +121,14 @@ impl<'a, 'p> Sheet<'a, 'p> {
         Some(format!("{letter}{}{digits}", if has_zero { "0" } else { "" }))
     }
 
+    /// The first code with an effect, written with a zero in front where the program does that.
+    pub(crate) fn spelled(&self, effect: Effect) -> Option<String> {
+        let code = self.model.control().codes().find(|code| code.effect() == effect)?;
+        let name = code.number().to_string();
+        let is_short = name.len() == 2 && self.hand.zeros();
+        Some(if is_short { name.replacen('G', "G0", 1) } else { name })
+    }
+
     /// The name of the first code with an effect.
     pub(crate) fn name_of(&self, effect: Effect) -> Option<String> {
         let code = self.model.control().codes().find(|code| code.effect() == effect)?;

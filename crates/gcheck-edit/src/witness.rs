@@ -15,6 +15,7 @@ use crate::course::Course;
 use crate::distance::Distance;
 use crate::expand::Cycles;
 use crate::facts::Facts;
+use crate::fold::Folds;
 use crate::rates::Rates;
 use crate::refusal::Refusal;
 use crate::run::{Executed, Visitor, run};
@@ -47,6 +48,7 @@ pub(crate) enum Tracker<'c> {
     Course(Box<Course<'c>>),
     Rates(Box<Rates<'c>>),
     Cycles(Box<Cycles<'c>>),
+    Folds(Box<Folds<'c>>),
     Loops(Box<Loops<'c>>),
     Distance(Box<Distance<'c>>),
     Starts(Box<Starts<'c>>),
@@ -66,6 +68,7 @@ impl<'c> Tracker<'c> {
                 Self::Course(Box::new(Course::new(change, is_whole, model)))
             }
             Change::ExpandCycle => Self::Cycles(Box::new(Cycles::new(model))),
+            Change::FoldCycle => Self::Folds(Box::new(Folds::new(model))),
             Change::UnrollLoop => Self::Loops(Box::new(Loops::new(scope, model))),
             Change::SafeStart => Self::Starts(Box::new(Starts::new(scope, model))),
             Change::Absolute => Self::Distance(Box::new(Distance::new(false, model))),
@@ -81,7 +84,7 @@ impl<'c> Tracker<'c> {
             Self::Rates(rates) => rates.begin(),
             Self::Distance(distance) => distance.begin(),
             Self::Units(units) => units.begin(),
-            Self::Cycles(_) | Self::Loops(_) | Self::Starts(_) | Self::Same => {}
+            Self::Cycles(_) | Self::Folds(_) | Self::Loops(_) | Self::Starts(_) | Self::Same => {}
         }
     }
 
@@ -90,6 +93,10 @@ impl<'c> Tracker<'c> {
             Self::Course(course) => course.executed(block),
             Self::Rates(rates) => rates.executed(block),
             Self::Cycles(cycles) => cycles.executed(block),
+            Self::Folds(folds) => {
+                folds.executed(block);
+                Ok(())
+            }
             Self::Distance(distance) => distance.executed(block),
             Self::Units(units) => units.executed(block),
             Self::Loops(_) | Self::Starts(_) | Self::Same => Ok(()),
@@ -101,6 +108,7 @@ impl<'c> Tracker<'c> {
             Self::Course(course) => course.act(at, is_expanded, act),
             Self::Rates(rates) => Ok(rates.act(act)),
             Self::Cycles(_)
+            | Self::Folds(_)
             | Self::Loops(_)
             | Self::Distance(_)
             | Self::Starts(_)
@@ -213,6 +221,10 @@ impl Visitor for Watching<'_, '_, '_> {
                 cycles.before();
                 Ok(())
             }
+            Tracker::Folds(folds) => {
+                folds.before(state);
+                Ok(())
+            }
             Tracker::Loops(loops) => loops.before(program, machine, at, place, state),
             Tracker::Starts(starts) => {
                 starts.before(at, place, state);
@@ -226,6 +238,10 @@ impl Visitor for Watching<'_, '_, '_> {
         self.witness.following.follow(|tracker| match tracker {
             Tracker::Cycles(cycles) => {
                 cycles.event(event);
+                Ok(())
+            }
+            Tracker::Folds(folds) => {
+                folds.event(event);
                 Ok(())
             }
             Tracker::Starts(starts) => starts.event(event),

@@ -5,7 +5,7 @@
 
 use std::collections::BTreeMap;
 
-use gcheck_controls::{Control, CylinderRules, Unset};
+use gcheck_controls::{Control, CycleRules, CylinderRules, Unset};
 use gcheck_geometry::{Kinematics, Mm, MmPerMin, Rpm, Seconds};
 
 use crate::event::Units;
@@ -238,5 +238,15 @@ impl Machine {
             Some(value) => Some(value),
             None => control.setting(number)?.default.as_deref(),
         }
+    }
+
+    /// What settings say of pecks: how far they back off, where that is told, and how far above `R` they come out. A setting
+    /// counts in the unit of the program, which has so many millimetres.
+    pub fn settings_of_pecks(&self, rules: &CycleRules, unit: f64) -> (Option<Mm>, Mm) {
+        let told = |number: &Option<String>| {
+            let text = self.settings.get(number.as_deref()?)?;
+            text.parse::<f64>().ok().map(|length| Mm(length * unit))
+        };
+        (told(&rules.clearance_setting), told(&rules.above_r_setting).unwrap_or(Mm::ZERO))
     }
 }

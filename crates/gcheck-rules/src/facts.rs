@@ -19,6 +19,7 @@ pub(crate) mod cycles;
 pub(crate) mod depth;
 pub(crate) mod do_loops;
 pub(crate) mod dwell;
+pub(crate) mod earlier_rates;
 pub(crate) mod edge;
 pub(crate) mod empty_variables;
 pub(crate) mod feed;

@@ -10,6 +10,9 @@ mod session;
 mod steps;
 mod tool_table;
 
+use std::ops::Range;
+use std::path::Path;
+
 use gcheck_engine::{Axis, Options, RunResult};
 use gcheck_toolpath::View;
 
@@ -92,6 +95,16 @@ pub(crate) fn tool_table_of(
 ) -> Result<Vec<u32>, Problem> {
     let read = tool_table::parsed(name, text, is_csv, equipment::units(units))?;
     Ok(read.tools.iter().map(|(number, _)| *number).collect())
+}
+
+/// Bytes of the line that a tool has in the text of a tool table.
+pub(crate) fn line_of_tool(path: &Path, text: &str, tool: u32) -> Option<Range<usize>> {
+    tool_table::line_of(text, tool_table::is_csv(path), tool)
+}
+
+/// The text of a tool table on disk.
+pub(crate) fn text_of_tool_table(path: &Path) -> Option<String> {
+    tool_table::source(path).ok().map(|source| source.text().to_owned())
 }
 
 /// The exit code of a run: 0 it came to its end, 1 it did not, or the control would have stopped on the way.

@@ -24,6 +24,7 @@ use crate::config::{Config, Configs, FILE_NAMES, RuleWishes, unknown_rule, valid
 use crate::config_help;
 use crate::control_choice::choose;
 use crate::discovery::{self, EXTENSIONS, is_program_name};
+use crate::execution::{line_of_tool, text_of_tool_table};
 use crate::in_force::{self, Controls};
 use crate::neighbours::Neighbours;
 use crate::programs::{ProgramFolders, Reachable};
@@ -104,6 +105,20 @@ impl Surroundings {
                 chosen.or_else(|| files.find(|file| file.is_file())).into_iter().collect()
             }
         }
+    }
+
+    /// The line of a tool in the table that a program's configuration names.
+    fn line_of_table(
+        &self,
+        program: &ProgramQuery<'_>,
+        tool: u32,
+        open: &dyn Fn(&Path) -> Option<String>,
+    ) -> Option<ConfiguredPlace> {
+        let settings = self.config(program).ok()?.settings(program.path);
+        let path = settings.execution.iter().rev().find_map(|layer| layer.table.clone())?;
+        let text = open(&path).or_else(|| text_of_tool_table(&path))?;
+        let key = line_of_tool(&path, &text, tool)?;
+        Some(ConfiguredPlace { path, text: Arc::from(text), key })
     }
 
     fn folders(&self) -> Arc<ProgramFolders> {
@@ -223,6 +238,9 @@ impl Host for Surroundings {
                 text: Arc::clone(&text),
                 key,
             }));
+        }
+        if let Configured::Tool(tool) = named {
+            found.extend(self.line_of_table(program, tool, open));
         }
         found
     }

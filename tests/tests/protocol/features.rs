@@ -561,6 +561,20 @@ fn changes_of_the_path_are_proved_when_they_are_chosen() {
     let feeds =
         ask(&mut session, "codeAction/resolve", named(&all, "Scale the feeds to 90 % in the selected lines"));
     assert_eq!(feeds["edit"]["documentChanges"][0]["edits"][0]["newText"], "72.");
+    // The moves of selected holes become a cycle.
+    let holes = "G0 Z2.\nG1 Z-3. F80.\nG0 Z2.\nX5.\nG1 Z-3.\nG0 Z2.\n";
+    let mut session = Session::with(&resolving(), &[]);
+    session.open("a.nc", &DRILLED.replace("G99 G81 X5. Z-3. R2. F80.\n", holes));
+    let all = actions(&mut session, [5, 0, 10, 2], Some("refactor"));
+    let fold = ask(&mut session, "codeAction/resolve", named(&all, "Write drilled holes"));
+    assert_eq!(
+        fold["title"],
+        "Write drilled holes as canned cycles in the selected lines, with proof: every move is as before, within 0.001 mm (7 moves compared)"
+    );
+    assert_eq!(
+        fold["edit"]["documentChanges"][0]["edits"][0]["newText"],
+        "G99 G81 X1. Y2. Z-3. R2. F80.\nX5."
+    );
 }
 
 #[test]
@@ -749,25 +763,56 @@ fn a_file_in_toml_that_is_not_ours_has_no_answers() {
     assert_eq!(ask(&mut session, "textDocument/completion", at)["items"], json!([]));
 }
 
+/// Where a word of `a.nc` leads, by name of the file.
+fn places(session: &mut Session, line: u32, character: u32) -> Vec<String> {
+    let at = session.at("a.nc", line, character);
+    let found = ask(session, "textDocument/definition", at);
+    let place = |found: &Value| {
+        let (uri, range) = match &found["targetUri"] {
+            Value::Null => (&found["uri"], &found["range"]),
+            uri => (uri, &found["targetSelectionRange"]),
+        };
+        let name = uri.as_str().unwrap().rsplit('/').next().unwrap().to_owned();
+        format!("{name} {}", crate::session::shown(range))
+    };
+    found.as_array().unwrap().iter().map(place).collect()
+}
+
+#[test]
+fn words_of_a_program_lead_into_its_tool_table() {
+    let program = "T3 M6\nG43 H3 Z5\nT4 M6\nT5 M6\nM2\n";
+    let table = "; tools of the router\nT1 P1 D6\nT3 P3 Z40 D8 ;drill \nT5 oops\n";
+    let shop = "control = \"linuxcnc\"\n[tools]\ntable = \"shop/tool.tbl\"\n";
+    let mut session = Session::new(&[("gcheck.toml", shop), ("shop/tool.tbl", table)]);
+    session.open("a.nc", program);
+    assert_eq!(places(&mut session, 0, 1), ["tool.tbl 2:0-2:19"]);
+    assert_eq!(places(&mut session, 1, 5), ["tool.tbl 2:0-2:19"], "`H3` is the same line");
+    assert_eq!(places(&mut session, 2, 1), [] as [&str; 0], "a tool that is not in the table");
+    assert_eq!(places(&mut session, 3, 1), [] as [&str; 0], "a line with a mistake is none of a tool");
+    let mut at = session.at("a.nc", 0, 1);
+    at["context"] = json!({ "includeDeclaration": true });
+    let found = ask(&mut session, "textDocument/references", at);
+    let uris: Vec<&str> =
+        found.as_array().unwrap().iter().map(|place| place["uri"].as_str().unwrap()).collect();
+    assert!(uris.iter().any(|uri| uri.ends_with("/shop/tool.tbl")), "{uris:?}");
+    // The entry of the configuration wins, and comes first.
+    let both = "control = \"linuxcnc\"\n[tools]\ntable = \"tools.csv\"\n3 = { length = 1 }\n";
+    let mut session = Session::new(&[("gcheck.toml", both), ("tools.csv", "tool;length\nT3;40,5\n")]);
+    session.open("a.nc", program);
+    assert_eq!(places(&mut session, 0, 1), ["gcheck.toml 3:0-3:1", "tools.csv 1:0-1:7"]);
+    // A file that is not text, or is not there, has no lines.
+    let gone = "control = \"linuxcnc\"\n[tools]\ntable = \"gone.tbl\"\n";
+    let mut session = Session::new(&[("gcheck.toml", gone)]);
+    session.open("a.nc", program);
+    assert_eq!(places(&mut session, 0, 1), [] as [&str; 0]);
+}
+
 #[test]
 fn words_of_a_program_lead_into_its_configuration() {
     let program = "O1\nT3 M6\nG54 G43 H3 Z5.\nG154 P2\nM51\nT4 M6\nM30\n";
     let called = "O9010\nM99\n";
     let mut session = Session::new(&[("gcheck.toml", SHOP), ("O9010.nc", called)]);
     session.open("a.nc", program);
-    let places = |session: &mut Session, line, character| {
-        let at = session.at("a.nc", line, character);
-        let found = ask(session, "textDocument/definition", at);
-        let place = |found: &Value| {
-            let (uri, range) = match &found["targetUri"] {
-                Value::Null => (&found["uri"], &found["range"]),
-                uri => (uri, &found["targetSelectionRange"]),
-            };
-            let name = uri.as_str().unwrap().rsplit('/').next().unwrap().to_owned();
-            format!("{name} {}", crate::session::shown(range))
-        };
-        found.as_array().unwrap().iter().map(place).collect::<Vec<_>>()
-    };
     assert_eq!(places(&mut session, 1, 1), ["gcheck.toml 5:0-5:1"]);
     assert_eq!(places(&mut session, 2, 9), ["gcheck.toml 5:0-5:1"]);
     assert_eq!(places(&mut session, 2, 1), ["gcheck.toml 7:0-7:3"]);

@@ -511,14 +511,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if !matches!(effect, Effect::CyclePeck | Effect::CycleChipBreak) {
             return (None, Mm::ZERO);
         }
-        let rules = &self.model.semantics().cycles;
-        let unit = self.unit(state);
-        let machine = self.machine;
-        let told = |number: &Option<String>| {
-            let text = machine.settings.get(number.as_deref()?)?;
-            text.parse::<f64>().ok().map(|length| Mm(length * unit))
-        };
-        (told(&rules.clearance_setting), told(&rules.above_r_setting).unwrap_or(Mm::ZERO))
+        self.machine.settings_of_pecks(&self.model.semantics().cycles, self.unit(state))
     }
 
     /// How many times faster a tap comes out: its `J`, else the setting; a number of one or less changes nothing.

@@ -12,8 +12,8 @@ use gcheck_controls::{Effect, Machine as MachineKind};
 use gcheck_db::{Cancelled, Snapshot};
 use gcheck_diagnostics::{Edit, apply};
 use gcheck_edit::{
-    Amount, Change, Refusal, Scope, Witness, assume_cutters, assume_places, expected, gaps, plainly, plan,
-    witness,
+    Amount, Change, Refusal, Scope, Witness, assume_cutters, assume_places, expected, gaps,
+    is_moves_and_dwells, plainly, plan, witness,
 };
 use gcheck_engine::{Assumption, Axis, Ending, Machine, Options, Role, RunResult, Stopped, Units};
 use gcheck_format::{Numbering, renumber};
@@ -74,10 +74,16 @@ pub fn proved_changes(snapshot: &Snapshot, selected: &Range<u32>) -> Vec<ProvedC
     let is = |effect: Effect| uses(&move |other| other == effect);
     let is_mill = control.machine() != MachineKind::Lathe;
     let has_cycle = uses(&|effect| Role::of(effect) == Some(Role::Cycle) && effect != Effect::CycleCancel);
+    let has_drilling = control.codes().any(|code| is_moves_and_dwells(code.effect()));
     let has_loop = !snapshot.file_index().loops.is_empty() || !snapshot.file_index().o_words.is_empty();
     let is_whole = range.is_none();
     let offers = [
         (has_cycle, "expand-cycle", "Write canned cycles as plain moves"),
+        (
+            has_drilling && is(Effect::Rapid) && is(Effect::Linear),
+            "fold-cycle",
+            "Write drilled holes as canned cycles",
+        ),
         (has_loop, "unroll-loop", "Write loops turn by turn"),
         (is(Effect::Incremental), "absolute", "Write increments as absolute coordinates"),
         (is(Effect::Absolute), "incremental", "Write absolute coordinates as increments"),
@@ -127,6 +133,7 @@ impl PathChange {
         let zero = Amount::ZERO;
         let change = match name {
             "expand-cycle" => Change::ExpandCycle,
+            "fold-cycle" => Change::FoldCycle,
             "unroll-loop" => Change::UnrollLoop,
             "safe-start" => Change::SafeStart,
             "absolute" => Change::Absolute,
@@ -397,8 +404,11 @@ mod tests {
     use std::ops::Range;
 
     use expect_test::{Expect, expect};
+    use gcheck_edit::{Change, Scope};
+    use gcheck_engine::Options;
+    use proptest::prelude::*;
 
-    use super::{PathChange, proved, proved_change_at, proved_changes};
+    use super::{PathChange, Proving, proved, proved_change_at, proved_changes};
     use crate::fixture::{Fixture, applied};
 
     const PROGRAM: &str = "O1\nG21 G17 G90 G94 G54 G40 G80\nS1000 M3\nG0 X1. Y2. Z5.\nG1 Z-1. F100.\nG2 X3. Y2. I1.\nG0 Z5.\nG81 X5. Z-3. R2. F80.\nG80\nM30\n";
@@ -590,5 +600,87 @@ mod tests {
             ),
             "{reason}"
         );
+    }
+
+    /// A program that drills holes by cycles, and the control that it is for.
+    fn cycles() -> impl Strategy<Value = (&'static str, String)> {
+        let controls = prop_oneof![Just("haas-mill"), Just("fanuc-mill"), Just("linuxcnc"), Just("grblhal")];
+        let codes = prop_oneof![Just("G81"), Just("G82"), Just("G83"), Just("G73"), Just("G85"), Just("G89")];
+        let holes = prop::collection::vec((-40_i32..40, -40_i32..40, 0_u8..4), 2..6);
+        let levels = (1_i32..5, 0_i32..30, 1_i32..20, 1_i32..9);
+        (controls, codes, any::<bool>(), any::<bool>(), levels, holes).prop_map(
+            |(control, code, to_r, is_incremental, (r, above, deep, peck), holes)| {
+                let (initial, dwell) = (r + above, if control == "linuxcnc" { "P0.5" } else { "P500" });
+                let own = match code {
+                    "G82" | "G89" => format!(" {dwell}"),
+                    "G83" | "G73" => format!(" Q{peck}.25"),
+                    _ => String::new(),
+                };
+                let level = if to_r { "G99" } else { "G98" };
+                let [distance, z, of_r] = if is_incremental {
+                    ["G91".to_owned(), format!("{}.", -deep - r), format!("{}.", -above)]
+                } else {
+                    ["G90".to_owned(), format!("{}.", -deep), format!("{r}.")]
+                };
+                let mut text = format!(
+                    "%\nO1\nG21 G17 G90 G94 G54 G40 G80 G61\nT1 M6\nS900 M3\nG0 X0. Y0. Z{initial}.\n{distance}\n"
+                );
+                for (index, (x, y, kind)) in holes.iter().enumerate() {
+                    let point = match kind {
+                        0 => format!("X{x}."),
+                        1 => format!("Y{y}."),
+                        _ => format!("X{x}. Y{y}."),
+                    };
+                    let block = match index {
+                        0 => format!("{level} {code} {point} Z{z} R{of_r}{own} F120."),
+                        _ if *kind == 3 => format!("{point} F{}.", 100 + y),
+                        _ => point,
+                    };
+                    text += &format!("{block}\n");
+                }
+                text += "G80\nG90\nG0 Z50.\nM5\nM30\n%\n";
+                // One of these has neither a program number nor its exact stop as a mode.
+                let text = match control {
+                    "linuxcnc" | "grblhal" => text.replace("O1\n", ""),
+                    _ => text.replace(" G61", ""),
+                };
+                (control, text)
+            },
+        )
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig { cases: 96, ..ProptestConfig::default() })]
+
+        /// A cycle that is written as moves and then as a cycle again makes the moves that it made.
+        #[test]
+        fn a_cycle_expanded_and_folded_makes_the_same_moves((control, text) in cycles()) {
+            let change = |text: &str, name: &str| {
+                let snapshot = Fixture::new(control, text).snapshot();
+                let asked = PathChange::named(name).unwrap();
+                let proved = proved(&snapshot, &asked, None, 100_000, &|| false).unwrap();
+                proved.map(|proved| applied(text, &proved.edits))
+            };
+            let moves = change(&text, "expand-cycle").map_err(TestCaseError::fail)?;
+            let has_cycle = |text: &str| {
+                text.lines().any(|line| ["G81", "G82", "G83", "G73", "G85", "G89"].iter().any(|code| line.contains(code)))
+            };
+            prop_assert!(!has_cycle(&moves), "{moves}");
+            let folded = change(&moves, "fold-cycle").map_err(|reason| TestCaseError::fail(format!("{reason}\n{moves}")))?;
+            prop_assert!(has_cycle(&folded), "{moves}");
+            prop_assert!(folded.lines().count() < moves.lines().count(), "{folded}");
+            let snapshot = Fixture::new(control, &text).snapshot();
+            let machine = snapshot.settings().machine.engine.clone();
+            let proving = Proving {
+                snapshot: &snapshot,
+                change: &Change::FoldCycle,
+                numbering: None,
+                scope: &Scope::All,
+                fuel: 100_000,
+                stop: &|| false,
+            };
+            let compared = proving.compare(&machine, Options::NONE, &folded).unwrap();
+            prop_assert!(compared.clone().is_ok_and(|moves| moves > 4), "{compared:?}\n{text}\n{folded}");
+        }
     }
 }

@@ -88,6 +88,15 @@ pub enum EditCommand {
         #[command(flatten)]
         target: EditTarget,
     },
+    /// Write holes that plain moves drill as canned cycles
+    ///
+    /// Rapid moves over a hole, cuts down, pecks, dwells and retracts become blocks of the control's own drilling and boring
+    /// cycles. Moves that no cycle of the control makes in the same way stay.
+    FoldCycle {
+        /// The program and the part of it that changes.
+        #[command(flatten)]
+        target: EditTarget,
+    },
     /// Write loops turn by turn, with values in the place of variables
     ///
     /// `WHILE … END` and the O-word loops of LinuxCNC become plain blocks; an assignment stays only if a later block reads
@@ -233,6 +242,7 @@ impl EditCommand {
             | Self::Mirror { target, .. }
             | Self::Rotate { target, .. }
             | Self::ExpandCycle { target }
+            | Self::FoldCycle { target }
             | Self::UnrollLoop { target }
             | Self::Absolute { target }
             | Self::Incremental { target }

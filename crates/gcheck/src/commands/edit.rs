@@ -128,6 +128,7 @@ fn change(command: &EditCommand) -> Result<Change, Problem> {
             Change::Rotate(quarters, about.map_or([Amount::ZERO; 2], |about| about.0))
         }
         EditCommand::ExpandCycle { .. } => Change::ExpandCycle,
+        EditCommand::FoldCycle { .. } => Change::FoldCycle,
         EditCommand::UnrollLoop { .. } => Change::UnrollLoop,
         EditCommand::Absolute { .. } => Change::Absolute,
         EditCommand::Incremental { .. } => Change::Incremental,

@@ -9,6 +9,7 @@ use std::path::Path;
 use gcheck_controls::Letter;
 use gcheck_engine::{Axis, Position, Tool, Units};
 use gcheck_geometry::Mm;
+use gcheck_syntax::SourceText;
 
 use crate::quoting::Workspace;
 use crate::{Problem, paths, reading};
@@ -28,22 +29,50 @@ pub(super) struct ToolTableFile {
 
 /// Reads a table; its lengths are in `units`.
 pub(super) fn read(path: &Path, units: Units) -> Result<ToolTableFile, Problem> {
+    let source = source(path)?;
+    parsed(&paths::shown_from_here(path), source.text(), is_csv(path), units)
+        .map_err(|problem| if Workspace::here().may_quote(path) { problem } else { problem.without_text() })
+}
+
+/// The text of a table.
+pub(super) fn source(path: &Path) -> Result<SourceText, Problem> {
     let name = paths::shown_from_here(path);
     let bytes = reading::regular(path, MAX_BYTES).map_err(|reason| {
         Problem::with_file(Path::new(&name), format!("cannot read: {reason}"))
             .help("`tools.table` names this file")
     })?;
-    let source = reading::text(Path::new(&name), &bytes)
-        .map_err(|problem| problem.help("`tools.table` names this file"))?;
-    let is_csv = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("csv"));
-    parsed(&name, source.text(), is_csv, units)
-        .map_err(|problem| if Workspace::here().may_quote(path) { problem } else { problem.without_text() })
+    reading::text(Path::new(&name), &bytes).map_err(|problem| problem.help("`tools.table` names this file"))
+}
+
+/// Has a table columns, by its name?
+pub(super) fn is_csv(path: &Path) -> bool {
+    path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("csv"))
 }
 
 /// Reads the text of a table; `name` is what messages call it.
 pub(super) fn parsed(name: &str, text: &str, is_csv: bool, units: Units) -> Result<ToolTableFile, Problem> {
     let read = if is_csv { columns } else { words };
     read(text, units.in_mm()).map_err(|Mistake { range, message }| Problem::at(name, text, &range, message))
+}
+
+/// The line of a tool, without its end: the one that counts, where several have its number. Lines with mistakes are passed over.
+pub(super) fn line_of(text: &str, is_csv: bool, tool: u32) -> Option<Range<usize>> {
+    let mut heading: Option<&str> = None;
+    let mut found = None;
+    for (start, line) in lines(text).filter(|(_, line)| !line.trim().is_empty()) {
+        let read = match heading {
+            None if is_csv => {
+                heading = Some(line);
+                continue;
+            }
+            Some(heading) => columns(&format!("{heading}\n{line}"), 1.0),
+            None => words(line, 1.0),
+        };
+        if read.is_ok_and(|read| read.tools.iter().any(|(number, _)| *number == tool)) {
+            found = Some(start..start + line.trim_end().len());
+        }
+    }
+    found
 }
 
 /// What is wrong, and where.
@@ -290,7 +319,7 @@ fn cells(line: &str, separator: char) -> impl Iterator<Item = (Range<usize>, Str
 mod tests {
     use gcheck_engine::Axis;
 
-    use super::{Mistake, ToolTableFile, columns, words};
+    use super::{Mistake, ToolTableFile, columns, line_of, words};
 
     /// Number, pocket, length, diameter and remark of each tool.
     fn told(read: Result<ToolTableFile, Mistake>) -> Vec<String> {
@@ -313,6 +342,22 @@ mod tests {
         // Angles are degrees in any unit.
         assert_eq!((tool.offset.raw(Axis::X), tool.offset.raw(Axis::A)), (25.4, 90.0));
         assert_eq!((tool.angles, tool.orientation), ([5.0, 10.0], 9));
+    }
+
+    #[test]
+    fn the_line_of_a_tool_is_found_beside_lines_with_mistakes() {
+        let line =
+            |text: &str, is_csv: bool, tool: u32| line_of(text, is_csv, tool).map(|at| text[at].to_owned());
+        let text = "; T3 old\r\nT1 P1 Z1\r\nZ2 T3 D1 ;drill \r\nT3 oops\r\nT13\r\n";
+        assert_eq!(line(text, false, 3).as_deref(), Some("Z2 T3 D1 ;drill"));
+        assert_eq!(line(text, false, 13).as_deref(), Some("T13"));
+        assert_eq!(line(text, false, 2), None);
+        assert_eq!(line("T3 Z1\nT3 Z2\n", false, 3).as_deref(), Some("T3 Z2"), "the last one counts");
+        let text = "\ntool;length\nT3;1,5\n4;x\n5;2\n";
+        assert_eq!(line(text, true, 3).as_deref(), Some("T3;1,5"));
+        assert_eq!(line(text, true, 5).as_deref(), Some("5;2"));
+        assert_eq!(line(text, true, 4), None);
+        assert_eq!(line("length\n3\n", true, 3), None, "no column has numbers of tools");
     }
 
     #[test]

@@ -1059,6 +1059,252 @@ fn cycles_that_are_more_than_moves_stay() {
 }
 
 #[test]
+fn drilled_holes_become_a_cycle() {
+    changes(
+        "%\nO1\nG21 G17 G90 G94 G54 G40 G80\nT1 M6\nS2000 M3\nG0 X10. Y10. M8\nG43 H1 Z25.\n(FIRST ROW)\nG0 Z2.\nG1 Z-12. F120. (DEEP)\nG0 Z2.\nG0 X50.\nG1 Z-12.\nG0 Z2.\n(SECOND ROW)\nG0 X50. Y30.\nG1 Z-8. F90.\nG0 Z25.\nX0. Y0.\nM30\n%\n",
+        "haas-mill",
+        "fold-cycle",
+        &expect![[r#"
+             9 G99 G81 X10. Y10. Z-12. R2. F120. (DEEP)
+            10 X50.
+            11 (SECOND ROW)
+            12 G98 Y30. Z-8. R2. F90.
+            13 G80
+            14 G0 X0. Y0.
+            15 M30
+            16 %
+            ! part.nc: changed for haas-mill: every move is as before, within 0.001 mm (12 moves compared)
+            exit 0
+        "#]],
+    );
+}
+
+#[test]
+fn pecks_and_dwells_become_words_of_a_cycle() {
+    let head = "%\nO1\nG21 G17 G90 G94 G54 G40 G80\nT1 M6\nS2000 M3\nG43 H1 Z25.\n";
+    let pecks = "G0 X10. Y10.\nG0 Z2.\nG1 Z-3. F120.\nG0 Z2.\nG0 Z-2.\nG1 Z-8.\nG0 Z2.\nG0 Z-7.\nG1 Z-11.\nG4 P500\nG0 Z25.\nM30\n%\n";
+    changes(
+        &format!("{head}{pecks}"),
+        "fanuc-mill",
+        "fold-cycle",
+        &expect![[r#"
+             7 G98 G83 X10. Y10. Z-11. R2. Q5. P500 F120.
+             8 G80
+             9 M30
+            10 %
+            ! part.nc: changed for fanuc-mill: every move is as before, within 0.001 mm (11 moves compared)
+            ! note: a parameter of the control decides how far G83 backs off between pecks; the proof takes 1 mm
+            exit 0
+        "#]],
+    );
+    let chips = "G0 X10. Y10.\nZ2.\nG1 Z-3. F120.\nG0 Z-2.\nG1 Z-8.\nG0 Z-7.\nG1 Z-11.\nG0 Z2.\nG1 Z-3.\nG0 X20.\nM30\n%\n";
+    changes(
+        &format!("{head}{chips}"),
+        "fanuc-mill",
+        "fold-cycle",
+        &expect![[r#"
+             7 G99 G73 X10. Y10. Z-11. R2. Q5. F120.
+             8 G80
+             9 G1 Z-3.
+            10 G0 X20.
+            11 M30
+            12 %
+            ! part.nc: changed for fanuc-mill: every move is as before, within 0.001 mm (11 moves compared)
+            ! note: a parameter of the control decides how far G73 backs off between pecks; the proof takes 1 mm
+            exit 0
+        "#]],
+    );
+    let bores = "G0 X10. Y10.\nZ2.\nG1 Z-3. F120.\nG1 Z2.\nG0 X20.\nG1 Z-3.\nZ2.\nM30\n%\n";
+    changes(
+        &format!("{head}{bores}"),
+        "fanuc-mill",
+        "fold-cycle",
+        &expect![[r#"
+         7 G99 G85 X10. Y10. Z-3. R2. F120.
+         8 X20.
+         9 G80
+        10 M30
+        11 %
+        ! part.nc: changed for fanuc-mill: every move is as before, within 0.001 mm (8 moves compared)
+        exit 0
+    "#]],
+    );
+    let dwells = "G0 X10. Y10.\nZ2.\nG1 Z-3. F120.\nG4 P250\nG0 Z25.\nG0 X20.\nZ2.\nG1 Z-3.\nG4 P250\nG0 Z25.\nM30\n%\n";
+    changes(
+        &format!("{head}{dwells}"),
+        "fanuc-mill",
+        "fold-cycle",
+        &expect![[r#"
+         7 G98 G82 X10. Y10. Z-3. R2. P250 F120.
+         8 X20.
+         9 G80
+        10 M30
+        11 %
+        ! part.nc: changed for fanuc-mill: every move is as before, within 0.001 mm (9 moves compared)
+        exit 0
+    "#]],
+    );
+}
+
+#[test]
+fn increments_numbers_and_the_return_level_of_other_cycles_stay() {
+    changes(
+        "O1\nN10G21G17G90G94G54G40G80\nN12G00X0.Y0.Z10.\nN15G99G81X1.Y1.Z-1.R1.F50.\nN20G80\nN25G00X0.Y0.Z10.\nN30G91\nN35G00X5.\nN40Z-8.\nN45G01Z-6.F80.\nN50G00Z14.\nN55X5.\nN60Z-8.\nN65G01Z-6.\nN70G00Z14.\nN75X3.\nN80G90G81X40.Y0.Z-1.R1.\nN85G80\nN90M30\n",
+        "haas-mill",
+        "fold-cycle",
+        &expect![[r#"
+             8 N35G98G81X5.Z-6.R-8.F80.
+             9 N55X5.
+            10 N70G80G99
+            11 N75G00X3.
+            12 N80G90G81X40.Y0.Z-1.R1.
+            13 N85G80
+            14 N90M30
+            ! part.nc: changed for haas-mill: every move is as before, within 0.001 mm (19 moves compared)
+            exit 0
+        "#]],
+    );
+    changes(
+        "G20 G90 G17 G40 G80 G61\nG0 X0 Y0 Z1\nX1\nZ.1\nG91 G1 Z-.6 F10\nG90 G0 Z1\nX2\nZ.1\nG91 G1 Z-.6\nG90 G0 Z1\nX3\nM2\n",
+        "linuxcnc",
+        "fold-cycle",
+        &expect![[r#"
+             3 G98 G81 X1. Y0. Z-.5 R.1 F10
+             4 X2.
+             5 G80
+             6 G0 X3
+             7 M2
+            ! part.nc: changed for linuxcnc: every move is as before, within 0.001 mm (10 moves compared)
+            exit 0
+        "#]],
+    );
+}
+
+#[test]
+fn a_lathe_drills_on_its_axis() {
+    changes(
+        "O1\nG21 G97 G99 G18\nT0101\nS800 M3\nG0 X0. Z5.\nZ2.\nG1 Z-5. F0.1\nG0 Z2.\nG0 Z-2.46\nG1 Z-12.\nG0 Z2.\nG0 Z-9.46\nG1 Z-15.\nG0 Z5.\nG0 X50. Z50.\nM30\n",
+        "haas-lathe",
+        "fold-cycle",
+        &expect![[r#"
+             6 G83 X0. Z-15. R2. Q7. F0.1
+             7 G80
+             8 G0 X50. Z50.
+             9 M30
+            ! part.nc: changed for haas-lathe: every move is as before, within 0.001 mm (11 moves compared)
+            ! note: a parameter of the control decides how far G83 backs off between pecks; the proof takes 2.54 mm
+            exit 0
+        "#]],
+    );
+}
+
+#[test]
+fn holes_that_no_cycle_makes_in_this_way_stay() {
+    let head = "%\nO1\nG21 G17 G90 G94 G54 G40 G80\nT1 M6\nS2000 M3\nG0 X10. Y10.\nG43 H1 Z25.\n";
+    let pecks = "Z2.\nG1 Z-3. F120.\nG0 Z2.\nG0 Z-2.\nG1 Z-8.\nG0 Z25.\nM30\n%\n";
+    refuses(
+        &format!("{head}{pecks}"),
+        "haas-mill",
+        "fold-cycle",
+        &expect![[r#"
+        error: part.nc:9:1: cannot write the moves as a cycle: after a peck the tool goes in at rapid to 1 mm above the last depth here, and to 2.54 mm in G83 of this control, as long as setting 22 is not given
+          |
+        9 | G1 Z-3. F120.
+          | ^^^^^^^^^^^^^
+          help: give setting 22 of the machine in `[settings]` of `gcheck.toml`, if it is 1 mm
+        part.nc: nothing is changed
+    "#]],
+    );
+    let fed = "Z2.\nG1 Z-3. F120.\nG0 Z2.\nG1 Z-8.\nG0 Z25.\nM30\n%\n";
+    refuses(
+        &format!("{head}{fed}"),
+        "fanuc-mill",
+        "fold-cycle",
+        &expect![[r#"
+        error: part.nc:9:1: cannot write the moves as a cycle: each peck is fed from R on here, and G83 of this control goes in at rapid to 1 mm above the last depth
+          |
+        9 | G1 Z-3. F120.
+          | ^^^^^^^^^^^^^
+        part.nc: nothing is changed
+    "#]],
+    );
+    let chips = "Z2.\nG1 Z-3. F120.\nG0 Z-2.5\nG1 Z-8.\nG0 Z25.\nM30\n%\n";
+    refuses(
+        &format!("{head}{chips}"),
+        "fanuc-mill",
+        "fold-cycle",
+        &expect![[r#"
+        error: part.nc:9:1: cannot write the moves as a cycle: after a peck the tool backs off by 0.5 mm here, and by 1 mm in G73 of this control
+          |
+        9 | G1 Z-3. F120.
+          | ^^^^^^^^^^^^^
+        part.nc: nothing is changed
+    "#]],
+    );
+    let feeds = "Z2.\nG1 Z-3. F120.\nG1 Z2. F500.\nG0 X30.\nG1 Z-3. F120.\nG1 Z2. F500.\nG0 Z25.\nM30\n%\n";
+    refuses(
+        &format!("{head}{feeds}"),
+        "fanuc-mill",
+        "fold-cycle",
+        &expect![[r#"
+        error: part.nc:9:1: cannot write the moves as a cycle: the feed changes within this hole, and a cycle has one
+          |
+        9 | G1 Z-3. F120.
+          | ^^^^^^^^^^^^^
+        part.nc: nothing is changed
+    "#]],
+    );
+    let taps = "Z2.\nG1 Z-3. F500.\nM4\nG1 Z2.\nM3\nG0 X30.\nG1 Z-3.\nM4\nG1 Z2.\nM3\nG0 Z25.\nM30\n%\n";
+    refuses(
+        &format!("{head}{taps}"),
+        "fanuc-mill",
+        "fold-cycle",
+        &expect![[r#"
+        error: part.nc:10:1: cannot write the moves as a cycle: these moves tap at the feed of the program, and G84 of this control ties the feed to the spindle and ignores the overrides
+           |
+        10 | M4
+           | ^^
+          help: write the tap by hand, and compare with `gcheck diff`
+        part.nc: nothing is changed
+    "#]],
+    );
+    let blended = "G21 G90 G17 G64\nG0 X0 Y0 Z10\nZ2\nG1 Z-3 F100\nG0 Z2\nX10\nG1 Z-3\nG0 Z2\nZ10\nM2\n";
+    refuses(
+        blended,
+        "linuxcnc",
+        "fold-cycle",
+        &expect![[r#"
+        error: part.nc:3:1: cannot write the moves as a cycle: G81 of this control passes its points exactly (G61), and these moves may round their corners
+          |
+        3 | Z2
+          | ^^
+          help: switch exact path (G61) on before these moves
+        part.nc: nothing is changed
+    "#]],
+    );
+}
+
+#[test]
+fn what_is_not_drilled_again_and_again_stays() {
+    let program = |moves: &str| format!("O1\nG21 G17 G90 G94 G54\nG0 X0. Y0. Z25.\n{moves}G0 Z25.\nM30\n");
+    let same = |moves: &str, arguments: &str| {
+        let (run, text) = edit(&program(moves), "fanuc-mill", arguments);
+        assert_eq!(text, program(moves), "{}", run.stderr);
+        assert!(run.stderr.contains("there is nothing to change"), "{}", run.stderr);
+    };
+    let twice = "G0 Z2.\nG1 Z-3. F100.\nG0 Z2.\nG0 X10.\nG1 Z-3.\nG0 Z2.\n";
+    let (_, text) = edit(&program(twice), "fanuc-mill", "fold-cycle");
+    assert!(text.contains("G99 G81 X0. Y0. Z-3. R2. F100.\nG98 X10.\nG80\n"), "{text}");
+    same("G0 Z2.\nG1 Z-3. F100.\nG0 Z2.\n", "fold-cycle");
+    same("G0 Z2.\nG1 Z-3. F100.\nG1 X10.\nG0 Z2.\nX20.\nG1 Z-3.\nX30.\nG0 Z2.\n", "fold-cycle");
+    same(&twice.replace("G0 X10.", "G0 X10. M8"), "fold-cycle");
+    same(&twice.replace("G0 X10.", "/G0 X10."), "fold-cycle");
+    same(&twice.replace("G0 X10.", "#1=10.\nG0 X#1"), "fold-cycle");
+    same(twice, "fold-cycle --lines 4-6");
+    same(&format!("#1=1\n{}IF [#1 GT 5] GOTO 7\n", twice.replace("G0 X10.", "N7 G0 X10.")), "fold-cycle");
+}
+
+#[test]
 fn loops_become_their_turns() {
     let program = "%\nO1\nG21 G17 G90 G54 G40 G80\n#1=0\nG0 X0. Y0. Z5.\nWHILE [#1 LT 3] DO1\nN20 G0 X[#1*10.] Y#1 (ROW)\nG1 Z-[1.+#1/3] F[100.+#1]\nG0 Z5.\n#1=#1+1\nEND1\nG0 X[#1*20.]\nM30\n%\n";
     changes(
@@ -1479,7 +1725,9 @@ fn programs_that_are_written_otherwise_are_the_same_for_diff() {
         let name = control.file_name().unwrap().to_str().unwrap().to_owned();
         for file in fs::read_dir(&control).unwrap().map(|entry| entry.unwrap().path()) {
             let Ok(text) = fs::read_to_string(&file) else { continue };
-            for change in ["expand-cycle", "unroll-loop", "absolute", "incremental", "mm", "safe-start"] {
+            for change in
+                ["expand-cycle", "fold-cycle", "unroll-loop", "absolute", "incremental", "mm", "safe-start"]
+            {
                 let shop = Shop::with(&[("before.nc", &text), ("after.nc", &text)]);
                 let run = shop.gcheck(&format!("edit {change} after.nc --control {name} -q"));
                 assert!(run.code == 0 || shop.read("after.nc") == text, "{}: {change}", file.display());

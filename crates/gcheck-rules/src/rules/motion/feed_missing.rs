@@ -2,9 +2,11 @@
 
 use std::collections::BTreeSet;
 
+use gcheck_controls::Letter;
 use gcheck_engine::{At, Fact, Fault, FeedMode};
 
 use crate::declare::declare_rule;
+use crate::facts::earlier_rates::last_rate_of_tool;
 use crate::facts::feed::{is_probing_motion, zero_feed_given};
 use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
 use crate::{Remembers, remembers};
@@ -25,7 +27,8 @@ declare_rule! {
     /// ```
     /// ```nc,reported,linuxcnc
     /// G94 F100 G1 X10.
-    /// G95
+    /// G95 F0.1 X15.
+    /// G94
     /// G1 X20.
     /// M2
     /// ```
@@ -40,6 +43,7 @@ declare_rule! {
         summary: "cut without a feed",
         severity: Error,
         tier: Path,
+        fixable: OnRequest,
         since: "0.1.0",
         run: Run::Path { watch: Watch::FAULTS, make: || Box::new(FeedMissing::default()) },
     }
@@ -80,7 +84,7 @@ impl PathRule for FeedMissing {
         if cause.is_none() && cx.environment.control_is_guessed {
             finding = finding.at_most(Severity::Warning);
         }
-        report.add(finding);
+        report.add(finding.fix_if(last_rate_of_tool(cx, Letter::of('F'), cx.origin().at)));
     }
 }
 
@@ -89,7 +93,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::testing::check_rule;
+    use crate::testing::{check_rule, fixes_of};
 
     #[test]
     fn the_first_cut_is_marked() {
@@ -102,6 +106,32 @@ mod tests {
                   | ^^^^^^ error[feed-missing] cut without a feed (`F`)
             "#]],
         );
+    }
+
+    #[test]
+    fn the_last_feed_of_the_tool_in_this_mode_is_offered() {
+        let fixed = |program: &str| fixes_of(&RULE, "linuxcnc", program);
+        let program =
+            "G21 G94\nT1 M6\nF300 G1 X1\nT2 M6\nF500 X2\nG95 F0.1 X3\nT1 M6\nG94\nG1 X4 (cut)\nM2\n";
+        assert_eq!(fixed(program), program.replace("X4 (cut)", "X4 F300 (cut)"));
+        assert_eq!(
+            fixed("G94F100G1X1\nG95F.1X2\nG94\nG1X3\nM2\n"),
+            "G94F100G1X1\nG95F.1X2\nG94\nG1X3F100\nM2\n"
+        );
+    }
+
+    #[test]
+    fn where_no_feed_is_known_none_is_offered() {
+        for program in [
+            "G21 G94\nG1 X1\nX2 F100\nM2\n",
+            "G94 F100 G1 X10\nG95\nG1 X20\nM2\n",
+            // Of another tool, in other units, and computed.
+            "G94\nT1 M6\nF100 G1 X1\nG95 F.1 X2\nT2 M6\nG94\nX3\nM2\n",
+            "G20 G94\nF10 G1 X1\nG95 F.1 X2\nG21 G94\nX3\nM2\n",
+            "G94 F100 G1 X1\nF#1 X2\nG95 F.1 X3\nG94\nX4\nM2\n",
+        ] {
+            assert_eq!(fixes_of(&RULE, "linuxcnc", program), program, "{program}");
+        }
     }
 
     #[test]

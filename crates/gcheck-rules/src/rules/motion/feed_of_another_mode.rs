@@ -4,6 +4,7 @@ use gcheck_controls::Effect;
 use gcheck_engine::{Abstract, Domain, Event, Fact, Role};
 
 use crate::declare::declare_rule;
+use crate::facts::earlier_rates::last_rate_of_tool;
 use crate::facts::feed::{goes_by_feed, meaning_of_feed};
 use crate::{PathCx, PathRule, Report, Run, Watch};
 use crate::{Remembers, remembers};
@@ -19,6 +20,7 @@ declare_rule! {
     /// ## Reported
     /// ```nc,reported,haas-mill
     /// G21 G90 G54 S2000 M3
+    /// G94 G1 X5. F300.
     /// G93 G1 X10. A5. F40.
     /// G94
     /// G1 X20.
@@ -45,6 +47,7 @@ declare_rule! {
         summary: "cut at a feed that was given under another feed mode",
         severity: Warning,
         tier: Path,
+        fixable: OnRequest,
         since: "0.1.0",
         run: Run::Path { watch: Watch::CUTS, make: || Box::new(FeedOfAnotherMode::default()) },
     }
@@ -100,6 +103,7 @@ impl PathRule for FeedOfAnotherMode {
         if let Some(range) = feed {
             finding = finding.also(range, format!("given as {before} (`{given}`)"));
         }
+        finding = finding.fix_if(last_rate_of_tool(cx, gcheck_controls::Letter::of('F'), cx.origin().at));
         report.add(cx.resting_on(finding, Fact::Mode(Role::FeedMode), &format!("`{now}`")));
     }
 }

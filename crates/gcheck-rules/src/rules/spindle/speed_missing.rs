@@ -7,6 +7,7 @@ use gcheck_program::Place;
 use crate::declare::declare_rule;
 use crate::facts::cutting::is_cut;
 use crate::facts::cycles::cycle_name;
+use crate::facts::earlier_rates::last_rate_of_tool;
 use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
 use crate::{Remembers, remembers};
 
@@ -21,6 +22,15 @@ declare_rule! {
     /// G0 X1. M3
     /// G1 X2. F10.
     /// S1000
+    /// G1 X3.
+    /// M30
+    /// ```
+    /// ```nc,reported,haas-mill
+    /// T1 M6
+    /// S1000 M3
+    /// G1 X2. F10.
+    /// M5 S0
+    /// M3
     /// G1 X3.
     /// M30
     /// ```
@@ -43,6 +53,7 @@ declare_rule! {
         summary: "spindle started without a speed",
         severity: Warning,
         tier: Path,
+        fixable: OnRequest,
         since: "0.1.0",
         run: Run::Path { watch: Watch::CUTS, make: || Box::new(SpeedMissing { told: None }) },
     }
@@ -101,7 +112,8 @@ impl PathRule for SpeedMissing {
         let finding = cx
             .finding(&META, cx.range(), message)
             .label(if is_zero { "cuts at speed zero" } else { "cuts without a speed of this program" })
-            .help(format!("give `S` with `{code}`"));
+            .help(format!("give `S` with `{code}`"))
+            .fix_if(started_by.and_then(|at| last_rate_of_tool(cx, Letter::of('S'), at)));
         // A machine whose speed is set by hand.
         let finding = if has_any { finding } else { finding.at_most(Severity::Info) };
         let finding = cx.resting_on(finding, Fact::Spindle, &format!("`{code}`"));
@@ -126,7 +138,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::testing::{World, check_rule, findings, only};
+    use crate::testing::{World, check_rule, findings, fixes_of, only};
 
     #[test]
     fn the_first_cut_is_marked() {
@@ -165,6 +177,20 @@ mod tests {
                   | ^^^^^^^^^^^^^^^^^^^^^^^^^ warning[speed-missing] the cycle starts the spindle without a speed (`G84`, no `S` before it)
             "#]],
         );
+    }
+
+    #[test]
+    fn the_last_speed_of_the_tool_is_offered() {
+        let fixed = |program: &str| fixes_of(&RULE, "fanuc-mill", program);
+        let program = "T1 M6\nS2000 M3\nG1 X1. F50.\nT2 M6\nS900 M3\nG1 X2.\nT1 M6\nM3 S0\nG1 X3.\nM30\n";
+        assert_eq!(fixed(program), program.replace("S0", "S2000"));
+        // None is known of this tool; a limit is not a speed.
+        for program in [
+            "T1 M6\nS2000 M3\nG1 X1. F50.\nT2 M6\nS0 M3\nG1 X2.\nM30\n",
+            "T1 M6\nS0 M3\nG1 X2. F50.\nS500\nM30\n",
+        ] {
+            assert_eq!(fixed(program), program);
+        }
     }
 
     #[test]
