@@ -130,11 +130,7 @@ impl<'c> Code<'c> {
     pub fn opens_data(self, number: impl FnOnce(Letter) -> Option<f64>) -> bool {
         self.facts.entry.opens_data.as_ref().is_some_and(|opens| {
             let letter = Letter::parse(&opens.letter);
-            #[expect(
-                clippy::float_cmp,
-                reason = "the number is one of the list, or another form of the code"
-            )]
-            letter.and_then(number).is_some_and(|number| opens.values.iter().any(|value| *value == number))
+            letter.and_then(number).is_some_and(|number| opens.values.contains(&number))
         })
     }
 

@@ -5,6 +5,7 @@
 
 use std::collections::BTreeMap;
 use std::ops::Range;
+use std::rc::Rc;
 
 use gcheck_controls::{CodeIx, DwellWord, Effect, Letter, WordKind};
 use gcheck_engine::{
@@ -219,13 +220,14 @@ impl<'c> Folds<'c> {
                 continue;
             };
             number = region.blocks.last().map_or(number, |(number, _, _)| *number) + 1;
+            let region = Rc::new(region);
             let (series, left) = region.series(self.model, machine);
             misses.extend(left.into_iter().filter_map(|miss| region.refusal(&miss)));
             for series in series {
                 if let Some(reason) = region.unfit(&series, self.model) {
                     misses.push(reason);
                 } else {
-                    writer.cycles.push((region.clone(), series));
+                    writer.cycles.push((Rc::clone(&region), series));
                 }
             }
         }
@@ -464,7 +466,7 @@ struct Writer<'a, 'c, 'p> {
     has_cycles: bool,
     /// A block names another one by its number.
     has_jumps: bool,
-    cycles: Vec<(Region, Series)>,
+    cycles: Vec<(Rc<Region>, Series)>,
 }
 
 impl Writer<'_, '_, '_> {
@@ -535,7 +537,7 @@ impl Writer<'_, '_, '_> {
         for (index, (hole, end)) in series.holes.iter().enumerate() {
             let own = region.blocks.get(begin..*end).unwrap_or_default();
             begin = *end;
-            let (number, remark) = self.beside(sheet, own, &mut lines);
+            let (number, remark) = Self::beside(sheet, own, &mut lines);
             let mut words: Vec<String> = number.into_iter().collect();
             if index == 0 && !incremental && first.before.incremental == Some(true) {
                 words.push(sheet.spelled(Effect::Absolute)?);
@@ -546,7 +548,7 @@ impl Writer<'_, '_, '_> {
             }
             to_r = hole.to_r;
             words.extend(self.words(sheet, region, series.initial, hole, &mut written)?);
-            words.extend(self.feed(sheet, own, &mut written));
+            words.extend(Self::feed(sheet, own, &mut written));
             let gap = sheet.hand.gap();
             let remark = remark.map_or_else(String::new, |remark| format!(" {remark}"));
             lines.push(format!("{}{remark}", words.join(gap)));
@@ -565,7 +567,7 @@ impl Writer<'_, '_, '_> {
             let is_cancel = |word: &Word| self.folds.model.effect(word.code) == Effect::CycleCancel;
             place.table.words(place.block()).iter().any(is_cancel)
         };
-        let begins_next = begins.contains(&(last_number + 1));
+        let begins_next = begins.binary_search(&(last_number + 1)).is_ok();
         let before = closing.len();
         if begins_next || !next.as_ref().is_some_and(cancels) {
             closing.push(sheet.spelled(Effect::CycleCancel)?);
@@ -599,7 +601,6 @@ impl Writer<'_, '_, '_> {
 
     /// The number of a hole's block, and the comment at its end; other comments get lines of their own.
     fn beside(
-        &self,
         sheet: &Sheet<'_, '_>,
         blocks: &[(u32, Place, Part)],
         lines: &mut Vec<String>,
@@ -699,12 +700,7 @@ impl Writer<'_, '_, '_> {
     }
 
     /// The feed of a hole, where its blocks give another one.
-    fn feed(
-        &self,
-        sheet: &Sheet<'_, '_>,
-        blocks: &[(u32, Place, Part)],
-        written: &mut Written,
-    ) -> Option<String> {
+    fn feed(sheet: &Sheet<'_, '_>, blocks: &[(u32, Place, Part)], written: &mut Written) -> Option<String> {
         let (place, word) = blocks.iter().rev().find_map(|(_, place, _)| Some((place, feed_word(place)?)))?;
         let feed = word.number().map(f64::to_bits);
         let is_new = written.feed != feed;
@@ -725,7 +721,7 @@ impl Writer<'_, '_, '_> {
         let code = sheet.spelled(last.facts.motion)?;
         for number in last_number + 1..=last_number + LOOK_AHEAD {
             let place = sheet.loaded.place(number, self.program.dialect())?;
-            if begins.contains(&number) {
+            if begins.binary_search(&number).is_ok() {
                 return None;
             }
             let words = place.table.words(place.block());

@@ -11,6 +11,8 @@ use gcheck_engine::cycles::{Hole, Overrides, Stroke, hole};
 use gcheck_engine::{Machine, Model, Units};
 use gcheck_geometry::{Mm, Plane, Seconds};
 
+/// Moves and dwells of one hole that are read: a hole with more strokes stays as it is written.
+const MOST_DEEDS: usize = 1024;
 /// Millimetres within which points are the same.
 const SAME: f64 = 1e-3;
 /// Seconds within which dwells are the same.
@@ -147,7 +149,7 @@ impl Finder<'_> {
         initial: Option<f64>,
         cycle: Option<CodeIx>,
     ) -> Result<Option<Found>, Miss> {
-        let deeds: Vec<Deed> = deeds.iter().map(|deed| self.local(deed)).collect();
+        let deeds: Vec<Deed> = deeds.iter().take(MOST_DEEDS).map(|deed| self.local(deed)).collect();
         let is_approach = |deed: &&Deed| deed.kind == Kind::Rapid || deed.goes_nowhere();
         let start = deeds.iter().take(MOST_APPROACHES).take_while(is_approach).count();
         let (Some(begin), Some(first)) = (deeds.first(), deeds.get(start)) else { return Ok(None) };

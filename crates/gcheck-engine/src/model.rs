@@ -156,6 +156,7 @@ pub(crate) struct Rank(pub(crate) u8);
 
 /// What the engine asks about one code.
 #[derive(Debug, Clone, Copy)]
+#[expect(clippy::struct_excessive_bools, reason = "independent yes/no facts of a code")]
 pub(crate) struct CodeModel {
     pub(crate) effect: Effect,
     pub(crate) role: Option<Role>,

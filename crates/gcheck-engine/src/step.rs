@@ -389,7 +389,7 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
         state: &mut State<D>,
     ) -> Step<Outcome<D>> {
         let words = self.words_to_come(table, block);
-        if !words.is_empty() && !self.reads_as_data(words, state) {
+        if !words.is_empty() && !Self::reads_as_data(words, state) {
             // Whether the words are data or commands is not known: what was before stays possible.
             let unread = (state.data_entry == Truth::Unknown).then(|| state.clone());
             self.read_words(place, table, words, state)?;

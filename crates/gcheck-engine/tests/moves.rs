@@ -238,3 +238,25 @@ fn a_note_in_front_of_the_tape_is_no_program() {
         .assert_eq(&shown);
     }
 }
+
+#[test]
+fn rows_of_data_are_not_executed() {
+    check(
+        "fanuc-mill",
+        "G0 X1. Y2. Z3.\nG10 L3\nP1 L20\nT5 H5 X50.\nG11\nX4.",
+        &expect![[r#"
+        rapid x1 y2 z3
+        rapid x4 y2 z3
+        at x4 y2 z3"#]],
+    );
+    // A command ends the rows, whatever ends them by right.
+    check(
+        "fanuc-mill",
+        "G0 X1. Y2. Z3.\nG10 L50\nN1320 P1 R5 X50.\nG1 X4. F100.\nX5.",
+        &expect![[r#"
+        rapid x1 y2 z3
+        feed x4 y2 z3
+        feed x5 y2 z3
+        at x5 y2 z3"#]],
+    );
+}

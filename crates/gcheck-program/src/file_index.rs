@@ -187,13 +187,24 @@ pub struct NeverGiven {
     pub range: Range<u32>,
 }
 
-/// A code that opens lines of data (`G10 L50`), or one that may end them (`G11`).
+/// A block that matters to lines of data.
 #[derive(Debug, Clone, PartialEq, Eq)]
 struct DataMark {
+    kind: DataMarkKind,
     code: CodeIx,
-    opens: bool,
     /// Bytes of the file: the block.
     block: Range<u32>,
+}
+
+/// What a block is to lines of data.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum DataMarkKind {
+    /// Its code opens them: `G10 L50`.
+    Opens,
+    /// Its code may end them: `G11`.
+    MayEnd,
+    /// It has another code, which shows that the block is a command.
+    Command,
 }
 
 /// Everything collected from the chunks of one file.
@@ -247,10 +258,12 @@ pub struct FileIndex {
     /// Lines of data between the block that opens them and the one that ends them, in text order: rows of a table, not
     /// commands. Their `N` are not labels.
     pub data: Vec<Range<u32>>,
-    /// Blocks that open or may end lines of data.
+    /// Blocks that matter to lines of data.
     data_marks: Vec<DataMark>,
     /// The block that opened lines of data which nothing has ended yet.
     data_opened: Option<DataMark>,
+    /// Blocks that opened lines of data which a command follows before any end.
+    data_left_open: Vec<DataMark>,
     /// Levels of block delete that are used: bit 0 for a plain `/`.
     pub block_deletes: u16,
     /// How many blocks there are.
@@ -320,6 +333,8 @@ impl FileIndex {
             self.add_plain(table, base, dialect);
             return;
         }
+        // Of the commands in a row, the first one of a chunk shows that lines of data are over.
+        let mut may_be_data = dialect.has_data_codes();
         for (ix, block) in table.blocks() {
             if base + block.range.start >= end {
                 break;
@@ -353,7 +368,10 @@ impl FileIndex {
                 BlockFlags::CODE | BlockFlags::LABEL | BlockFlags::PROGRAM_NUMBER | BlockFlags::STATEMENT;
             if block.flags.intersects(interesting) {
                 self.add_block(table, ix, block, base, dialect);
-                if let Some(mark) = data_mark(table, block, base, dialect) {
+                if let Some(mark) = data_mark(table, block, base, dialect)
+                    && (may_be_data || mark.kind != DataMarkKind::Command)
+                {
+                    may_be_data = mark.kind == DataMarkKind::Opens;
                     self.take_data_mark(mark, dialect);
                 }
             }
@@ -369,6 +387,7 @@ impl FileIndex {
         file_index.add(table, 0, end, dialect);
         file_index.seen = Default::default();
         (file_index.data, file_index.data_opened) = (Vec::new(), None);
+        file_index.data_left_open = Vec::new();
         file_index
     }
 
@@ -376,27 +395,25 @@ impl FileIndex {
     /// their labels go then.
     fn take_data_mark(&mut self, mark: DataMark, dialect: &Dialect<'_>) {
         let code = |mark: &DataMark| dialect.control().code_at(mark.code);
-        match &self.data_opened {
-            // Data in data: the first opening counts.
-            Some(opened) if !mark.opens => {
-                let ends =
-                    code(&mark).zip(code(opened)).is_some_and(|(end, opener)| end.ends_data_of(opener));
-                if ends {
-                    let data = opened.block.end..mark.block.start;
-                    self.labels.retain(|label| !data.contains(&label.range.start));
-                    self.data.push(data);
-                    self.data_opened = None;
-                }
+        if let Some(opened) = self.data_opened.take() {
+            let ends = code(&mark).zip(code(&opened)).is_some_and(|(end, opener)| end.ends_data_of(opener));
+            if mark.kind == DataMarkKind::MayEnd && ends {
+                let data = opened.block.end..mark.block.start;
+                self.labels.retain(|label| !data.contains(&label.range.start));
+                self.data.push(data);
+            } else {
+                self.data_left_open.push(opened);
             }
-            None if mark.opens => self.data_opened = Some(mark.clone()),
-            Some(_) | None => {}
+        }
+        if mark.kind == DataMarkKind::Opens {
+            self.data_opened = Some(mark.clone());
         }
         self.data_marks.push(mark);
     }
 
-    /// The code that opens lines of data which nothing in the file ends, and its block.
-    pub fn data_left_open(&self) -> Option<(CodeIx, &Range<u32>)> {
-        self.data_opened.as_ref().map(|mark| (mark.code, &mark.block))
+    /// The codes that open lines of data which nothing ends before the next command, each with its block, in text order.
+    pub fn data_left_open(&self) -> impl Iterator<Item = (CodeIx, &Range<u32>)> {
+        self.data_left_open.iter().chain(&self.data_opened).map(|mark| (mark.code, &mark.block))
     }
 
     /// Is the place in lines of data?
@@ -649,19 +666,21 @@ impl<'t> References<'t> {
     }
 }
 
-/// Does the block open lines of data, or may it end some? A number that is computed decides nothing here.
+/// What a block with a code is to lines of data. A number that is computed decides nothing here.
 fn data_mark(table: &BlockTable, block: &Block, base: u32, dialect: &Dialect<'_>) -> Option<DataMark> {
     if !dialect.has_data_codes() || !block.flags.contains(BlockFlags::CODE) {
         return None;
     }
     let words = table.words(block);
     let number = |letter| words.iter().find(|word| word.letter == letter).and_then(Word::number);
-    words.iter().find_map(|word| {
-        let code = dialect.control().code_at(word.code)?;
-        let opens = code.opens_data(number);
-        let is_mark = opens || dialect.ends_data(word.code);
-        is_mark.then(|| DataMark { code: word.code, opens, block: shift(&block.range, base) })
-    })
+    let kind = |word: &Word| match dialect.control().code_at(word.code)? {
+        code if code.opens_data(number) => Some(DataMarkKind::Opens),
+        _ if dialect.ends_data(word.code) => Some(DataMarkKind::MayEnd),
+        _ => None,
+    };
+    let mark = |kind, code| DataMark { kind, code, block: shift(&block.range, base) };
+    let found = words.iter().find_map(|word| Some(mark(kind(word)?, word.code)));
+    Some(found.unwrap_or_else(|| mark(DataMarkKind::Command, CodeIx::NONE)))
 }
 
 fn whole(value: f64) -> Option<u32> {
@@ -755,5 +774,37 @@ mod tests {
     #[test]
     fn a_percent_sign_inside_a_line_is_no_mark() {
         assert_eq!(region("%\nG0 (50%)\nM30\n"), "%\nG0 (50%)\nM30\n");
+    }
+
+    /// The lines of data of a program, and the codes that open some which nothing ends; the same however the file is cut into
+    /// chunks.
+    fn data_of(text: &str) -> (Vec<&str>, usize) {
+        let control = gcheck_controls::load("fanuc-mill").unwrap();
+        let dialect = Dialect::new(&control);
+        let mut whole = FileIndex::default();
+        whole.add(&crate::lower(text, &dialect), 0, text.len() as u32, &dialect);
+        let mut joined = FileIndex::default();
+        let mut at = 0;
+        for line in text.split_inclusive('\n') {
+            let chunk = FileIndex::of_chunk(&crate::lower(line, &dialect), u32::MAX, &dialect);
+            joined.join(&chunk, at, &dialect);
+            at += line.len() as u32;
+        }
+        assert_eq!((&whole.data, &whole.labels), (&joined.data, &joined.labels), "{text}");
+        let open: Vec<_> = whole.data_left_open().collect();
+        assert_eq!(open, joined.data_left_open().collect::<Vec<_>>(), "{text}");
+        let rows = whole.data.iter().map(|data| text[data.start as usize..data.end as usize].trim());
+        (rows.collect(), open.len())
+    }
+
+    #[test]
+    fn rows_between_the_code_that_opens_data_and_the_one_that_ends_it() {
+        let rows = "N1320 P1 R500000";
+        assert_eq!(data_of(&format!("N5 G10 L50\n{rows}\nG11\nN5 G0 X1.\n")), (vec![rows], 0));
+        assert_eq!(data_of("G10 L2 P1 X0.\nG0 X1.\nG11\n"), (vec![], 0));
+        // A command shows that nothing ended them.
+        let two = format!("G10 L50\n{rows}\nG0 X1.\nG0 X2.\nG10 L50\n{rows}\nG11\n");
+        assert_eq!(data_of(&two), (vec![rows], 1));
+        assert_eq!(data_of(&format!("G10 L50\n{rows}\n")), (vec![], 1));
     }
 }

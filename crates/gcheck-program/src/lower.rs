@@ -336,8 +336,6 @@ pub(crate) struct Lasting {
     pub(crate) here: LetterSet,
 }
 
-/// Words of a code whose earlier value stays in effect. Feed and speed are left out: they are set by themselves, and whether
-/// they are is a question of the whole path.
 /// Codes that end lines of data which another code of the control opens.
 fn ends_data(control: &Control) -> Vec<CodeIx> {
     let openers: Vec<_> = control.codes().filter(|code| code.entry().opens_data.is_some()).collect();
@@ -345,6 +343,8 @@ fn ends_data(control: &Control) -> Vec<CodeIx> {
     ends.map(|code| control.code_ix(code.number())).collect()
 }
 
+/// Words of a code whose earlier value stays in effect. Feed and speed are left out: they are set by themselves, and whether
+/// they are is a question of the whole path.
 fn lasting_words(entry: &CodeEntry) -> Vec<Lasting> {
     let lasts = |word: &&WordEntry| {
         let is_set_by_itself = matches!(word.kind, WordKind::Feed | WordKind::Speed);

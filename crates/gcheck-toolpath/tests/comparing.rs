@@ -66,8 +66,12 @@ fn differences(a: &str, b: &str, outlines: [Outline; 2]) -> Differences {
         return whole;
     }
     let [mut of_a, mut of_b] = outlines;
-    a.iter().for_each(|act| of_a.add(act));
-    b.iter().for_each(|act| of_b.add(act));
+    for act in &a {
+        of_a.add(act);
+    }
+    for act in &b {
+        of_b.add(act);
+    }
     let Some(sections) = Sections::new([of_a, of_b], TOLERANCE, Rest::Read) else { return whole };
     let mut found = sections.begun();
     for pass in 0..sections.passes() {
@@ -99,12 +103,13 @@ fn program(jobs: &[Job]) -> String {
     let mut text = "%\nO1\nG21 G17 G90 G94 G40\nG91 G28 Z0.\nG90\n".to_owned();
     for (index, Job { tool, depth, feed }) in jobs.iter().enumerate() {
         let y = 7 * tool;
-        text += &format!(
+        let job = format!(
             "T{tool} M6\nG54 G90 G0 X0. Y{y}. S1000 M3\nG43 H{tool} Z5. M8\nG1 Z-{depth}. F{feed}.\nX50.\n\
              G3 X60. Y{}. R10.\nG1 Y{}.\nG0 Z50. M9\nM5\n",
             y + 10,
             y + 30
         );
+        text += &job;
         if index + 1 < jobs.len() {
             text += "M1\n";
         }
@@ -287,8 +292,8 @@ fn a_digest_names_what_is_in_added_and_removed_sections() {
 fn longest_rising(numbers: &[u32]) -> usize {
     let mut best: Vec<usize> = Vec::new();
     for (index, number) in numbers.iter().enumerate() {
-        let before =
-            numbers[..index].iter().zip(&best).filter(|(other, _)| *other < number).map(|(_, best)| *best);
+        let before = numbers.iter().take(index).zip(&best).filter(|(other, _)| *other < number);
+        let before = before.map(|(_, best)| *best);
         let longest = before.max().unwrap_or(0) + 1;
         best.push(longest);
     }

@@ -468,7 +468,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     /// Are the words of the block a row of data? A block with a code is not: it ends the data, as `G11` does, or shows that
     /// nothing ended them.
-    pub(super) fn reads_as_data(&self, words: &[Word], state: &mut State<D>) -> bool {
+    pub(super) fn reads_as_data(words: &[Word], state: &mut State<D>) -> bool {
         if state.data_entry == Truth::False {
             return false;
         }

@@ -636,7 +636,8 @@ mod tests {
                         _ if *kind == 3 => format!("{point} F{}.", 100 + y),
                         _ => point,
                     };
-                    text += &format!("{block}\n");
+                    text += &block;
+                    text.push('\n');
                 }
                 text += "G80\nG90\nG0 Z50.\nM5\nM30\n%\n";
                 // One of these has neither a program number nor its exact stop as a mode.

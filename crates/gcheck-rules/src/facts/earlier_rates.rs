@@ -11,8 +11,8 @@ use gcheck_program::{Place, Value, Word};
 
 use crate::{Fix, PathCx};
 
-/// Blocks in front of a block that are read. A section of a tool is shorter, and large programs have their rates in every one.
-const MOST_BLOCKS: u32 = 50_000;
+/// Blocks in front of a block that are read: a program may have as many findings as blocks.
+const MOST_BLOCKS: u32 = 250;
 
 /// A feed or a speed as it is written.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -108,6 +108,10 @@ impl<'a> Reading<'a> {
     /// Reads a block; `text` gives the text of its words, and is `None` for the block that needs a rate.
     fn block(&mut self, place: &Place, text: Option<&dyn Fn(Range<u32>) -> String>) {
         let model = self.cx.model;
+        // What block delete may skip is not what the tool last cut with for sure.
+        if text.is_some() && place.block().delete > 0 {
+            return;
+        }
         let words = place.table.words(place.block());
         let codes = || words.iter().map(|word| word.code).filter(|code| code.is_some());
         if codes().any(|code| self.cx.code_of(code).is_some_and(|code| code.entry().any_words)) {

@@ -30,6 +30,11 @@ impl ToolWords {
         self.has(&["BORING", "BORE", "BORINGBAR", "ID", "INSIDE", "INTERNAL", "BAR"])
     }
 
+    /// Is the tool one that makes grooves, or cuts parts off?
+    pub(crate) fn grooves(&self) -> bool {
+        self.has(&["GROOVE", "GROOVING", "GROOVER", "CUTOFF", "CUT", "PARTING", "PART", "BLADE"])
+    }
+
     /// Is the tool one that drills?
     pub(crate) fn drills(&self) -> bool {
         self.has(&[

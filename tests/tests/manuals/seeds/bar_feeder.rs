@@ -422,7 +422,7 @@ M99
                     on(LATHE, "G21\nM5\nG105 I30. J25. K60.\nM30\n"),
                 ),
                 rule(
-                    "warning[number-out-of-range]",
+                    "warning[decimal-point-on-integer]",
                     on(LATHE, "G21\nM5\nG105 Q1.5 I30. J25. K60.\nM30\n"),
                     on(LATHE, "G21\nM5\nG105 I30. J25. K60.\nM30\n"),
                 ),

@@ -20,7 +20,8 @@ declare_rule! {
     /// G20 G99 T101
     /// G97 S500 M3
     /// G0 X1. Z.2
-    /// G92 X.885 Z-.75 F.0625
+    /// G92 X.9 Z-.75 F.0625
+    /// X.885
     /// X.088
     /// G0 X2.
     /// M30
@@ -30,7 +31,8 @@ declare_rule! {
     /// G20 G99 T101
     /// G97 S500 M3
     /// G0 X1. Z.2
-    /// G92 X.885 Z-.75 F.0625
+    /// G92 X.9 Z-.75 F.0625
+    /// X.885
     /// X.88
     /// G0 X2.
     /// M30
@@ -50,6 +52,10 @@ declare_rule! {
 #[derive(Default, Clone, PartialEq)]
 struct ThreadPassTooDeep {
     passes: ThreadPasses,
+    /// The last two passes differ by less than the lead: they cut one thread. A first pass may run dry.
+    cuts: bool,
+    /// A cycle cuts the passes.
+    by_cycle: bool,
 }
 
 remembers!(ThreadPassTooDeep: passes);
@@ -68,12 +74,18 @@ impl PathRule for ThreadPassTooDeep {
     }
 
     fn moved(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
+        if let Event::Travel(travel) = event {
+            // Between the passes of a cycle the tool is not moved: now another thread may come.
+            self.cuts &= !self.by_cycle || travel.expanded;
+            self.by_cycle = travel.expanded;
+        }
         let Some((before, pass)) = self.passes.pass(cx, event) else { return };
         // An inside thread gets deeper outward, and a larger thread over the same length is cut by the same way out: only
         // inward nothing else can be meant.
         let step = before.x[1] - pass.x[1];
         let starts = before.x[0] - pass.x[0];
-        if !(step > pass.lead && starts > pass.lead) {
+        let had_cut = std::mem::replace(&mut self.cuts, step.abs() <= pass.lead);
+        if !(had_cut && step > pass.lead && starts > pass.lead) {
             return;
         }
         let mut finding = cx
@@ -101,19 +113,24 @@ mod tests {
     #[test]
     fn a_digit_too_many() {
         let program = |x: &str| {
-            format!("G21 G99 T0101\nG97 S500 M3\nG0 X24. Z5.\nG92 X19.4 Z-20. F1.5\nX{x}\nG0 X60.\nM30\n")
+            format!(
+                "G21 G99 T0101\nG97 S500 M3\nG0 X24. Z5.\nG92 X19.6 Z-20. F1.5\nX19.4\n{x}\nG0 X60.\nM30\n"
+            )
         };
         check_rule(
             &RULE,
             "fanuc-lathe",
-            &program("1.92"),
+            &program("X1.92"),
             &expect![[r#"
-            5 | X1.92
-              | ^^^^^ warning[thread-pass-too-deep] the pass is deeper than its thread is high
-        "#]],
+                6 | X1.92
+                  | ^^^^^ warning[thread-pass-too-deep] the pass is deeper than its thread is high
+            "#]],
         );
-        for x in ["19.2", "18.2", "21.4", "24."] {
+        for x in ["X19.2", "X18.2", "X21.4", "X24.", "G0 X30. Z5.\nG92 X9.4 Z-20. F1.5"] {
             check_rule(&RULE, "fanuc-lathe", &program(x), &expect![[""]]);
         }
+        // A first pass may run dry.
+        let dry = program("G0 X60.").replace("X19.6", "X40.");
+        check_rule(&RULE, "fanuc-lathe", &dry, &expect![[""]]);
     }
 }

@@ -72,8 +72,7 @@ impl PathRule for EndlessLoop {
         let mut finding = cx
             .finding(&META, range, "loop never ends")
             .label("every iteration begins in the same state")
-            .help("see that a variable of the loop's condition is another one in each iteration (a block of the loop may set it \
-                 back), or give the loop an exit");
+            .help("change a variable of the loop's condition inside the loop, for good, or give the loop an exit");
         if turn != head
             && let Some(range) = cx.range_of(turn)
         {

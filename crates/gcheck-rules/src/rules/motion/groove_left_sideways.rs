@@ -124,8 +124,10 @@ impl PathRule for GrooveLeftSideways {
                 // A groove is made in several steps.
                 let deeper = groove
                     .filter(|groove| groove.tool == tool && is_one(groove.bottom, from) && digs(from, to));
-                let begins = (turned.plunges(from, to) || digs_unturned(turned, from, to))
-                    && !ToolWords::of(cx).bores();
+                let words = ToolWords::of(cx);
+                // Only of a tool for grooves a plunge into what is not known is one.
+                let is_unturned = words.grooves() && digs_unturned(turned, from, to);
+                let begins = (turned.plunges(from, to) || is_unturned) && !words.bores();
                 let new = begins.then(|| Groove { tool, top: from[0], bottom: to, at: cx.origin().at });
                 self.groove = deeper.map(|groove| Groove { bottom: to, ..groove }).or(new);
             }
@@ -208,7 +210,7 @@ mod tests {
     fn from_groove_to_groove_in_a_part_that_is_turned_elsewhere() {
         let grooves = |out: &str| {
             format!(
-                "G21 G18 G99 T0505\nG97 S900 M3\nG0 X45. Z5.\nZ-10.\nX41.\nG1 X36. F.06\nX32.\nG4 U.3\n{out}G0 Z-18.\nX60.\nM30\n"
+                "G21 G18 G99 T0505 (3MM GROOVE)\nG97 S900 M3\nG0 X45. Z5.\nZ-10.\nX41.\nG1 X36. F.06\nX32.\nG4 U.3\n{out}G0 Z-18.\nX60.\nM30\n"
             )
         };
         check_rule(
@@ -221,6 +223,8 @@ mod tests {
         "#]],
         );
         check_rule(&RULE, "fanuc-lathe", &grooves("G0 X41.\n"), &expect![[""]]);
+        // Another tool may have come to its place at feed.
+        check_rule(&RULE, "fanuc-lathe", &grooves("").replace("3MM GROOVE", "OD TURN"), &expect![[""]]);
         // Toward the front it may leave a shoulder.
         check_rule(&RULE, "fanuc-lathe", &grooves("").replace("Z-18.", "Z5."), &expect![[""]]);
     }

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use gcheck_controls::Effect;
+use gcheck_controls::{Effect, LetterSet};
 use gcheck_engine::{At, Axis, Event, Fact, Role, Travel, TravelKind};
 use gcheck_geometry::{Mm, Plane};
 
@@ -61,6 +61,8 @@ declare_rule! {
 struct RapidBelowZeroOnApproach {
     /// The tool in the spindle has moved along Z.
     has_moved: bool,
+    /// A block has taken it somewhere in X or Y.
+    has_place: bool,
     /// The block that put it in.
     tool: Option<At>,
     /// The move before this one, if it is the first of its tool along Z and goes below the part's zero.
@@ -111,12 +113,14 @@ impl PathRule for RapidBelowZeroOnApproach {
             tell(cx, &approach, travel, report);
         }
         self.has_moved &= self.tool == tool;
+        self.has_place &= self.tool == tool;
         self.tool = tool;
+        self.has_place |= cx.origin().letters.intersects(LetterSet::of("XY"));
         if self.has_moved || !goes_along_z(cx, travel) {
             return;
         }
         self.has_moved = true;
-        self.approach = look(cx, event, travel);
+        self.approach = look(cx, event, travel, self.has_place);
     }
 }
 
@@ -126,9 +130,9 @@ fn goes_along_z(cx: &PathCx<'_>, travel: &Travel) -> bool {
     names_z && travel.from.get(Axis::Z) != travel.to.get(Axis::Z)
 }
 
-fn look(cx: &PathCx<'_>, event: &Event, travel: &Travel) -> Option<Approach> {
+fn look(cx: &PathCx<'_>, event: &Event, travel: &Travel, has_place: bool) -> Option<Approach> {
     let place = point(&travel.to);
-    let to = place.or_else(|| Some([0.0, 0.0, travel.to.get(Axis::Z)?]))?;
+    let to = place.or_else(|| Some([0.0, 0.0, travel.to.get(Axis::Z).filter(|_| !has_place)?]))?;
     let [x, y, z] = to;
     let is_rapid = travel.kind == TravelKind::Rapid && !travel.expanded;
     let goes_home =
@@ -246,6 +250,9 @@ mod tests {
         );
         check_rule(&RULE, "haas-mill", &program("2.", "G0 X-.2 Y-.2"), &expect![[""]]);
         check_rule(&RULE, "haas-mill", &program("-.06", "G0 Z2. X-.2 Y-.2"), &expect![[""]]);
+        // Where the variables have taken it is not known.
+        let taken = program("-.06", "G0 X-.2 Y-.2").replace("S900 M3", "G0 X#500 Y#501 S900 M3");
+        check_rule(&RULE, "haas-mill", &taken, &expect![[""]]);
     }
 
     #[test]

@@ -488,7 +488,10 @@ impl RapidBetweenCuts {
             x > low_x + SHORT && x < high_x - SHORT && y > low_y + SHORT && y < high_y - SHORT
         };
         let crosses = [0.25, 0.5, 0.75].into_iter().any(is_enclosed);
-        if way.is_new == Some(true) && way.pieces == 1 && crosses && !behind.is_plunge {
+        // An arc leads off the wall of a pocket, and a tool may go back to where it went in.
+        let is_back = self.start.is_some_and(|start| (start[0] - to[0]).hypot(start[1] - to[1]) < CLEARS);
+        let is_led_off = behind.is_plunge || behind.is_arc || is_back;
+        if way.is_new == Some(true) && way.pieces == 1 && crosses && !is_led_off {
             let message = "rapid move at depth back over the part";
             let finding = tell(cx, way, message, why);
             self.keep(way, Some(finding.help("retract the tool from the part before the rapid move")));
@@ -683,6 +686,8 @@ mod tests {
               | ^^^^^^^^^^^^ warning[rapid-between-cuts] rapid move at depth back over the part
         "#]],
         );
+        let pocket = "G21 G90 G54 G0 X40. Y40. Z5. S900 M3\nG1 Z-2. F100.\nX70.\nG3 X70. Y40. I-30. J0.\nG3 X60. Y50. R10.\nG0 X40. Y40.\nZ5.\nM30\n";
+        check_rule(&RULE, "haas-mill", pocket, &expect![[""]]);
         for after in ["G0 Z5.\nX60. Y20.\nM30\n", "G0 X0. Y70.\nZ5.\nM30\n", "G0 X12. Y10.\nM30\n"] {
             check_rule(&RULE, "haas-mill", &slot(after), &expect![[""]]);
         }

@@ -71,6 +71,9 @@ declare_rule! {
 struct RetractLeftOut {
     /// The last move of Z took it home.
     is_home: bool,
+    /// Where Z is, and the highest place where it was before that, apart from home: millimetres.
+    level: Option<f64>,
+    highest: Option<f64>,
     /// The tool has cut since the last tool change, and since the last turn of a rotary axis.
     has_cut: [bool; 2],
     /// What came before tool changes, and before turns.
@@ -98,6 +101,9 @@ const HABIT: usize = 2;
 const MOST: usize = 64;
 /// A rotary axis that turns by less follows a contour, or corrects a part: degrees.
 const TURN: f64 = 20.0;
+
+/// Levels that differ by more are two: millimetres.
+const ABOVE: f64 = 1.0;
 
 const TOOL_CHANGE: usize = 0;
 const ROTATION: usize = 1;
@@ -133,6 +139,10 @@ impl PathRule for RetractLeftOut {
         }
         if moves(travel, Axis::Z) {
             self.is_home = cx.has_effect(goes_home);
+            if let Some(level) = self.level.take() {
+                self.highest = Some(self.highest.map_or(level, |highest| highest.max(level)));
+            }
+            self.level = travel.to.get(Axis::Z).filter(|_| !self.is_home);
         } else if travel.kind == TravelKind::Rapid && !travel.expanded && turns(cx, travel) {
             self.note(
                 cx,
@@ -173,6 +183,10 @@ impl RetractLeftOut {
             if !habit.home.contains(&range) && habit.home.len() < MOST {
                 habit.home.push(range);
             }
+            return;
+        }
+        // Above every other level of the program the room may be enough.
+        if self.level.zip(self.highest).is_none_or(|(level, highest)| level > highest + ABOVE) {
             return;
         }
         match &habit.odd {
@@ -235,6 +249,29 @@ mod tests {
         check_rule(&RULE, "fanuc-mill", &program("G53 G0 Z0.\n"), &expect![[""]]);
         // The tool change of this control goes home by itself.
         check_rule(&RULE, "haas-mill", &program("G0 Z50.\n"), &expect![[""]]);
+    }
+
+    #[test]
+    fn a_level_above_all_others_may_be_enough() {
+        let side = |angle: u16, home: &str| format!("{home}G0 B{angle}.\nZ50.\nG1 Z-2. F200.\n");
+        let program = |third: &str| {
+            let home = "G53 G0 Z0.\n";
+            let sides = [side(90, home), side(180, home), side(270, third)];
+            format!(
+                "T1 M6\nG21 G90 G54 G0 X0. Y0. B0. S900 M3\nG43 H1 Z50.\nG1 Z-2. F200.\n{}M30\n",
+                sides.concat()
+            )
+        };
+        check_rule(
+            &RULE,
+            "haas-mill",
+            &program("G0 Z50.\n"),
+            &expect![[r#"
+            14 | G0 B270.
+               | ^^^^^^^^ warning[retract-left-out] the part turns without the retract that the other turns have
+        "#]],
+        );
+        check_rule(&RULE, "haas-mill", &program("G0 Z200.\n"), &expect![[""]]);
     }
 
     #[test]

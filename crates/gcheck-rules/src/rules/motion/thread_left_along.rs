@@ -61,6 +61,8 @@ remembers!(Pass: at);
 
 /// A way across that leaves no thread: millimetres.
 const ACROSS: f64 = 0.1;
+/// Threads are less tapered: across by along.
+const STEEP: f64 = 0.15;
 /// A way along that leaves a turn: millimetres.
 const ALONG: f64 = 1.0;
 
@@ -100,12 +102,13 @@ impl PathRule for ThreadLeftAlong {
 
 /// Does a way from the end of the pass lead back over it, no further across than the thread itself leads there?
 fn goes_back(pass: &Pass, to: [f64; 2]) -> bool {
-    let [x, z] = [0, 1].map(|axis| pass.to[axis] - pass.from[axis]);
+    let (x, z) = (pass.to[0] - pass.from[0], pass.to[1] - pass.from[1]);
     let back = to[1] - pass.to[1];
     let is_back = z.abs() > ALONG && back * z < 0.0 && back.abs() > ALONG;
-    // Of a tapered thread the way back along it is slanted; straight back it may lead into the air or into the part.
+    // Of a tapered thread the way back along it is slanted. A steep pass is the pull-out at the end of a thread.
     let across = to[0] - pass.to[0];
-    is_back && (across.abs() < ACROSS || (across - x * back / z).abs() < ACROSS)
+    let is_thread = x.abs() <= z.abs() * STEEP;
+    is_back && is_thread && (across.abs() < ACROSS || (across - x * back / z).abs() < ACROSS)
 }
 
 fn spot(at: &Position) -> [f64; 2] {
@@ -134,7 +137,14 @@ mod tests {
               | ^^^^^^ warning[thread-left-along] the tool goes back along the thread that it has just cut
         "#]],
         );
-        for out in ["G0 X40.\nZ5.\n", "G0 X40. Z5.\n", "G0 Z-25.\n", "G32 X40. F1.5\nG0 Z5.\n", ""] {
+        for out in [
+            "G0 X40.\nZ5.\n",
+            "G0 X40. Z5.\n",
+            "G0 Z-25.\n",
+            "G32 X40. F1.5\nG0 Z5.\n",
+            "G32 X40. Z-22. F1.5\nG0 Z5.\n",
+            "",
+        ] {
             check_rule(&RULE, "fanuc-lathe", &program(out), &expect![[""]]);
         }
     }

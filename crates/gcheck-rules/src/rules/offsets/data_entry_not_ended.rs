@@ -1,10 +1,14 @@
 //! Lines of data that nothing ends.
 
+use std::ops::Range;
+
+use gcheck_controls::Code;
+
 use crate::declare::declare_rule;
 use crate::{FileCx, Finding, Report, Run, limit};
 
 declare_rule! {
-    /// A code opens lines of data (`G10 L50`), and nothing in the file ends them (`G11`).
+    /// A code opens lines of data (`G10 L50`), and nothing ends them (`G11`) before the next command.
     ///
     /// ## Why it matters
     /// The blocks after it are rows of a table to the control: parameters, tool lives, pitch errors. It does not execute them. The first
@@ -40,21 +44,21 @@ declare_rule! {
 }
 
 fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
-    let Some((code, block)) = cx.file_index.data_left_open() else { return };
-    let Some(code) = cx.control().code_at(code) else { return };
+    for (code, block) in cx.file_index.data_left_open() {
+        if let Some(code) = cx.control().code_at(code) {
+            report.add(finding(code, block.clone()));
+        }
+    }
+}
+
+fn finding(code: Code<'_>, block: Range<u32>) -> Finding {
     let entry = code.entry();
     let ends = entry.cancelled_by.iter().map(|code| format!("`{code}`")).collect::<Vec<_>>().join(" or ");
-    report.add(
-        Finding::new(
-            &META,
-            block.clone(),
-            format!("nothing ends the lines of data that `{}` opens", entry.code),
-        )
+    Finding::new(&META, block, format!("nothing ends the lines of data that `{}` opens", entry.code))
         .label("the control reads the blocks after this one as rows of a table")
         .note(format!("it executes none of them up to {ends}  [{}]", entry.source))
         .help(format!("write {ends} after the last row"))
-        .at_most(limit(entry.confidence)),
-    );
+        .at_most(limit(entry.confidence))
 }
 
 #[cfg(test)]
@@ -72,6 +76,19 @@ mod tests {
             "G10 L3\nP1 L20\nT1 H1 D1\nG11\nG10 L50\nN3411 R47\nM30\n",
             &expect![[r#"
                 5 | G10 L50
+                  | ^^^^^^^ warning[data-entry-not-ended] nothing ends the lines of data that `G10` opens
+            "#]],
+        );
+    }
+
+    #[test]
+    fn a_command_shows_that_the_rows_are_over() {
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "G10 L50\nN1320 P1 R500000\nG90 G54 G0 X0. Y0.\nG10 L50\nN1320 P1 R400000\nG11\nM30\n",
+            &expect![[r#"
+                1 | G10 L50
                   | ^^^^^^^ warning[data-entry-not-ended] nothing ends the lines of data that `G10` opens
             "#]],
         );

@@ -66,7 +66,8 @@ impl PathRule for OffsetRotationLeft {
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
         if cx.has_effect(|effect| effect == Effect::WriteOffsets)
             && cx.word('R').is_some()
-            && let Some(number) = cx.known_number('P').and_then(whole).and_then(|n| u16::try_from(n).ok())
+            && matches!(cx.known_number('L').and_then(whole), Some(2 | 20))
+            && let Some(number) = written_offset(cx)
         {
             self.written.retain(|(known, _)| *known != number);
             self.written.push((number, cx.origin().at));
@@ -88,6 +89,14 @@ impl PathRule for OffsetRotationLeft {
         if ends_at_tape_mark(cx, ending) {
             self.end(cx, report);
         }
+    }
+}
+
+/// The work offset that the block writes: 0 stands for the active one.
+fn written_offset(cx: &PathCx<'_>) -> Option<u16> {
+    match cx.known_number('P').and_then(whole)? {
+        0 => cx.state().work(),
+        number => u16::try_from(number).ok(),
     }
 }
 

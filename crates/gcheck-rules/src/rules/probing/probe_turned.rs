@@ -77,9 +77,13 @@ impl PathRule for ProbeTurned {
     }
 }
 
+/// Is the comment the name of a probe, and nothing else? Of a cutter it may say what to do with the probe.
 fn is_probe(comment: &ToolComment) -> bool {
-    comment.has(&["PROBE", "TOUCHPROBE", "RENISHAW"])
-        && !comment.has(&["MILL", "ENDMILL", "DRILL", "TAP", "REAMER", "FACEMILL", "BEFORE", "AFTER", "NO"])
+    const NAMES: [&str; 8] = ["PROBE", "TOUCHPROBE", "TOUCH", "SPINDLE", "RENISHAW", "TOOL", "3D", "WORK"];
+    let is_type = |word: &str| ["OMP", "RMP", "OMI", "MP"].iter().any(|name| word.starts_with(name));
+    let is_number = |word: &str| word.trim_start_matches('T').bytes().all(|byte| byte.is_ascii_digit());
+    let is_name = |word: &String| NAMES.contains(&word.as_str()) || is_type(word) || is_number(word);
+    comment.has(&["PROBE", "TOUCHPROBE"]) && comment.words.iter().all(is_name)
 }
 
 #[cfg(test)]
@@ -103,6 +107,14 @@ mod tests {
         );
         for speed in ["S500", "S1000", "S#100"] {
             check_rule(&RULE, "haas-mill", &program(speed), &expect![[""]]);
+        }
+    }
+
+    #[test]
+    fn a_cutter_whose_comment_speaks_of_the_probe() {
+        for comment in ["SPOTDRILL - THEN PROBE", "BORING BAR - PROBE SIZE", "PROBE TOOL LENGTH"] {
+            let program = format!("T1 M6 ({comment})\nG54 G0 X0. Y0.\nG43 H1 Z2.\nS3500 M3\nM30\n");
+            check_rule(&RULE, "haas-mill", &program, &expect![[""]]);
         }
     }
 

@@ -5,6 +5,7 @@ use gcheck_engine::{Abstract, At, Domain, Event, Fact, Role};
 
 use crate::declare::declare_rule;
 use crate::facts::five_axis::is_along_tool;
+use crate::facts::offset_schemes::whole;
 use crate::facts::probing::is_near;
 use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
 use crate::{Remembers, remembers};
@@ -52,7 +53,7 @@ declare_rule! {
         since: "0.1.0",
         run: Run::Path {
             watch: Watch::CHANGES.union(Watch::MOVES),
-            make: || Box::new(ToolLengthMissing { changed: None, has_length: false, is_done: false }),
+            make: || Box::new(ToolLengthMissing { changed: None, has_length: false, measured: None, is_done: false }),
         },
     }
 }
@@ -63,6 +64,8 @@ struct ToolLengthMissing {
     changed: Option<At>,
     /// A length was given since.
     has_length: bool,
+    /// The tool that was in the spindle when a length was given last.
+    measured: Option<u32>,
     /// A program that never compensates is reported once.
     is_done: bool,
 }
@@ -80,7 +83,10 @@ impl PathRule for ToolLengthMissing {
                 self.changed = (*number != Some(0)).then_some(cx.origin().at);
                 self.has_length = false;
             }
-            Event::LengthOffset(_) => self.has_length = true,
+            Event::LengthOffset(_) => {
+                self.has_length = true;
+                self.measured = Abstract::known(cx.state().tool()).and_then(whole);
+            }
             _ => {}
         }
     }
@@ -108,7 +114,10 @@ impl ToolLengthMissing {
         let is_off = |code| matches!(cx.model.effect(code), Effect::LengthOff | Effect::None);
         let Some(code) = cx.state().mode(Role::Length).only() else { return };
         if !is_off(code) {
-            judge_what_is_on(cx, at, code, self.has_length, report);
+            let is_same = self
+                .measured
+                .is_some_and(|tool| Abstract::known(cx.state().tool()).and_then(whole) == Some(tool));
+            judge_what_is_on(cx, at, code, self.has_length || is_same, report);
             return;
         }
         if cx.definitions().set_by(Fact::Tool) != Some(at) {

@@ -196,6 +196,30 @@ mod tests {
     use crate::testing::check_rule;
 
     #[test]
+    fn rows_of_data_have_words_of_their_own() {
+        let program = |end: &str| format!("G10 L3\nP1 L20\nT5 H5\n{end}G0 X1. Q2.\nM30\n");
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            &program("G11\n"),
+            &expect![[r#"
+            5 | G0 X1. Q2.
+              |        ^^^ info[word-passed-over] nothing reads `Q` in this block
+        "#]],
+        );
+        // The block that ends the rows is a command.
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "G10 L3\nP1 L20\nG11 G0 X1. Q2.\nM30\n",
+            &expect![[r#"
+            3 | G11 G0 X1. Q2.
+              |            ^^^ info[word-passed-over] nothing reads `Q` in this block
+        "#]],
+        );
+    }
+
+    #[test]
     fn the_word_is_marked() {
         check_rule(
             &RULE,
