@@ -288,7 +288,7 @@ fn what_the_descendants_read_is_no_error() {
         ("grblhal", "G2 I5 F100"),
         ("grblhal", "G92 X0\nG92.2\nG92.3\nG92.1"),
         ("grblhal", "/G0 X1"),
-        // The factor is read, and the motion is lost, which is no alarm.
+        // The factor is read, and the motion is lost, and no alarm follows.
         ("grblhal", "G0 G51 X2\nG50"),
         ("grblhal", "G51 X2\nG0 X1\nG50"),
         ("grblhal", "G50 G80"),

@@ -10,6 +10,7 @@
 
 mod alignment;
 mod corner;
+mod cursor;
 mod curve;
 mod difference;
 mod digest;
@@ -19,29 +20,23 @@ mod same;
 mod sections;
 mod stands;
 
-use std::collections::VecDeque;
-use std::iter::Peekable;
-use std::sync::Arc as Shared;
-
 use gcheck_engine::{Axis, Position};
 
 use crate::trail::{Act, Doing, Driven, Feed, Move, Setting, Stand};
 use corner::{Leaving, Off};
+use cursor::{Cursor, Piece, Placed};
 use curve::Curve;
 use digest::Digest;
 
 pub use difference::{
-    Again, Aspect, By, Change, Corner, Difference, Differences, Parting, Place, SectionAt, SectionChange,
-    Title, Value,
+    Again, Aspect, By, Change, Corner, Difference, Differences, Parting, Place, Rest, SectionAt,
+    SectionChange, Title, Value,
 };
 pub use outline::{Marks, Outline};
 pub use sections::Sections;
-use sections::Within;
+use sections::{Source, Within, stretches};
 
 use same::{corners_differ, known_differ, rate_differs, table_differs};
-
-/// Acts that are given together and are matched with each other at most.
-const MAX_STANDS: usize = 64;
 
 /// Compares two runs. Paths are the same while they stay within `tolerance` millimetres (degrees on rotary axes) of each other
 /// on every axis. Coordinates that are unknown in one of them are not compared.
@@ -64,18 +59,57 @@ pub fn compare(
     found
 }
 
-/// What becomes of two runs after the place where their paths part.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Rest {
-    /// They are left there.
-    Leave,
-    /// They are read to their ends, and the differences have a digest.
-    Read,
+impl Sections {
+    /// Compares the sections of one pass; both programs run from their begin.
+    pub fn compare(
+        &self,
+        pass: usize,
+        a: impl IntoIterator<Item = Act>,
+        b: impl IntoIterator<Item = Act>,
+        found: &mut Differences,
+    ) {
+        let [of_a, of_b] = &self.outlines;
+        let mut a = Source::new(a.into_iter(), of_a.splitter());
+        let mut b = Source::new(b.into_iter(), of_b.splitter());
+        let Some(pairs) = self.passes.get(pass) else { return };
+        if pass > 0 {
+            found.begin_afresh();
+        }
+        let mut over = [found.another_digest(), found.another_digest()];
+        for stretch in stretches(pairs) {
+            let [over_a, over_b] = &mut over;
+            let is_alone = |index, side| pass == 0 && self.is_alone(index, side);
+            let placed_a = a.stretch(stretch.a, stretch.count, |section, act| {
+                if is_alone(section, 0) {
+                    over_a.add(&(&act.setting, &act.doing));
+                }
+            });
+            let placed_b = b.stretch(stretch.b, stretch.count, |section, act| {
+                if is_alone(section, 1) {
+                    over_b.add(&(&act.setting, &act.doing));
+                }
+            });
+            let within = Within { of: self, pass, stretch };
+            Comparison::new(placed_a, placed_b, self.tolerance, Some(within), found).run();
+        }
+        let [mut over_a, mut over_b] = over;
+        if pass == 0 {
+            let rest = |source: &mut dyn Iterator<Item = (usize, Act)>, side, over: &mut Digest| {
+                for (section, act) in source {
+                    if self.is_alone(section, side) {
+                        over.add(&(&act.setting, &act.doing));
+                    }
+                }
+            };
+            rest(&mut a, 0, &mut over_a);
+            rest(&mut b, 1, &mut over_b);
+            found.pass_over(&over_a);
+            found.pass_over(&over_b);
+        }
+    }
 }
 
-/// An act, and in which of the sections that are compared it is, from 0.
-type Placed = (u32, Act);
-
+/// Two runs, or sections of them, side by side.
 struct Comparison<'f, A: Iterator<Item = Placed>, B: Iterator<Item = Placed>> {
     a: Cursor<A>,
     b: Cursor<B>,
@@ -96,158 +130,6 @@ struct Inherited {
     moved: [bool; Axis::ALL.len()],
     /// The tool length offsets of both.
     lengths: Option<[Option<u32>; 2]>,
-}
-
-/// A place in a run.
-struct Cursor<I: Iterator<Item = Placed>> {
-    acts: Peekable<I>,
-    /// What is read again before the next act.
-    back: VecDeque<Placed>,
-    /// The section of what was read last.
-    section: u32,
-    /// The section in which a move was done last.
-    done_in: Option<u32>,
-    /// The move at hand, as far as it is not done.
-    piece: Option<Piece>,
-    /// Where the axes are.
-    at: Position,
-    /// An axis has moved. Before that, a move that goes nowhere may be the other side's way from an unknown place.
-    started: bool,
-    /// The next move is the first one that is compared after what was not compared.
-    is_afresh: bool,
-    /// The last move that was done.
-    last: Option<Place>,
-}
-
-/// A move, of which a part may be done.
-struct Piece {
-    act: Act,
-    driven: Driven,
-    curve: Curve,
-    /// From 0 to 1.
-    done: f64,
-}
-
-impl<I: Iterator<Item = Placed>> Cursor<I> {
-    fn new(acts: I, is_afresh: bool) -> Self {
-        Self {
-            acts: acts.peekable(),
-            back: VecDeque::new(),
-            section: 0,
-            done_in: None,
-            piece: None,
-            at: Position::UNKNOWN,
-            started: false,
-            is_afresh,
-            last: None,
-        }
-    }
-
-    fn next(&mut self) -> Option<Placed> {
-        let placed = self.back.pop_front().or_else(|| self.acts.next())?;
-        self.section = placed.0;
-        Some(placed)
-    }
-
-    fn peek(&mut self) -> Option<&Placed> {
-        match self.back.front() {
-            Some(placed) => Some(placed),
-            None => self.acts.peek(),
-        }
-    }
-
-    /// Collects what happens before the next move, and takes up that move.
-    fn advance(&mut self, found: &mut Differences) -> Vec<Placed> {
-        let mut stands = Vec::new();
-        while self.piece.is_none() && stands.len() < MAX_STANDS {
-            let Some((section, act)) = self.next() else { break };
-            match &act.doing {
-                Doing::Stand(_) => stands.push((section, act)),
-                Doing::Move(made) => {
-                    let curve = if std::mem::take(&mut self.is_afresh) {
-                        from_anywhere(made)
-                    } else {
-                        Curve::new(made)
-                    };
-                    let driven = made.driven;
-                    found.unknown |= driven != Driven::Rapid && curve.is_unknown();
-                    if curve.is_nothing() && self.started {
-                        self.at = made.to;
-                        continue;
-                    }
-                    self.started |= !curve.is_nothing() && !curve.is_open();
-                    self.piece = Some(Piece { act, driven, curve, done: 0.0 });
-                }
-            }
-        }
-        stands
-    }
-
-    /// Ends the move at hand.
-    fn finish(&mut self) {
-        if let Some(piece) = self.piece.take() {
-            self.at = piece.curve.end();
-            self.last = Some(piece.place());
-            self.done_in = Some(self.section);
-        }
-    }
-
-    /// Passes over everything before a section, and begins there afresh.
-    fn begin(&mut self, section: u32, over: &mut Digest) {
-        (self.at, self.started, self.is_afresh) = (Position::UNKNOWN, false, true);
-        if self.section >= section {
-            // It is there, and has not moved.
-            if let Some(piece) = self.piece.take() {
-                self.back.push_back((self.section, piece.act));
-            }
-            return;
-        }
-        if let Some(piece) = self.piece.take() {
-            over.add(&(piece.done, &piece.act.setting, &piece.act.doing));
-        }
-        while self.peek().is_some_and(|(of, _)| *of < section) {
-            if let Some((_, act)) = self.next() {
-                over.add(&(&act.setting, &act.doing));
-            }
-        }
-        self.section = section;
-    }
-
-    /// Was a part of the section done?
-    fn has_moved(&self) -> bool {
-        self.done_in == Some(self.section) || self.piece.as_ref().is_some_and(|piece| piece.done > 0.0)
-    }
-
-    /// Is there no further move?
-    fn is_over(&mut self) -> bool {
-        self.piece.is_none() && self.peek().is_none()
-    }
-
-    /// Is the next act one without motion?
-    fn stands_next(&mut self) -> bool {
-        self.piece.is_none() && self.peek().is_some_and(|(_, act)| matches!(act.doing, Doing::Stand(_)))
-    }
-}
-
-/// The move, from wherever the run comes: where the paths had parted, both may come from different places.
-fn from_anywhere(made: &Move) -> Curve {
-    Curve::new(&Move { from: Position::UNKNOWN, ..made.clone() })
-}
-
-impl Act {
-    pub(crate) fn place(&self) -> Place {
-        Place { file: Shared::clone(&self.file), line: self.line }
-    }
-}
-
-impl Piece {
-    fn place(&self) -> Place {
-        self.act.place()
-    }
-
-    fn left(&self) -> f64 {
-        self.curve.length() * (1.0 - self.done)
-    }
 }
 
 impl<'f, A: Iterator<Item = Placed>, B: Iterator<Item = Placed>> Comparison<'f, A, B> {

@@ -6,10 +6,18 @@ use std::sync::Arc as Shared;
 
 use gcheck_engine::{Position, Spindle};
 
-use super::Rest;
 use super::digest::Digest;
 use crate::corner_mode::CornerMode;
 use crate::trail::{Driven, Feed, Setting, Stand};
+
+/// What becomes of two runs after the place where their paths part.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Rest {
+    /// They are left there.
+    Leave,
+    /// They are read to their ends, and the differences have a digest.
+    Read,
+}
 
 /// Differences of one aspect that are kept with their places; further ones are counted.
 const KEPT: usize = 5;
@@ -350,7 +358,7 @@ impl Differences {
     }
 
     /// A name for these very differences, all of them: it stays as long as they do, whatever else changes in the texts. Zero where
-    /// the runs are not [read](super::Rest::Read) to their ends.
+    /// the runs are not [read](Rest::Read) to their ends.
     pub fn digest(&self) -> u64 {
         let mut digest = self.digest.clone();
         if let Some(Corner { a: _, at, off, count }) = &self.corner {

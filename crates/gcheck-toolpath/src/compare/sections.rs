@@ -9,11 +9,10 @@ use std::iter::Peekable;
 use std::ops::Range;
 
 use super::alignment::{Alignment, align};
+use super::cursor::{Cursor, Placed};
 use super::curve::{Curve, apart};
-use super::difference::{Again, Change, Differences, SectionAt, SectionChange};
-use super::digest::Digest;
+use super::difference::{Again, Aspect, Change, Differences, Rest, SectionAt, SectionChange, Value};
 use super::outline::{MOST_CLOSING, Outline, Splitter};
-use super::{Aspect, Comparison, Cursor, Placed, Rest, Value};
 use crate::trail::{Act, Doing, Driven, Stand};
 
 /// More passes over the runs are not made: sections that would need one are not compared.
@@ -22,12 +21,12 @@ const MOST_PASSES: usize = 32;
 /// How the sections of two runs are compared.
 #[derive(Debug)]
 pub struct Sections {
-    outlines: [Outline; 2],
-    alignment: Alignment,
+    pub(super) outlines: [Outline; 2],
+    pub(super) alignment: Alignment,
     /// Pairs of sections, in order in both runs.
-    passes: Vec<Vec<(usize, usize)>>,
-    tolerance: f64,
-    rest: Rest,
+    pub(super) passes: Vec<Vec<(usize, usize)>>,
+    pub(super) tolerance: f64,
+    pub(super) rest: Rest,
 }
 
 impl Sections {
@@ -94,56 +93,8 @@ impl Sections {
         found
     }
 
-    /// Compares the sections of one pass; both programs run from their begin.
-    pub fn compare(
-        &self,
-        pass: usize,
-        a: impl IntoIterator<Item = Act>,
-        b: impl IntoIterator<Item = Act>,
-        found: &mut Differences,
-    ) {
-        let [of_a, of_b] = &self.outlines;
-        let mut a = Source::new(a.into_iter(), of_a.splitter());
-        let mut b = Source::new(b.into_iter(), of_b.splitter());
-        let Some(pairs) = self.passes.get(pass) else { return };
-        if pass > 0 {
-            found.begin_afresh();
-        }
-        let mut over = [found.another_digest(), found.another_digest()];
-        for stretch in stretches(pairs) {
-            let [over_a, over_b] = &mut over;
-            let is_alone = |index, side| pass == 0 && self.is_alone(index, side);
-            let placed_a = a.stretch(stretch.a, stretch.count, |section, act| {
-                if is_alone(section, 0) {
-                    over_a.add(&(&act.setting, &act.doing));
-                }
-            });
-            let placed_b = b.stretch(stretch.b, stretch.count, |section, act| {
-                if is_alone(section, 1) {
-                    over_b.add(&(&act.setting, &act.doing));
-                }
-            });
-            let within = Within { of: self, pass, stretch };
-            Comparison::new(placed_a, placed_b, self.tolerance, Some(within), found).run();
-        }
-        let [mut over_a, mut over_b] = over;
-        if pass == 0 {
-            let rest = |source: &mut dyn Iterator<Item = (usize, Act)>, side, over: &mut Digest| {
-                for (section, act) in source {
-                    if self.is_alone(section, side) {
-                        over.add(&(&act.setting, &act.doing));
-                    }
-                }
-            };
-            rest(&mut a, 0, &mut over_a);
-            rest(&mut b, 1, &mut over_b);
-            found.pass_over(&over_a);
-            found.pass_over(&over_b);
-        }
-    }
-
     /// Has a section no partner?
-    fn is_alone(&self, index: usize, side: usize) -> bool {
+    pub(super) fn is_alone(&self, index: usize, side: usize) -> bool {
         let Alignment { in_order, moved } = &self.alignment;
         let is_it = |&(a, b): &(usize, usize)| index == if side == 0 { a } else { b };
         let is_in_order = match side {
@@ -156,13 +107,13 @@ impl Sections {
 
 /// Sections that follow each other in both runs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-struct Stretch {
-    a: usize,
-    b: usize,
-    count: usize,
+pub(super) struct Stretch {
+    pub(super) a: usize,
+    pub(super) b: usize,
+    pub(super) count: usize,
 }
 
-fn stretches(pairs: &[(usize, usize)]) -> Vec<Stretch> {
+pub(super) fn stretches(pairs: &[(usize, usize)]) -> Vec<Stretch> {
     let mut found: Vec<Stretch> = Vec::new();
     for &(a, b) in pairs {
         match found.last_mut() {
@@ -175,9 +126,9 @@ fn stretches(pairs: &[(usize, usize)]) -> Vec<Stretch> {
 
 /// Where a comparison is among all sections.
 pub(super) struct Within<'s> {
-    of: &'s Sections,
-    pass: usize,
-    stretch: Stretch,
+    pub(super) of: &'s Sections,
+    pub(super) pass: usize,
+    pub(super) stretch: Stretch,
 }
 
 impl Within<'_> {
@@ -252,7 +203,7 @@ impl Within<'_> {
 }
 
 /// The acts of a run by section.
-struct Source<I: Iterator<Item = Act>> {
+pub(super) struct Source<I: Iterator<Item = Act>> {
     acts: Peekable<I>,
     splitter: Splitter,
     section: usize,
@@ -261,12 +212,12 @@ struct Source<I: Iterator<Item = Act>> {
 }
 
 impl<I: Iterator<Item = Act>> Source<I> {
-    fn new(acts: I, splitter: Splitter) -> Self {
+    pub(super) fn new(acts: I, splitter: Splitter) -> Self {
         Self { acts: acts.peekable(), splitter, section: 0, next: None }
     }
 
     /// The acts of some sections; what is before them is `skipped`.
-    fn stretch(
+    pub(super) fn stretch(
         &mut self,
         from: usize,
         count: usize,
