@@ -353,6 +353,11 @@ impl Effect {
         )
     }
 
+    /// Goes to a place of the machine, whatever the coordinates of the part are: `G53`, `G28`, `G30`.
+    pub const fn goes_home(self) -> bool {
+        matches!(self, Self::MachineCoordinates | Self::ReturnReference(_))
+    }
+
     /// Starts the spindle, either way round; with coolant too.
     pub const fn starts_spindle(self) -> bool {
         matches!(

@@ -110,8 +110,7 @@ impl<'a, 'p> Sheet<'a, 'p> {
 
     /// A code with an effect, in the form of an old one: `G02` becomes `G03`.
     pub(crate) fn code(&self, place: &Place, word: &Word, effect: Effect) -> Option<String> {
-        let code = self.model.control().codes().find(|code| code.effect() == effect)?;
-        let name = code.number().to_string();
+        let name = self.name_of(effect)?;
         let (letter, digits) = name.split_at_checked(1)?;
         let old = self.loaded.slice(Self::range(place, word));
         let (_, old_digits) = self.value(place, word);
@@ -123,8 +122,7 @@ impl<'a, 'p> Sheet<'a, 'p> {
 
     /// The first code with an effect, written with a zero in front where the program does that.
     pub(crate) fn spelled(&self, effect: Effect) -> Option<String> {
-        let code = self.model.control().codes().find(|code| code.effect() == effect)?;
-        let name = code.number().to_string();
+        let name = self.name_of(effect)?;
         let is_short = name.len() == 2 && self.hand.zeros();
         Some(if is_short { name.replacen('G', "G0", 1) } else { name })
     }

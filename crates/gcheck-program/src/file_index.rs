@@ -258,7 +258,7 @@ pub struct FileIndex {
     /// Lines of data between the block that opens them and the one that ends them, in text order: rows of a table, not
     /// commands. Their `N` are not labels.
     pub data: Vec<Range<u32>>,
-    /// Blocks that matter to lines of data.
+    /// Blocks that matter to lines of data, for a file that this chunk is joined to.
     data_marks: Vec<DataMark>,
     /// The block that opened lines of data which nothing has ended yet.
     data_opened: Option<DataMark>,
@@ -372,7 +372,8 @@ impl FileIndex {
                     && (may_be_data || mark.kind != DataMarkKind::Command)
                 {
                     may_be_data = mark.kind == DataMarkKind::Opens;
-                    self.take_data_mark(mark, dialect);
+                    self.take_data_mark(&mark, dialect);
+                    self.data_marks.push(mark);
                 }
             }
             self.letters = self.letters.or(block.letters);
@@ -393,10 +394,10 @@ impl FileIndex {
 
     /// Opens lines of data, or ends those that are open. Whether a later block ends them is not known before it comes, so that
     /// their labels go then.
-    fn take_data_mark(&mut self, mark: DataMark, dialect: &Dialect<'_>) {
+    fn take_data_mark(&mut self, mark: &DataMark, dialect: &Dialect<'_>) {
         let code = |mark: &DataMark| dialect.control().code_at(mark.code);
         if let Some(opened) = self.data_opened.take() {
-            let ends = code(&mark).zip(code(&opened)).is_some_and(|(end, opener)| end.ends_data_of(opener));
+            let ends = code(mark).zip(code(&opened)).is_some_and(|(end, opener)| end.ends_data_of(opener));
             if mark.kind == DataMarkKind::MayEnd && ends {
                 let data = opened.block.end..mark.block.start;
                 self.labels.retain(|label| !data.contains(&label.range.start));
@@ -408,7 +409,6 @@ impl FileIndex {
         if mark.kind == DataMarkKind::Opens {
             self.data_opened = Some(mark.clone());
         }
-        self.data_marks.push(mark);
     }
 
     /// The codes that open lines of data which nothing ends before the next command, each with its block, in text order.
@@ -434,7 +434,7 @@ impl FileIndex {
         self.o_words.extend(chunk.o_words.iter().map(|o| OWord { range: moved(&o.range), ..o.clone() }));
         self.ends.extend(chunk.ends.iter().map(|e| EndMark { range: moved(&e.range), ..*e }));
         for mark in &chunk.data_marks {
-            self.take_data_mark(DataMark { block: moved(&mark.block), ..*mark }, dialect);
+            self.take_data_mark(&DataMark { block: moved(&mark.block), ..*mark }, dialect);
         }
         self.tape_marks.extend(chunk.tape_marks.iter().map(moved));
         self.unpointed.extend(chunk.unpointed.iter().map(moved));

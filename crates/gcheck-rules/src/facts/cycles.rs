@@ -21,6 +21,11 @@ pub(crate) fn is_round_pocket(effect: Effect) -> bool {
     matches!(effect, Effect::CircularPocketClockwise | Effect::CircularPocketCounterClockwise)
 }
 
+/// Does the code cut a pocket?
+pub(crate) fn is_pocket(effect: Effect) -> bool {
+    is_round_pocket(effect) || effect == Effect::GeneralPocket
+}
+
 /// Is it a canned cycle that stays on?
 pub(crate) fn is_cycle(effect: Effect) -> bool {
     Role::of(effect) == Some(Role::Cycle) && effect != Effect::CycleCancel

@@ -2,9 +2,15 @@
 //!
 //! Knows: where the last pass ran, and with which lead. Must not know: any rule.
 
+use gcheck_controls::Effect;
 use gcheck_engine::{At, Axis, Event, Travel, TravelKind};
 
 use crate::{PathCx, remembers};
+
+/// Does the code cut one pass of a thread?
+pub(crate) fn cuts_pass(effect: Effect) -> bool {
+    matches!(effect, Effect::ThreadingPass | Effect::Thread)
+}
 
 /// A pass of a thread.
 #[derive(Debug, Clone, Copy, PartialEq)]

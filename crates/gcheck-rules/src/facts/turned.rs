@@ -598,7 +598,7 @@ pub(crate) fn end(cx: &PathCx<'_>, travel: &Travel) -> Spot {
 
 /// Does the block go to a place of the machine?
 pub(crate) fn goes_home(cx: &PathCx<'_>) -> bool {
-    cx.has_effect(|effect| matches!(effect, Effect::MachineCoordinates | Effect::ReturnReference(_)))
+    cx.has_effect(Effect::goes_home)
 }
 
 /// A move in X alone.

@@ -84,6 +84,11 @@ pub(crate) fn is_roughing(effect: Effect) -> bool {
     matches!(effect, Effect::RoughAlongZ | Effect::RoughAlongX)
 }
 
+/// Does the code cut a profile in several passes, layers or copies, with an allowance, and go back to its start after each?
+pub(crate) fn cuts_in_passes(effect: Effect) -> bool {
+    is_roughing(effect) || effect == Effect::RepeatPattern
+}
+
 /// The first and the last block of the profile that `P` and `Q` of this block name.
 pub(crate) fn profile_blocks(cx: &PathCx<'_>) -> Option<(At, At)> {
     let named = |letter: char| cx.known_number(letter).and_then(whole);

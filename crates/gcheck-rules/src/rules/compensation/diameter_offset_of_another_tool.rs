@@ -6,6 +6,7 @@ use gcheck_engine::{Abstract, Domain, Event, Fact, Role};
 use crate::declare::declare_rule;
 use crate::facts::boundary::is_before;
 use crate::facts::compensation::is_on;
+use crate::facts::cycles::is_pocket;
 use crate::facts::offset_schemes::{Pairs, whole};
 use crate::{FollowedCx, PathCx, PathRule, Report, Run, Severity, Uses, Watch};
 use crate::{Remembers, remembers};
@@ -66,14 +67,6 @@ struct DiameterOffsetOfAnotherTool {
     pairs: Pairs,
     /// Tools with the length offsets that they cut with.
     lengths: Vec<(u32, u32)>,
-}
-
-/// Does the code cut a pocket, with the size of its cutter in the block?
-fn is_pocket(effect: Effect) -> bool {
-    matches!(
-        effect,
-        Effect::CircularPocketClockwise | Effect::CircularPocketCounterClockwise | Effect::GeneralPocket
-    )
 }
 
 /// More lengths than this show no clear scheme.

@@ -1,9 +1,9 @@
 //! A finishing allowance whose sign takes the rough cut into the finished contour.
 
-use gcheck_controls::{Effect, Letter};
+use gcheck_controls::Letter;
 
 use crate::declare::declare_rule;
-use crate::facts::turning::{Point, Profile, is_roughing, profile};
+use crate::facts::turning::{Point, Profile, cuts_in_passes, profile};
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 
 declare_rule! {
@@ -67,11 +67,11 @@ struct AllowanceIntoContour;
 
 impl PathRule for AllowanceIntoContour {
     fn concerns(&self, program: &Uses<'_>) -> bool {
-        program.may(leaves_allowance)
+        program.may(cuts_in_passes)
     }
 
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
-        if !cx.has_effect(leaves_allowance) || cx.is_malformed() {
+        if !cx.has_effect(cuts_in_passes) || cx.is_malformed() {
             return;
         }
         let letters = cx.origin().letters;
@@ -122,10 +122,6 @@ impl PathRule for AllowanceIntoContour {
             });
         }
     }
-}
-
-fn leaves_allowance(effect: Effect) -> bool {
-    is_roughing(effect) || effect == Effect::RepeatPattern
 }
 
 /// On which side of the whole profile the tool starts: 1 beyond it in the positive direction, -1 in the negative one.

@@ -1,11 +1,10 @@
 //! A thread whose lead changes from one pass to the next.
 
-use gcheck_controls::Effect;
 use gcheck_engine::{Event, Fact};
 use gcheck_geometry::Mm;
 
 use crate::declare::declare_rule;
-use crate::facts::thread_passes::ThreadPasses;
+use crate::facts::thread_passes::{ThreadPasses, cuts_pass};
 use crate::{PathCx, PathRule, Remembers, Report, Run, Uses, Watch, remembers};
 
 declare_rule! {
@@ -102,11 +101,6 @@ impl PathRule for ThreadLeadChanges {
         };
         report.add(cx.resting_on(finding, Fact::Feed, "the feed"));
     }
-}
-
-/// Does the code cut one pass of a thread?
-fn cuts_pass(effect: Effect) -> bool {
-    matches!(effect, Effect::ThreadingPass | Effect::Thread)
 }
 
 #[cfg(test)]

@@ -1,11 +1,10 @@
 //! A pass of a thread that goes deeper than the thread is high.
 
-use gcheck_controls::Effect;
 use gcheck_engine::Event;
 use gcheck_geometry::Mm;
 
 use crate::declare::declare_rule;
-use crate::facts::thread_passes::ThreadPasses;
+use crate::facts::thread_passes::{ThreadPasses, cuts_pass};
 use crate::{PathCx, PathRule, Remembers, Report, Run, Uses, Watch, remembers};
 
 declare_rule! {
@@ -66,7 +65,7 @@ impl PathRule for ThreadPassTooDeep {
     }
 
     fn concerns(&self, program: &Uses<'_>) -> bool {
-        program.may(|effect| matches!(effect, Effect::ThreadingPass | Effect::Thread))
+        program.may(cuts_pass)
     }
 
     fn changed(&mut self, _: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {

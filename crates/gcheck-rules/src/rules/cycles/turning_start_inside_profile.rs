@@ -4,7 +4,7 @@ use gcheck_controls::{Effect, LetterSet};
 use gcheck_engine::At;
 
 use crate::declare::declare_rule;
-use crate::facts::turning::{Point, Profile, is_roughing, profile};
+use crate::facts::turning::{Point, Profile, cuts_in_passes, is_roughing, profile};
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 
 declare_rule! {
@@ -52,12 +52,12 @@ struct TurningStartInsideProfile;
 
 impl PathRule for TurningStartInsideProfile {
     fn concerns(&self, program: &Uses<'_>) -> bool {
-        program.may(roughs)
+        program.may(cuts_in_passes)
     }
 
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
         let is_finish = cx.has_effect(|effect| effect == Effect::FinishProfile);
-        if !is_finish && !cx.has_effect(roughs) {
+        if !is_finish && !cx.has_effect(cuts_in_passes) {
             return;
         }
         let along_x = cx.has_effect(|effect| effect == Effect::RoughAlongX);
@@ -95,11 +95,6 @@ impl PathRule for TurningStartInsideProfile {
                 .help("move outside the stock before the cycle"),
         );
     }
-}
-
-/// Does the code cut a profile in several passes, and go back to its start after each?
-fn roughs(effect: Effect) -> bool {
-    is_roughing(effect) || effect == Effect::RepeatPattern
 }
 
 /// The point that the profile comes back out to, where its first block goes at rapid into the part: toward the centre, nearer

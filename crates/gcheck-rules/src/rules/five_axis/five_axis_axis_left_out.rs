@@ -55,13 +55,12 @@ impl PathRule for FiveAxisAxisLeftOut {
         let letters = cx.origin().letters;
         let left_out: Vec<char> =
             ['X', 'Y', 'Z'].into_iter().filter(|axis| !letters.contains(Letter::of(*axis))).collect();
-        let own_points = |effect| matches!(effect, Effect::MachineCoordinates | Effect::ReturnReference(_));
         let is_no_length = cx.state().tool_shift().along_tool() == Some(0.0);
         if cx.is_malformed()
             || turning.is_empty()
             || left_out.is_empty()
             || is_no_length
-            || cx.has_effect(own_points)
+            || cx.has_effect(Effect::goes_home)
         {
             return;
         }

@@ -59,7 +59,7 @@ declare_rule! {
 struct AlarmReached {
     /// A path came to another end, to none, or to a jump that the control does not follow: corrected, it may lead past the alarm.
     may_end_otherwise: bool,
-    /// What is told if no path does.
+    /// What is reported if no path does.
     found: Option<Finding>,
 }
 
@@ -85,13 +85,7 @@ impl PathRule for AlarmReached {
     }
 
     fn ended_elsewhere(&mut self, cx: &PathCx<'_>, ending: Ending, _: &mut Report<'_>) {
-        let Ending::Alarm(number) = ending else {
-            self.may_end_otherwise = true;
-            return;
-        };
-        if !cx.is_on_every_path() || self.may_end_otherwise {
-            return;
-        }
+        let Some(number) = self.alarm(cx, ending) else { return };
         // The call in this file that leads there: its words are what the program can change.
         let frames = cx.state().frames();
         let Some(frame) = frames.iter().find(|frame| frame.caller.file == 0 && frame.entry.file != 0) else {
@@ -101,10 +95,7 @@ impl PathRule for AlarmReached {
         else {
             return;
         };
-        let label = match text_of(cx) {
-            Some(text) => format!("raises alarm {number}: {text}"),
-            None => format!("raises alarm {number}"),
-        };
+        let label = raises(number, text_of(cx));
         self.found.get_or_insert(
             Finding::new(&META, call, "the program called here always stops with its own alarm (`#3000`)")
                 .label(label)
@@ -116,13 +107,7 @@ impl PathRule for AlarmReached {
     }
 
     fn ended(&mut self, cx: &PathCx<'_>, ending: Ending, _: &mut Report<'_>) {
-        let Ending::Alarm(number) = ending else {
-            self.may_end_otherwise = true;
-            return;
-        };
-        if !cx.is_on_every_path() || self.may_end_otherwise {
-            return;
-        }
+        let Some(number) = self.alarm(cx, ending) else { return };
         // A loop before it may be what the other paths never leave.
         let start = cx.range().start;
         if cx.file_index.loops.iter().any(|turn| turn.begins && turn.range.start < start) {
@@ -142,13 +127,9 @@ impl PathRule for AlarmReached {
             (Some((word, text)), _) => {
                 (format!("the program always stops at its own `({word}, …)`"), format!("stops with: {text}"))
             }
-            (None, text) => (
-                "the program always ends with its own alarm (`#3000`)".to_owned(),
-                match text {
-                    Some(text) => format!("raises alarm {number}: {text}"),
-                    None => format!("raises alarm {number}"),
-                },
-            ),
+            (None, text) => {
+                ("the program always ends with its own alarm (`#3000`)".to_owned(), raises(number, text))
+            }
         };
         let mut finding = cx
             .finding(&META, cx.range(), message)
@@ -167,6 +148,26 @@ impl PathRule for AlarmReached {
         if let Some(finding) = self.found.take().filter(|_| !self.may_end_otherwise) {
             report.add(finding);
         }
+    }
+}
+
+impl AlarmReached {
+    /// The number of the alarm of its own with which the program ends, if all paths come here; notes another end.
+    fn alarm(&mut self, cx: &PathCx<'_>, ending: Ending) -> Option<i64> {
+        match ending {
+            Ending::Alarm(number) => cx.is_on_every_path().then_some(number),
+            _ => {
+                self.may_end_otherwise = true;
+                None
+            }
+        }
+    }
+}
+
+fn raises(number: i64, text: Option<String>) -> String {
+    match text {
+        Some(text) => format!("raises alarm {number}: {text}"),
+        None => format!("raises alarm {number}"),
     }
 }
 

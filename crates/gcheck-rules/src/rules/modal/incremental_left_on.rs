@@ -316,9 +316,7 @@ fn works_in_increments(cx: &PathCx<'_>) -> bool {
     let last = here.block.min(set.block.saturating_add(MOST));
     (set.block..last).any(|block| {
         let at = At { block, ..here };
-        let is_elsewhere = |word: &gcheck_program::Word| {
-            matches!(cx.model.effect(word.code), Effect::MachineCoordinates | Effect::ReturnReference(_))
-        };
+        let is_elsewhere = |word: &gcheck_program::Word| cx.model.effect(word.code).goes_home();
         let names = cx.place_of(at).is_some_and(|p| p.block().letters.intersects(LetterSet::of("XY")));
         names && cx.find_word(at, is_elsewhere).is_none()
     })

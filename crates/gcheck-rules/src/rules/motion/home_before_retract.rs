@@ -78,14 +78,15 @@ impl PathRule for HomeBeforeRetract {
     }
 
     fn concerns(&self, program: &Uses<'_>) -> bool {
-        program.may(goes_home) && program.environment.control().machine() == gcheck_controls::Machine::Mill
+        program.may(Effect::goes_home)
+            && program.environment.control().machine() == gcheck_controls::Machine::Mill
     }
 
     fn rapid(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
         let Event::Travel(travel) = event else { return };
         // A mill's control may drive a lathe, whose tools leave the part across.
         let turns = cx.state().plane(cx.model) == Some(Plane::Zx);
-        if !cx.has_effect(goes_home) || !cx.is_on_every_path() || turns {
+        if !cx.has_effect(Effect::goes_home) || !cx.is_on_every_path() || turns {
             return;
         }
         let Some(z) = travel.from.get(Axis::Z).filter(|_| leaves_sideways(travel)) else { return };
@@ -99,7 +100,7 @@ impl PathRule for HomeBeforeRetract {
         } else {
             ("the tool goes home sideways while it is in the part", "this moves X and Y at rapid, and not Z")
         };
-        let finding = cx.finding(&META, cx.effect_range(goes_home), message).label(label);
+        let finding = cx.finding(&META, cx.effect_range(Effect::goes_home), message).label(label);
         let finding = match cx.range_of(cut) {
             Some(range) => {
                 let at = cx.shown(Mm(z));
@@ -113,10 +114,6 @@ impl PathRule for HomeBeforeRetract {
                 .help("retract Z in a block of its own first (`G91 G28 Z0`, `G53 G0 Z0`), then move X and Y"),
         );
     }
-}
-
-fn goes_home(effect: Effect) -> bool {
-    matches!(effect, Effect::MachineCoordinates | Effect::ReturnReference(_))
 }
 
 /// Does X or Y move, to wherever it is?

@@ -135,12 +135,10 @@ fn look(cx: &PathCx<'_>, event: &Event, travel: &Travel, has_place: bool) -> Opt
     let to = place.or_else(|| Some([0.0, 0.0, travel.to.get(Axis::Z).filter(|_| !has_place)?]))?;
     let [x, y, z] = to;
     let is_rapid = travel.kind == TravelKind::Rapid && !travel.expanded;
-    let goes_home =
-        cx.has_effect(|effect| matches!(effect, Effect::MachineCoordinates | Effect::ReturnReference(_)));
     // A length that is off makes Z a matter of the machine.
     let has_length =
         cx.state().effect(Role::Length, cx.model).is_some_and(|effect| effect != Effect::LengthOff);
-    if !is_rapid || goes_home || !has_length || z >= SURFACE {
+    if !is_rapid || cx.has_effect(Effect::goes_home) || !has_length || z >= SURFACE {
         return None;
     }
     let cuts = cx.shared::<Cuts>().filter(|cuts| cuts.knows(cx, event));

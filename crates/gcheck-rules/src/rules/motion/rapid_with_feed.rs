@@ -82,7 +82,7 @@ impl PathRule for RapidWithFeed {
             || !is_plain
             || !is_below && !is_inverse
             || is_still
-            || cx.has_effect(is_elsewhere)
+            || cx.has_effect(Effect::goes_home)
             || has_unknown_code(cx)
         {
             return;
@@ -115,11 +115,6 @@ impl PathRule for RapidWithFeed {
 fn stays(travel: &Travel, axis: Axis) -> bool {
     let (from, to) = (travel.from.raw(axis), travel.to.raw(axis));
     (to - from).abs() <= LEVEL || to.to_bits() == from.to_bits()
-}
-
-/// Codes whose move is not in the coordinates of the part.
-fn is_elsewhere(effect: Effect) -> bool {
-    matches!(effect, Effect::ReturnReference(_) | Effect::MachineCoordinates)
 }
 
 /// A code that the control does not have may be a move on the control that the program is for.

@@ -114,7 +114,8 @@ impl PathRule for RetractLeftOut {
     }
 
     fn concerns(&self, program: &Uses<'_>) -> bool {
-        program.environment.control().machine() == gcheck_controls::Machine::Mill && program.may(goes_home)
+        program.environment.control().machine() == gcheck_controls::Machine::Mill
+            && program.may(Effect::goes_home)
     }
 
     fn block(&mut self, cx: &PathCx<'_>, _: &mut Report<'_>) {
@@ -138,7 +139,7 @@ impl PathRule for RetractLeftOut {
             self.has_cut = [true; 2];
         }
         if moves(travel, Axis::Z) {
-            self.is_home = cx.has_effect(goes_home);
+            self.is_home = cx.has_effect(Effect::goes_home);
             if let Some(level) = self.level.take() {
                 self.highest = Some(self.highest.map_or(level, |highest| highest.max(level)));
             }
@@ -200,10 +201,6 @@ impl RetractLeftOut {
             }
         }
     }
-}
-
-fn goes_home(effect: Effect) -> bool {
-    matches!(effect, Effect::MachineCoordinates | Effect::ReturnReference(_))
 }
 
 fn moves(travel: &Travel, axis: Axis) -> bool {
