@@ -1,1 +1,1 @@
-"""gcheck: reads CNC part programs (G-code) the way the control will. The program is a binary among the scripts."""
+"""gcheck: checks CNC part programs (G-code) before they run on the machine. The program is a binary among the scripts."""

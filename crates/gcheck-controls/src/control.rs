@@ -266,6 +266,13 @@ impl Control {
         &self.code_list
     }
 
+    /// May a number that is no code of the control be an M code of the machine's builder?
+    pub fn may_be_of_builder(&self, letter: Letter, value: f64) -> bool {
+        letter == Letter::of('M')
+            && self.code_list().builder_m_codes
+            && CodeNumber::from_value(letter.ascii(), value).is_some()
+    }
+
     /// What becomes of contradictions and repetitions in a block.
     pub fn block_rules(&self) -> &BlockRules {
         &self.block

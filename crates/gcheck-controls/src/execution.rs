@@ -354,7 +354,7 @@ impl Effect {
     }
 
     /// Goes to a place of the machine, whatever the coordinates of the part are: `G53`, `G28`, `G30`.
-    pub const fn goes_home(self) -> bool {
+    pub const fn goes_to_machine_place(self) -> bool {
         matches!(self, Self::MachineCoordinates | Self::ReturnReference(_))
     }
 
@@ -541,6 +541,9 @@ pub struct Semantics {
     /// The setting that decides whether the end of a program clears the shift of `G52`, with the values that do.
     #[serde(default)]
     pub shift_cleared_at_end: Option<crate::SettingValues>,
+    /// A work offset may hold a rotation in XY: `R` of `G10 L2`, degrees.
+    #[serde(default)]
+    pub work_offsets_rotate: bool,
     /// A reference return (`G28`) without axis words returns all axes.
     pub reference_without_axes: bool,
     /// The first reference position is the machine's zero, from which `G53` counts.

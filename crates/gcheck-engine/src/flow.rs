@@ -282,8 +282,10 @@ const COPY: u64 = 4;
 /// What it costs at least to join two states and to see whether that changed anything, in blocks.
 const JOIN: u64 = 8;
 
-/// States that are kept of blocks that were met, beside one for each block of the program's file.
+/// States that are kept of blocks that were met, beside one for each block of the program's file, and of long files at most.
+/// A state of a program with the usual variables takes about ten kilobytes.
 const MOST_MET: usize = 2048;
+const MOST_MET_OF_BLOCKS: usize = 10_000;
 /// States that are kept of blocks that were met before those that no path comes back to are looked for.
 const MOST_UNSETTLED: usize = 256;
 /// Places at which paths part that are named.
@@ -468,7 +470,7 @@ impl<'a, 'p, 'o, 'd, O: FlowObserver> Flow<'a, 'p, 'o, 'd, O> {
             work: 0,
             choices: task.choices,
             taken: 0,
-            most_met: MOST_MET + blocks,
+            most_met: MOST_MET + blocks.min(MOST_MET_OF_BLOCKS),
             settle_at: MOST_UNSETTLED,
             asked_at: 0,
             forks: 0,

@@ -528,11 +528,8 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
                 _ => false,
             };
             match word.value {
-                Value::Number(_) if code_letter => {
-                    // The machine's builder adds M codes of his own, where the control lets him.
-                    let may_be_builders =
-                        word.letter.ascii() == b'M' && self.model.control().code_list().builder_m_codes;
-                    if !may_be_builders {
+                Value::Number(number) if code_letter => {
+                    if !self.model.control().may_be_of_builder(word.letter, number) {
                         self.refuse(Fault::UnknownCode)?;
                     }
                 }
@@ -659,6 +656,7 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
         let Some(number) = D::known(value) else { return Err(Fault::Undecidable) };
         match self.model.code_of_value(letter, number) {
             Some(ix) => self.words.put_code(ix),
+            None if self.model.control().may_be_of_builder(letter, number) => {}
             None => return Err(Fault::UnknownCode),
         }
         Ok(())
@@ -898,11 +896,12 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
 
     /// Is the address, elsewhere an angle that counts smallest steps, a count to a code of the block (`G43 H1` on a lathe)?
     fn is_count(&self, letter: Letter, words: &[Word]) -> bool {
+        // Codes that the block computes are among those that it has so far.
+        let mut codes = words.iter().map(|word| word.code).chain(self.words.codes().iter().copied());
         self.model.scaled(letter) == Some(WordKind::Angle)
-            && words
-                .iter()
-                .filter_map(|word| self.model.contracts.get(word.code.index()))
-                .any(|contract| contract.counts.contains(letter))
+            && codes.any(|ix| {
+                self.model.contracts.get(ix.index()).is_some_and(|contract| contract.counts.contains(letter))
+            })
     }
 
     /// A whole number not below zero; `None` when it does not stand, a fault when it is none.

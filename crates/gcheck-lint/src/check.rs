@@ -1,19 +1,20 @@
 //! Running the selected rules over one file.
 //!
 //! Knows: chunks, tiers, suppressions, the order of findings. Must not know: any rule. Memory stays bounded: a chunk's table
-//! is dropped before the next is made, and findings beyond [`MAX_FINDINGS`] are counted, not kept.
+//! is dropped before the next is made, and findings beyond [`MAX_FINDINGS`](crate::MAX_FINDINGS) are counted, not kept.
 
 use std::cell::RefCell;
 use std::collections::BTreeSet;
 use std::ops::Range;
 
-use gcheck_controls::{Control, Ends};
-use gcheck_diagnostics::{Finding, RuleMeta, Severity, Tier};
+use gcheck_controls::Ends;
+use gcheck_diagnostics::{Finding, RuleMeta, Severity};
 use gcheck_engine::{Assumption, Budget, FlowResult, Model, Options, Program, Task, flow, flow_branch};
 use gcheck_program::{BlockFlags, BlockTable, FileIndex, Loaded, code_region};
 use gcheck_syntax::SourceText;
 
 use crate::block_delete::{Positions, found_by_all, name_condition};
+use crate::collector::Collector;
 use crate::containment::{call, without_rules_that_panic};
 use crate::environment::ProgramLibrary;
 use crate::partitions::{Case, Follower, Partition, Partitions, Rules, Told};
@@ -22,9 +23,6 @@ use crate::{
     BlockCx, Environment, FileCx, ProgramText, Report, RuleEntry, RuleTable, Run, Selection, Suppressions,
     syntax_errors,
 };
-
-/// Findings of one file that are kept; the rest are counted by rule.
-pub const MAX_FINDINGS: usize = 10_000;
 
 /// What is to be checked, and how.
 pub struct Job<'a> {
@@ -98,43 +96,6 @@ impl Outcome {
     }
 }
 
-/// Findings that were counted and not kept, by rule and severity; and rules that panicked.
-#[derive(Debug, Clone, Default)]
-pub struct Omitted {
-    counts: Vec<(&'static RuleMeta, Severity, usize)>,
-    failed: Vec<&'static RuleMeta>,
-}
-
-impl Omitted {
-    /// Notes rules that panicked.
-    pub(crate) fn fail(&mut self, rules: &[&'static RuleMeta]) {
-        for rule in rules {
-            if !self.failed.contains(rule) {
-                self.failed.push(rule);
-            }
-        }
-    }
-
-    /// Rules that panicked.
-    pub(crate) fn failed(&self) -> &[&'static RuleMeta] {
-        &self.failed
-    }
-
-    pub(crate) fn add(&mut self, rule: &'static RuleMeta, severity: Severity, more: usize) {
-        let same = |(other, of, _): &&mut (&'static RuleMeta, Severity, usize)| {
-            std::ptr::eq(*other, rule) && *of == severity
-        };
-        match self.counts.iter_mut().find(same) {
-            Some((_, _, count)) => *count += more,
-            None => self.counts.push((rule, severity, more)),
-        }
-    }
-
-    pub(crate) fn iter(&self) -> impl Iterator<Item = (&'static RuleMeta, Severity, usize)> {
-        self.counts.iter().copied()
-    }
-}
-
 /// The selected rules, arranged by when they run.
 pub(crate) struct Plan {
     pub(crate) table: RuleTable,
@@ -188,121 +149,6 @@ impl Plan {
         let pairs = self.token.iter().chain(&self.program).chain(&self.path).map(|(r, s)| (r, s));
         let mut pairs = pairs.chain(self.block.iter().map(|(r, s, _)| (r, s)));
         pairs.any(|(r, severity)| std::ptr::eq(r.meta, rule) && severity.is_some())
-    }
-}
-
-/// Keeps findings up to the limit.
-pub(crate) struct Collector<'c> {
-    control: &'c Control,
-    /// Nobody chose the control, and nothing in the program speaks for it: it may be the wrong one.
-    is_unsure: bool,
-    findings: Vec<Finding>,
-    omitted: Omitted,
-}
-
-impl<'c> Collector<'c> {
-    pub(crate) fn new(environment: Environment<'c>) -> Self {
-        let control = environment.control();
-        Self {
-            control,
-            is_unsure: environment.control_is_unknown(),
-            findings: Vec::new(),
-            omitted: Omitted::default(),
-        }
-    }
-
-    /// What is kept and counted so far.
-    pub(crate) fn mark(&self) -> (usize, Omitted) {
-        (self.findings.len(), self.omitted.clone())
-    }
-
-    /// Forgets what was added since the mark.
-    pub(crate) fn rewind(&mut self, (kept, omitted): &(usize, Omitted)) {
-        self.findings.truncate(*kept);
-        self.omitted.clone_from(omitted);
-    }
-
-    pub(crate) fn into_parts(self) -> (Vec<Finding>, Omitted) {
-        (self.findings, self.omitted)
-    }
-
-    pub(crate) fn add(&mut self, severity: Option<Severity>, finding: Finding) {
-        let most = match (self.is_unsure, finding.rule.control_specific) {
-            (false, _) => Severity::Error,
-            (true, false) => Severity::Warning,
-            (true, true) => Severity::Info,
-        };
-        let mut finding = finding.at_most(most);
-        // Only what is certainly a mistake predicts an alarm.
-        if finding.severity != Severity::Error {
-            finding.alarm = None;
-        } else if finding.alarm.is_none() {
-            finding.alarm = self
-                .control
-                .alarm(finding.rule.id)
-                .map(|a| a.number.clone().unwrap_or_else(|| a.text.clone()));
-        }
-        if let Some(severity) = severity {
-            finding.severity = severity;
-        }
-        self.keep(finding);
-    }
-
-    /// Adds a finding that has its severity and alarm.
-    pub(crate) fn keep(&mut self, finding: Finding) {
-        if self.is_full() {
-            self.omit(finding.rule, finding.severity, 1);
-        } else {
-            self.findings.push(finding);
-        }
-    }
-
-    /// Are further findings only counted?
-    pub(crate) fn is_full(&self) -> bool {
-        self.findings.len() >= MAX_FINDINGS
-    }
-
-    pub(crate) fn omit(&mut self, rule: &'static RuleMeta, severity: Severity, count: usize) {
-        self.omitted.add(rule, severity, count);
-    }
-
-    /// Notes rules that panicked in a part of the file.
-    pub(crate) fn fail(&mut self, rules: &[&'static RuleMeta]) {
-        self.omitted.fail(rules);
-    }
-
-    /// Names the condition of findings that hold with one position of block delete only.
-    pub(crate) fn name_positions(&mut self, positions: &Positions) {
-        for finding in &mut self.findings {
-            positions.name(finding);
-        }
-    }
-
-    /// Lines of data are rows of a table, of which only the form is looked at.
-    fn leave_data(&mut self, file_index: &FileIndex) {
-        if !file_index.data.is_empty() {
-            self.findings.retain(|finding| {
-                finding.rule.tier == Tier::Token || !file_index.is_data(finding.range.start)
-            });
-        }
-    }
-
-    /// In text that no run reads, what is wrong with a block is an info, and nothing is an error, unless the user configured
-    /// the rule's severity.
-    fn soften(&mut self, plan: &Plan, unread_from: u32) {
-        for finding in &mut self.findings {
-            let is_of_block = matches!(finding.rule.tier, Tier::Token | Tier::Block);
-            let most = if is_of_block { Severity::Info } else { Severity::Warning };
-            if finding.range.start < unread_from
-                || finding.severity <= most
-                || plan.is_overridden(finding.rule)
-            {
-                continue;
-            }
-            finding.severity = most;
-            finding.alarm = None;
-            finding.notes.push("it is after the end of the program, and is never executed".to_owned());
-        }
     }
 }
 
@@ -384,7 +230,7 @@ pub(crate) fn conclude(
         let (base, chunk) = text.around(end);
         let rest = chunk.as_bytes().get((end - base) as usize..).unwrap_or_default();
         let line = rest.iter().position(|b| matches!(b, b'\n' | b'\r')).unwrap_or(rest.len());
-        collector.soften(plan, end + line as u32);
+        collector.soften(|rule| plan.is_overridden(rule), end + line as u32);
     }
     finish(plan, text, collector, notes)
 }
@@ -485,16 +331,12 @@ struct Out<'o, 'c> {
 
 impl Out<'_, '_> {
     fn add(&mut self, severity: Option<Severity>, finding: Finding) {
-        let Some(case) = &self.case else {
-            self.told.note(&finding);
-            return self.collector.add(severity, finding);
-        };
-        if self.told.has(&finding) {
-            return;
-        }
-        if let Some((severity, finding)) = case.of(severity, finding, self.rules) {
-            self.told.note(&finding);
-            self.collector.add(severity, finding);
+        match &self.case {
+            None => {
+                self.told.note(&finding);
+                self.collector.add(severity, finding);
+            }
+            Some(case) => self.told.add(case, (severity, finding), self.rules, self.collector),
         }
     }
 }
@@ -586,16 +428,10 @@ fn finish(
 ) -> Outcome {
     let mut suppressed = 0;
     // A rule that panicked in one part of the file says nothing of the others, as if it had panicked in all.
-    let failed = std::mem::take(&mut collector.omitted.failed);
-    if !failed.is_empty() {
-        collector.findings.retain(|finding| !failed.contains(&finding.rule));
-        collector.omitted.counts.retain(|(rule, ..)| !failed.contains(rule));
-    }
+    let failed = collector.leave_out_failed();
     if notes.suppressions && !notes.directives.is_empty() {
         let mut suppressions = Suppressions::read(text, notes.directives, plan.table);
-        let before = collector.findings.len();
-        collector.findings.retain(|finding| !suppressions.silences(finding));
-        suppressed = before - collector.findings.len();
+        suppressed = collector.leave_out(|finding| suppressions.silences(finding));
         for (rule, severity) in &plan.suppressions {
             if let Run::Suppressions { check } = rule.run {
                 let mut add = |finding| collector.add(*severity, finding);
@@ -603,7 +439,7 @@ fn finish(
             }
         }
     }
-    let mut findings = collector.findings;
+    let (mut findings, omitted) = collector.into_parts();
     findings.sort_by(|a, b| {
         (a.range.start, a.range.end, a.rule.id, &a.message).cmp(&(
             b.range.start,
@@ -614,7 +450,7 @@ fn finish(
     });
     Outcome {
         findings,
-        omitted: collector.omitted.counts,
+        omitted: omitted.iter().collect(),
         suppressed,
         lines: notes.lines,
         assumptions: Assumptions::new(),

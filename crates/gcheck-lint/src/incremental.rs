@@ -25,9 +25,8 @@ use layout::{ChunkShape, Layout, Unchanged};
 pub use paths::Work;
 use paths::{Broken, Inputs, Paths};
 
-use crate::check::{
-    Assumptions, Collector, FileNotes, Omitted, Plan, check_file, conclude, switch_positions,
-};
+use crate::check::{Assumptions, FileNotes, Plan, check_file, conclude, switch_positions};
+use crate::collector::{Collector, Omitted};
 use crate::containment::without_rules_that_panic;
 use crate::environment::ProgramLibrary;
 use crate::partitions::Rules;

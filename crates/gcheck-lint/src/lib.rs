@@ -11,6 +11,7 @@ mod assumptions;
 mod block_context;
 mod block_delete;
 mod check;
+mod collector;
 mod containment;
 mod contract;
 mod directives;
@@ -40,7 +41,8 @@ mod watchers;
 
 pub use assumptions::{describe, describe_all, in_picture, work_offset_name};
 pub use block_context::{BlockCx, WordFacts};
-pub use check::{Assumptions, Execution, Job, MAX_FINDINGS, Omitted, Outcome, check};
+pub use check::{Assumptions, Execution, Job, Outcome, check};
+pub use collector::{MAX_FINDINGS, Omitted};
 pub use environment::{Environment, MachineFacts, NoPrograms, Programs};
 pub use file_context::{FileCx, FileFact};
 pub use fix::{Fixed, fix_all};

@@ -8,7 +8,7 @@
 //! (Mauborgne and Rival, "Trace Partitioning in Abstract Interpretation Based Static Analyzers", ESOP 2005, partition by control
 //! flow in the same way; here a condition is one partition, not each combination of conditions.)
 
-use std::collections::{HashSet, VecDeque};
+use std::collections::{HashMap, HashSet, VecDeque};
 use std::ops::Range;
 use std::rc::Rc;
 
@@ -16,6 +16,7 @@ use gcheck_diagnostics::{Certainty, Finding, Severity};
 use gcheck_engine::{At, Branch, Choice, FlowObserver, Parting, Program};
 use gcheck_program::{BinaryOp, BlockTable, ExprIx, Op, Place, StatementKind};
 
+use crate::collector::Collector;
 use crate::memories::Memories;
 use crate::watchers::{Watchers, shows_to_watchers};
 use crate::{Environment, RuleEntry, RuleTable};
@@ -137,18 +138,56 @@ impl FlowObserver for Follower<'_, '_, '_> {
 
 /// What was reported for all paths: the same is not reported again for some.
 #[derive(Debug, Default)]
-pub(crate) struct Told(HashSet<(&'static str, u32)>);
+pub(crate) struct Told(HashMap<(&'static str, u32), Known>);
+
+/// How much is known of a finding that was reported.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Known {
+    /// When it holds, or that it does on all paths.
+    Case,
+    /// That it holds on some path.
+    SomePath,
+}
 
 impl Told {
-    /// Notes a finding.
+    /// Notes a finding of the analysis of all paths.
     pub(crate) fn note(&mut self, finding: &Finding) {
-        self.0.insert((stem(finding.rule.id), finding.range.start));
+        let known = if is_on_some_path(finding) { Known::SomePath } else { Known::Case };
+        self.0.insert((stem(finding.rule.id), finding.range.start), known);
     }
 
-    /// Was the like reported at this place?
-    pub(crate) fn has(&self, finding: &Finding) -> bool {
-        self.0.contains(&(stem(finding.rule.id), finding.range.start))
+    /// Adds what is found in one case: a new finding, or the case to one that holds on some path.
+    pub(crate) fn add(
+        &mut self,
+        case: &Case,
+        (severity, finding): (Option<Severity>, Finding),
+        rules: Rules<'_>,
+        collector: &mut Collector<'_>,
+    ) {
+        let place = (stem(finding.rule.id), finding.range.start);
+        match self.0.get(&place) {
+            None => {
+                if let Some((severity, finding)) = case.of(severity, finding, rules) {
+                    self.0.insert(place, Known::Case);
+                    collector.add(severity, finding);
+                }
+            }
+            // Here it is certain: this is the case.
+            Some(Known::SomePath) if !is_on_some_path(&finding) => {
+                if let Some((_, named)) = case.of(severity, finding, rules) {
+                    self.0.insert(place, Known::Case);
+                    let is_it = |other: &Finding| (stem(other.rule.id), other.range.start) == place;
+                    collector.change(is_it, |known| Finding { severity: known.severity, ..named });
+                }
+            }
+            Some(_) => {}
+        }
     }
+}
+
+/// Is the finding one of a rule for what holds on some paths only? An analysis of one case may say more of it.
+pub(crate) fn is_on_some_path(finding: &Finding) -> bool {
+    stem(finding.rule.id) != finding.rule.id
 }
 
 /// The name that a rule shares with the one for the same on some paths.
@@ -171,7 +210,7 @@ impl Case {
 
     /// The finding as one that holds in this case only, with the severity that the user gave its rule; `None` when that is not
     /// worth saying, or the rule for it is off.
-    pub(crate) fn of(
+    fn of(
         &self,
         severity: Option<Severity>,
         mut finding: Finding,

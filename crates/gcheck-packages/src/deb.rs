@@ -67,7 +67,7 @@ fn control(build: &Build<'_>, kilobytes: usize) -> String {
     }
     text.push_str(
         "Description: checks CNC part programs (G-code)\n \
-         Reads CNC part programs the way the control will, before the control does:\n \
+         Checks CNC part programs before they run on the machine:\n \
          a linter for the command line and CI, and a language server for editors.\n",
     );
     text

@@ -48,7 +48,7 @@ pub fn npm_platform(build: &Build<'_>) -> anyhow::Result<Package> {
 /// # Errors
 /// When packing fails.
 pub fn npm_launcher(names: &Names, version: &str, papers: &Papers) -> anyhow::Result<Package> {
-    let about = "Reads CNC part programs (G-code) the way the control will, before the control does";
+    let about = "Checks CNC part programs (G-code) before they run on the machine";
     let mut manifest = manifest(names, &names.npm, version, about);
     let platforms: Map<String, Value> = PUBLISHED
         .iter()

@@ -46,7 +46,7 @@ fn metadata(build: &Build<'_>) -> String {
         "Metadata-Version: 2.4\n\
          Name: {}\n\
          Version: {version}\n\
-         Summary: Reads CNC part programs (G-code) the way the control will, before the control does\n\
+         Summary: Checks CNC part programs (G-code) before they run on the machine\n\
          Keywords: cnc,gcode,linter,language-server\n\
          License-Expression: MIT OR Apache-2.0\n\
          License-File: LICENSE-APACHE\n\

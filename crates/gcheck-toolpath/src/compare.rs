@@ -159,9 +159,12 @@ impl<'f, A: Iterator<Item = Placed>, B: Iterator<Item = Placed>> Comparison<'f, 
                 }
             }
             if are_over != [false; 2] && self.within.as_ref().is_some_and(Within::ends_one_program) {
-                // What the programs do between two tools, and at their end, are two things.
-                before_a.clear();
-                before_b.clear();
+                // What the programs do between two tools, and at their end, are two things: what is left to compare is how
+                // the last cut ends.
+                let ends_a_cut = self.leaving.is_some();
+                for stands in [&mut before_a, &mut before_b] {
+                    stands.retain(|(_, act)| ends_a_cut && act.waits());
+                }
             }
             // One of them may be in its next section because the other one goes on where it does not. If the paths part
             // here, what is of that section is compared from its begin on.

@@ -199,6 +199,35 @@ fn a_changed_section_does_not_end_the_comparison() {
 }
 
 #[test]
+fn a_wait_after_the_last_cut_counts_where_one_program_ends_there() {
+    let old = program(&jobs(&[1, 2, 3, 4]));
+    let new = program(&jobs(&[1, 2, 3]));
+    let after_cut = |text: &str, block: &str| text.replace("G1 Y51.\n", &format!("G1 Y51.\n{block}\n"));
+    for (block, expected) in [
+        (
+            "G4 P500",
+            expect![[r#"
+            section-removed T4@4 lines 37-47 -
+            dwell 1"#]],
+        ),
+        (
+            "M0",
+            expect![[r#"
+            section-removed T4@4 lines 37-47 -
+            stop 1"#]],
+        ),
+        // Posts write optional stops between tools only.
+        ("M1", expect![[r#"
+            section-removed T4@4 lines 37-47 -
+            stop 1"#]]),
+    ] {
+        let old = after_cut(&old, block);
+        expected.assert_eq(&told(&by_tools(&old, &new)));
+        assert_eq!(count(&by_tools(&old, &after_cut(&new, block))), 1, "{block}");
+    }
+}
+
+#[test]
 fn what_a_moved_section_inherits_is_told_as_its_difference() {
     let with = |tools: &[u32]| {
         program(&jobs(tools)).replacen(" S1000 M3", "", 3).replacen("M6\n", "M6\nS800 M3\n", 1)

@@ -21,7 +21,7 @@ pub(crate) use values::FUEL;
 pub use values::{Assignment, BlockSkip, Switch, VariableName};
 use values::{assignment, block_skip, control_name, numbering, tolerance};
 
-/// Reads CNC part programs (G-code) the way the control will, before the control does.
+/// Checks CNC part programs (G-code) before they run on the machine.
 #[derive(Debug, Parser)]
 #[command(name = "gcheck", version, max_term_width = 100)]
 pub struct Arguments {

@@ -4,6 +4,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Component, Path, PathBuf};
+use std::sync::{Arc, Mutex};
 
 use ignore::WalkBuilder;
 
@@ -138,13 +139,49 @@ pub(crate) fn is_pattern(path: &Path) -> bool {
     path.to_string_lossy().contains(['*', '?', '[', '{'])
 }
 
-/// What is in a folder and below it, but for what ignore files name.
+/// Files that the walk of a folder reads by itself.
+const IGNORE_FILES: [&str; 4] = [".gitignore", ".ignore", OWN_IGNORE_FILE, ".git/info/exclude"];
+const OWN_IGNORE_FILE: &str = ".gcheckignore";
+/// Bytes of such a file.
+const MOST_IGNORE: u64 = 1 << 20;
+
+/// What is in a folder and below it, but for what ignore files name. A folder whose ignore files cannot be read is left out, and a
+/// problem says so.
 fn entries(folder: &Path) -> impl Iterator<Item = Result<ignore::DirEntry, Problem>> {
-    let mut builder = WalkBuilder::new(folder);
-    // Links are not followed, so a loop of them is never entered.
-    builder.follow_links(false).require_git(false).add_custom_ignore_filename(".gcheckignore");
+    // The walk reads the ignore files of a folder when it enters it, whatever they are, and those of the folders around the first.
+    let first = paths::absolute(folder);
+    let refused: Vec<Problem> = first.ancestors().find_map(bad_ignore_file).into_iter().collect();
+    let may_walk = refused.is_empty();
+    let refused = Arc::new(Mutex::new(refused));
+    let inner = Arc::clone(&refused);
+    let walk = may_walk.then(|| {
+        let mut builder = WalkBuilder::new(folder);
+        // Links are not followed, so a loop of them is never entered.
+        builder.follow_links(false).require_git(false).add_custom_ignore_filename(OWN_IGNORE_FILE);
+        builder.filter_entry(move |entry| {
+            let is_folder = entry.file_type().is_some_and(|kind| kind.is_dir());
+            let bad = if is_folder { bad_ignore_file(entry.path()) } else { None };
+            let is_good = bad.is_none();
+            if let Ok(mut inner) = inner.lock() {
+                inner.extend(bad);
+            }
+            is_good
+        });
+        builder.build()
+    });
     let unwalkable = |error| Problem::new(format!("cannot look into a folder: {error}"));
-    builder.build().map(move |entry| entry.map_err(unwalkable))
+    let found = walk.into_iter().flatten().map(move |entry| entry.map_err(unwalkable));
+    found.chain(std::iter::from_fn(move || refused.lock().ok()?.pop().map(Err)))
+}
+
+/// What is wrong with an ignore file of a folder: others' folders may have one that never ends.
+fn bad_ignore_file(folder: &Path) -> Option<Problem> {
+    let refused = |path: PathBuf| {
+        let reason = reading::irregular(&path, MOST_IGNORE)?;
+        let message = format!("cannot read this ignore file: {reason}; its folder is not searched");
+        Some(Problem::with_file(&path, message).help("remove it, or name the programs themselves"))
+    };
+    IGNORE_FILES.into_iter().find_map(|name| refused(folder.join(name)))
 }
 
 /// Takes the files that fit a pattern, whatever their names, as a shell would.

@@ -27,20 +27,30 @@ pub(crate) fn file(path: &Path) -> Result<SourceText, Problem> {
 /// Reads a file that others name, in a configuration or by its place: only what is a file (no pipe, device or socket), and
 /// at most `most` bytes. The error is the reason, in words that follow "cannot read".
 pub(crate) fn regular(path: &Path, most: u64) -> Result<Vec<u8>, String> {
-    // Before it is opened: opening a pipe waits for who writes to it.
-    let size = |data: io::Result<Metadata>| match data {
-        Ok(data) if !data.is_file() => Err("it is a pipe, a device or a folder, not a file".to_owned()),
-        Ok(data) if data.len() > most => Err(larger(most)),
-        Ok(data) => Ok(data.len()),
-        Err(error) => Err(io_reason(&error)),
-    };
-    size(fs::metadata(path))?;
+    // Before it is opened: opening a pipe waits for a program that writes to it.
+    size(fs::metadata(path), most)?;
     let file = File::open(path).map_err(|error| io_reason(&error))?;
-    let size = size(file.metadata())?;
+    let size = size(file.metadata(), most)?;
     let mut bytes = Vec::with_capacity(usize::try_from(size).unwrap_or_default());
     // Some files are longer than they say: those of the system itself say 0.
     file.take(most + 1).read_to_end(&mut bytes).map_err(|error| io_reason(&error))?;
     if bytes.len() as u64 > most { Err(larger(most)) } else { Ok(bytes) }
+}
+
+/// Why a file that others read is not read: no file, or too large a one. `None` for one that is not there.
+pub(crate) fn irregular(path: &Path, most: u64) -> Option<String> {
+    let data = fs::metadata(path).ok()?;
+    size(Ok(data), most).err()
+}
+
+/// The size of a regular file of at most `most` bytes.
+fn size(data: io::Result<Metadata>, most: u64) -> Result<u64, String> {
+    match data {
+        Ok(data) if !data.is_file() => Err("it is a pipe, a device or a folder, not a file".to_owned()),
+        Ok(data) if data.len() > most => Err(larger(most)),
+        Ok(data) => Ok(data.len()),
+        Err(error) => Err(io_reason(&error)),
+    }
 }
 
 /// The first bytes of a file as text; `None` where they cannot be read, or are not text.

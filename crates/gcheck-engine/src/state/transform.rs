@@ -119,6 +119,11 @@ impl Transform {
         Self { rotation: Perhaps::No, ..self }
     }
 
+    /// Is an axis mirrored for certain?
+    pub(crate) fn is_mirrored(&self) -> bool {
+        self.mirrors.iter().any(|mirror| matches!(mirror, Perhaps::Yes(_)))
+    }
+
     /// The mirrors, by axis X, Y, Z.
     pub(crate) fn mirrors_mut(&mut self) -> &mut [Perhaps<f64>; 3] {
         &mut self.mirrors

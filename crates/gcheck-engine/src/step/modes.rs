@@ -216,6 +216,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 if effect == E::RotationOff {
                     self.end_tilted_plane(ix, state);
                 }
+                // Switched off for one axis, it stays on for the others.
+                if effect == E::MirrorOff && state.transform.is_mirrored() {
+                    state.set_mode(Role::Mirror, self.model.code_with(E::MirrorOn));
+                }
             }
             E::CylinderMapping => self.cylinder(ix, state)?,
             E::PolarInterpolationOn | E::PolarInterpolationOff => {

@@ -521,7 +521,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     }
 
     pub(super) fn forget_offsets(&mut self, state: &mut State<D>) {
-        let turns = self.words.has(Letter::of('R'));
+        let turns = self.model.semantics().work_offsets_rotate && self.words.has(Letter::of('R'));
         let shifts = !self.refuses_incomplete();
         let named = self.named(state);
         let shared = self.shifts_are_one();
@@ -607,7 +607,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 *value = f64::NAN;
             }
         }
-        let rotation = self.words.number(Letter::of('R')).filter(|_| !here);
+        let turns = self.model.semantics().work_offsets_rotate && !here;
+        let rotation = self.words.number(Letter::of('R')).filter(|_| turns);
         let old = state.tables().offset(system);
         let mut offset = old;
         if let Some(rotation) = rotation {

@@ -9,7 +9,8 @@ use gcheck_diagnostics::Finding;
 use gcheck_program::{BlockFlags, BlockTable, ChunkFlow, Dialect, FileIndex, TapeMarks, lower};
 
 use super::anchored::moved_on;
-use crate::check::{Collector, Omitted, Plan, check_blocks, count_lines};
+use crate::check::{Plan, check_blocks, count_lines};
+use crate::collector::{Collector, Omitted};
 use crate::containment::without_rules_that_panic;
 use crate::{Environment, Selection};
 

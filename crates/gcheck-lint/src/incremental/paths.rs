@@ -25,8 +25,9 @@ use super::layout::Layout;
 use super::rule_state::RuleState;
 use crate::Environment;
 use crate::block_delete::{self, Positions, found_by_all};
-use crate::check::{Assumptions, Collector};
-use crate::partitions::{Case, Partition, Partitions, Rules, Told};
+use crate::check::Assumptions;
+use crate::collector::Collector;
+use crate::partitions::{Case, Partition, Partitions, Rules, Told, is_on_some_path};
 use crate::watchers::{Scope, Watchers, shows_to_watchers};
 
 /// What is kept of the analysis, for each position of the block delete switches.
@@ -193,8 +194,11 @@ impl Paths {
                     Err(Broken::Enough) => {
                         // What holds with one position of block delete only, shows when all were looked at.
                         if let [only] = self.chains.as_slice() {
+                            // What may get a better name later is not told now.
                             collect(inputs.layout, [only], Vec::new(), &mut |severity, finding| {
-                                collector.add(severity, finding);
+                                if !is_on_some_path(&finding) {
+                                    collector.add(severity, finding);
+                                }
                             });
                         }
                         return Err(Broken::Enough);
@@ -333,13 +337,7 @@ impl Paths {
             let Some(choices) = chain.choices(inputs.layout) else { continue };
             let case = Case::new(&choices, inputs.program, inputs.environment);
             collect(inputs.layout, [chain], Vec::new(), &mut |severity, finding| {
-                if told.has(&finding) {
-                    return;
-                }
-                if let Some((severity, finding)) = case.of(severity, finding, inputs.rules) {
-                    told.note(&finding);
-                    collector.add(severity, finding);
-                }
+                told.add(&case, (severity, finding), inputs.rules, collector);
             });
         }
     }

@@ -3,10 +3,11 @@
 //! Knows: the cuts of every path up to a move, as long as all of them are known. Must not know: any rule, stock, fixtures.
 
 use gcheck_controls::Effect;
-use gcheck_engine::{Abstract, Axis, Domain, Event, Position, TravelKind};
+use gcheck_engine::{Axis, Event, Position, TravelKind};
 
 use crate::facts::compensation::is_compensated;
 use crate::facts::cycles::is_round_pocket;
+use crate::facts::edge::diameter_or_size;
 use crate::facts::shared_list::SharedList;
 use crate::{PathCx, SharedMemory, remembers};
 
@@ -27,8 +28,8 @@ pub(crate) struct Clear {
 impl Clear {
     /// Of the tool in the spindle; an inch across if its size is unknown.
     pub(crate) fn of(cx: &PathCx<'_>) -> Self {
-        match cutter_radius(cx) {
-            Some(radius) => Self { radius, assumption: None },
+        match diameter_or_size(cx) {
+            Some((_, diameter, assumption)) => Self { radius: diameter.0 / 2.0, assumption },
             None => {
                 Self { radius: 12.7, assumption: Some("no cutter is wider than 25.4 mm (1 in)".to_owned()) }
             }
@@ -36,12 +37,9 @@ impl Clear {
     }
 }
 
-/// The radius of the tool in the spindle, as the machine file has it: millimetres.
+/// The radius of the tool in the spindle, as the tables have it or else its comment: millimetres.
 pub(crate) fn cutter_radius(cx: &PathCx<'_>) -> Option<f64> {
-    let number = Abstract::known(cx.state().tool()).filter(|n| (1.0..1e6).contains(n))?;
-    #[expect(clippy::cast_sign_loss, reason = "range checked above")]
-    let tool = cx.state().tables().tool(number as u32)?;
-    Some(tool.size().0 / 2.0).filter(|radius| *radius > 0.0)
+    diameter_or_size(cx).map(|(_, diameter, _)| diameter.0 / 2.0)
 }
 
 /// What was cut so far, as far as it is known throughout.

@@ -32,7 +32,13 @@ impl ToolWords {
 
     /// Is the tool one that makes grooves, or cuts parts off?
     pub(crate) fn grooves(&self) -> bool {
-        self.has(&["GROOVE", "GROOVING", "GROOVER", "CUTOFF", "CUT", "PARTING", "PART", "BLADE"])
+        self.has(&["GROOVE", "GROOVING", "GROOVER", "CUTOFF", "PARTOFF", "PARTING", "BLADE"])
+            || self.has(&["CUT", "PART"]) && self.has(&["OFF"])
+    }
+
+    /// Is the tool a wide one that mills faces?
+    pub(crate) fn faces(&self) -> bool {
+        self.has(&["FACE", "FACEMILL", "FACING", "SHELL", "SHELLMILL", "FLYCUTTER"])
     }
 
     /// Is the tool one that drills?

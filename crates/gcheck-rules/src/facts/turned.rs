@@ -593,12 +593,7 @@ pub(crate) fn spot(position: &Position) -> Spot {
 
 /// Where a move ends, as it is programmed; a move to a place of the machine ends where the axes are then.
 pub(crate) fn end(cx: &PathCx<'_>, travel: &Travel) -> Spot {
-    spot(if goes_home(cx) { &travel.to } else { &travel.programmed })
-}
-
-/// Does the block go to a place of the machine?
-pub(crate) fn goes_home(cx: &PathCx<'_>) -> bool {
-    cx.has_effect(Effect::goes_home)
+    spot(if cx.has_effect(Effect::goes_to_machine_place) { &travel.to } else { &travel.programmed })
 }
 
 /// A move in X alone.

@@ -97,7 +97,7 @@ fn a_mode_of_one_way_changes_what_words_mean() {
         "G95",
         "G1 Z-1.\nX10.",
         &expect![[r#"
-            11: warning[maybe-feed-of-another-mode] the feed mode depends on the path, and `F` does not (`G94`, `G95`)
+            11: warning[maybe-feed-of-another-mode] the feed was given under another feed mode (`G94`), when `#500` is not 1
         "#]],
     );
     check_skipped(
@@ -105,8 +105,8 @@ fn a_mode_of_one_way_changes_what_words_mean() {
         "M5",
         "G1 Z-1. F100.",
         &expect![[r#"
-        10: info[maybe-spindle-stopped-while-cutting] cut where the spindle may be stopped (`M5`)
-    "#]],
+            10: info[maybe-spindle-stopped-while-cutting] cut after the spindle was stopped (`M5`), when `#500` is not 1
+        "#]],
     );
     check_skipped(
         "",
@@ -168,7 +168,7 @@ fn a_condition_in_a_called_program_is_one_too() {
     let text = "O1\nG21 G17 G90 G54 G94\nT1 M6\nS1000 M3\nG0 X0. Y0.\nG43 H1 Z5.\nM98 P2\nG1 Z-1. F100.\nG0 Z50.\nM30\n\
                 O2\nIF [#500 GT 3.] GOTO 10\nM5\nN10 M99\n";
     expect![[r#"
-        8: info[maybe-spindle-stopped-while-cutting] cut where the spindle may be stopped (`M5`)
+        8: info[maybe-spindle-stopped-while-cutting] cut after the spindle was stopped (`M5`), when `#500` is not greater than 3
     "#]]
     .assert_eq(&found(text).iter().map(|finding| line(text, finding)).collect::<String>());
 }
@@ -178,7 +178,7 @@ fn ways_within_a_way_are_followed() {
     let text = "O1\nG21 G17 G90 G54 G94\nT1 M6\nS1000 M3\nG0 X0. Y0.\nG43 H1 Z5.\nIF [#500 EQ 1.] GOTO 10\n\
                 IF [#501 LT 2.] GOTO 10\nM5\nN10 G1 Z-1. F100.\nG0 Z50.\nM30\n";
     expect![[r#"
-        10: info[maybe-spindle-stopped-while-cutting] cut where the spindle may be stopped (`M5`)
+        10: info[maybe-spindle-stopped-while-cutting] cut after the spindle was stopped (`M5`), when `#500` is not 1 and `#501` is not less than 2
     "#]]
     .assert_eq(&found(text).iter().map(|finding| line(text, finding)).collect::<String>());
 }

@@ -61,6 +61,20 @@ impl<'c> Subject<'c> {
         text
     }
 
+    /// Where the block has a code, and its number as the block writes it.
+    pub(crate) fn code_word(&self, code: CodeNumber) -> Option<(Range<usize>, String)> {
+        let end = self.block.find(['(', ';']).unwrap_or(self.block.len());
+        let mut words = self.block[..end].split_whitespace();
+        let text = words.find(|word| CodeNumber::parse(word) == Some(code))?;
+        let start = text.as_ptr() as usize - self.block.as_ptr() as usize;
+        Some((start..start + text.len(), text[1..].to_owned()))
+    }
+
+    /// The first line of what a case changes, from 0.
+    pub(crate) fn first_line(&self) -> usize {
+        self.before.len() + 1
+    }
+
     /// The block with the bytes of a word replaced.
     pub(crate) fn replaced(&self, word: &Word, by: &str) -> String {
         let mut block = self.block.clone();

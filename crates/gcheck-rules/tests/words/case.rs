@@ -3,8 +3,8 @@
 //! Knows: words as data state them. Must not know: what is reported.
 
 use gcheck_controls::{
-    Code, CodeNumber, Control, Handling, LastingEnd, LastingFrom, LastingWords, Letter, LetterSet, Motion,
-    Need, WordEntry, WordKind,
+    Code, CodeNumber, Control, LastingEnd, LastingFrom, LastingWords, Letter, LetterSet, Motion, Need,
+    WordEntry, WordKind,
 };
 
 use crate::block::{Subject, Word};
@@ -58,6 +58,9 @@ pub(crate) enum Asked {
     Allowed(&'static str),
 }
 
+/// Why the data allow a word that no code of its block reads.
+pub(crate) const MOTION: &str = "the motion in effect reads it";
+
 /// One variation of the block of a code.
 pub(crate) struct Case {
     /// The code, as data write it.
@@ -78,6 +81,7 @@ pub(crate) fn of(control: &Control, code: Code<'_>, subject: &Subject<'_>) -> Ve
         maker.values(word, &mut cases);
         maker.places(word, &mut cases);
     }
+    maker.computed_code(&mut cases);
     maker.extra(&mut cases);
     maker.refused_beside(&mut cases);
     cases
@@ -106,6 +110,28 @@ impl Maker<'_, '_> {
     fn entry(&self, letter: Letter) -> Option<&WordEntry> {
         let codes = self.subject.codes.iter();
         codes.flat_map(|code| &code.entry().words).find(|word| Letter::parse(&word.letter) == Some(letter))
+    }
+
+    /// The number of the code itself computed, and one that is no code.
+    fn computed_code(&self, cases: &mut Vec<Case>) {
+        let number = self.code.number();
+        let Some(letter) = Letter::new(number.letter()) else { return };
+        let Some((word, digits)) = self.subject.code_word(number) else { return };
+        if !self.has_variables() {
+            return;
+        }
+        for (value, kind) in [(digits.as_str(), Kind::Computed), ("987", Kind::ComputedOutOfRange)] {
+            let mut block = self.subject.block.clone();
+            block.replace_range(word.clone(), &format!("{letter}#100"));
+            let asked = match kind {
+                Kind::Computed => Asked::Same,
+                _ if self.control.may_be_of_builder(letter, 987.0) => {
+                    Asked::Allowed("the machine builder may have such a code")
+                }
+                _ => Asked::Finding,
+            };
+            cases.push(self.case(kind, letter, asked, &[format!("#100={value}")], &block));
+        }
     }
 
     fn takes_any(&self) -> bool {
@@ -298,7 +324,7 @@ impl Maker<'_, '_> {
             _ if general.is_some_and(|entry| entry.free || entry.axis) => {
                 Asked::Allowed("may be in any block")
             }
-            _ if self.is_of_motion(letter) => Asked::Allowed("the motion in effect reads it"),
+            _ if self.is_of_motion(letter, LetterSet::EMPTY) => Asked::Allowed(MOTION),
             _ => Asked::Finding,
         }
     }
@@ -322,13 +348,13 @@ impl Maker<'_, '_> {
         self.subject.codes.iter().any(|code| code.reads().contains(letter))
     }
 
-    /// Does the motion in effect before the block read the address? Where unread words are refused, only in a block that
-    /// moves.
-    fn is_of_motion(&self, letter: Letter) -> bool {
+    /// Does the motion in effect before the block read the address, in a block with these others? Only where the block moves.
+    fn is_of_motion(&self, letter: Letter, others: LetterSet) -> bool {
         let is_motion = |code: &&Code<'_>| code.entry().group == "motion" && code.motion() != Motion::None;
         let motion = self.subject.earlier.iter().rfind(is_motion);
-        let refuses = self.control.block_rules().unread_word == Handling::Refused;
-        !refuses && motion.is_some_and(|code| code.reads().contains(letter))
+        let is_axis = |letter: Letter| self.control.letter(letter).is_some_and(|entry| entry.axis);
+        let moves = is_axis(letter) || others.iter().any(is_axis);
+        moves && motion.is_some_and(|code| code.reads().contains(letter))
     }
 
     fn with_extra(&self, letter: Letter) -> Asked {
@@ -348,10 +374,10 @@ impl Maker<'_, '_> {
         }
         let takes = subject.codes.iter().any(|code| code.entry().takes_axes || code.motion() != Motion::None);
         if general.axis && !takes {
-            return Asked::Allowed("moves its axis in the motion in effect");
+            return Asked::Allowed(MOTION);
         }
-        if !takes && self.is_of_motion(letter) {
-            return Asked::Allowed("the motion in effect reads it");
+        if !takes && self.is_of_motion(letter, subject.letters) {
+            return Asked::Allowed(MOTION);
         }
         if general.free && !general.axis {
             return Asked::Allowed("may be in any block");

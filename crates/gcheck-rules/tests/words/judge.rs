@@ -14,7 +14,15 @@ use gcheck_syntax::SourceText;
 use crate::case::{Asked, Case};
 
 /// How often each rule reports something.
-pub(crate) type Findings = BTreeMap<&'static str, usize>;
+type Counts = BTreeMap<&'static str, usize>;
+
+/// What is reported about a program.
+#[derive(Default)]
+pub(crate) struct Findings {
+    all: Counts,
+    /// In the blocks that a case changes.
+    here: Counts,
+}
 
 /// What came of a case.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -44,10 +52,17 @@ impl<'c> Judge<'c> {
         }
     }
 
-    pub(crate) fn findings(&self, program: &str) -> Findings {
-        let mut findings = Findings::new();
+    /// What is reported about a program whose blocks from a line on, up to its end, are those of a case.
+    pub(crate) fn findings(&self, program: &str, first_line: usize) -> Findings {
+        let mut findings = Findings::default();
+        let start: usize = program.split_inclusive('\n').take(first_line).map(str::len).sum();
+        let end = program.rfind("M30").unwrap_or(program.len());
         for finding in self.check(program).findings.iter().filter(|f| f.severity >= Severity::Info) {
-            *findings.entry(finding.rule.id).or_default() += 1;
+            *findings.all.entry(finding.rule.id).or_default() += 1;
+            let range = finding.range.start as usize..finding.range.end as usize;
+            if range.start < end && range.end >= start {
+                *findings.here.entry(finding.rule.id).or_default() += 1;
+            }
         }
         findings
     }
@@ -78,16 +93,19 @@ impl<'c> Judge<'c> {
         })
     }
 
-    pub(crate) fn answer(&self, base: &Findings, case: &Case) -> Answer {
+    pub(crate) fn answer(&self, base: &Findings, case: &Case, first_line: usize) -> Answer {
         if let Asked::Allowed(reason) = case.asked {
             return Answer::Allowed(reason);
         }
-        let found = self.findings(&case.program);
+        let found = self.findings(&case.program, first_line);
+        let is_asked = case.asked == Asked::Finding;
+        // What is asked for has to be told where the mistake is; what is false is so anywhere.
+        let (base, found) = if is_asked { (&base.here, &found.here) } else { (&base.all, &found.all) };
         let is_new = |(rule, count): (&&'static str, &usize)| {
             (base.get(*rule).is_none_or(|before| before < count)).then_some(*rule)
         };
         let new: Vec<&'static str> = found.iter().filter_map(is_new).collect();
-        match (case.asked == Asked::Finding, new.is_empty()) {
+        match (is_asked, new.is_empty()) {
             (true, true) => Answer::Silent,
             (true, false) => Answer::Reported(new),
             (false, true) => Answer::Allowed("the same as written"),

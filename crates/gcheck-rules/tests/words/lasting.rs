@@ -82,25 +82,27 @@ fn of_word(control: &Control, subject: &Subject<'_>, word: &Word, row: &LastingW
 }
 
 impl Lasting {
-    /// What differs between the data and the engine.
+    /// What differs between the data and the engine. A block that does the same without the word, whatever came before, tells
+    /// nothing: `None`.
     ///
     /// A word counts where the block without it does what the block with it does after the same blocks.
-    pub(crate) fn judge(&self, control: &Control, subject: &Subject<'_>) -> Option<String> {
+    pub(crate) fn judge(&self, control: &Control, subject: &Subject<'_>) -> Option<Result<(), String>> {
+        let bare = doings(control, &subject.with(&[], &self.block));
+        if bare == doings(control, &subject.program()) {
+            return None;
+        }
         let with = doings(control, &subject.with(&self.before, &subject.block));
         let without = doings(control, &subject.with(&self.before, &self.block));
-        let is_same = with == without;
-        // A block that does the same without the word, whatever came before, tells nothing.
-        let bare = doings(control, &subject.with(&[], &self.block));
-        let never_matters = bare == doings(control, &subject.program());
+        if (with == without) == self.counts {
+            return Some(Ok(()));
+        }
         let says = if self.counts { "the word counts" } else { "the word does not count" };
-        (is_same != self.counts && !never_matters).then(|| {
-            format!(
-                "{}: data: {says}; `{} / {}`\n  with    {with:?}\n  without {without:?}",
-                self.name,
-                self.before.join(" / "),
-                self.block
-            )
-        })
+        Some(Err(format!(
+            "{}: data: {says}; `{} / {}`\n  with    {with:?}\n  without {without:?}",
+            self.name,
+            self.before.join(" / "),
+            self.block
+        )))
     }
 }
 

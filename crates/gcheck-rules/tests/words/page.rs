@@ -5,15 +5,34 @@
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
-use gcheck_controls::{CodeNumber, Control, Letter, Need};
+use gcheck_controls::{CodeNumber, Control, Effect, Letter, Need};
 
-use crate::case::{Case, Kind, all_letters};
+use crate::case::{Case, Kind, MOTION, all_letters};
 use crate::judge::Answer;
 
-/// The codes of the founding systems: feed modes, dwell, arcs and helix, bar feed, cylinder, 3D cutter compensation, 5-axis
-/// length, centre by probe, general pocket.
-const FOUNDING: [&str; 12] =
-    ["G2", "G3", "G4", "G93", "G94", "G95", "G105", "G107", "G136", "G141", "G143", "G150"];
+/// Is the code one of the founding systems: feed modes, dwell, arcs and helix, bar feed, cylinder, compensation along a vector,
+/// tool length over five axes, probing of lengths and centres, general pocket?
+fn is_founding(effect: Effect) -> bool {
+    matches!(
+        effect,
+        Effect::ArcClockwise
+            | Effect::ArcCounterClockwise
+            | Effect::Dwell
+            | Effect::FeedInverseTime
+            | Effect::FeedPerMinute
+            | Effect::FeedPerRevolution
+            | Effect::BarFeed
+            | Effect::CylinderMapping
+            | Effect::CompensationVector
+            | Effect::LengthFiveAxis
+            | Effect::Skip
+            | Effect::ProbeDiameter
+            | Effect::ProbeOffset
+            | Effect::ProbeLength
+            | Effect::ProbeCentre
+            | Effect::GeneralPocket
+    )
+}
 
 /// Counts of one kind.
 #[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
@@ -113,8 +132,10 @@ impl Table {
 /// A row of the founding codes, each letter as one sign.
 fn rows(control: &Control, answers: &[(Case, Answer)]) -> Vec<(String, String)> {
     let mut rows = Vec::new();
-    for name in FOUNDING {
-        let Some(code) = CodeNumber::parse(name).and_then(|number| control.code(number)) else { continue };
+    for code in control.codes().filter(|code| is_founding(code.effect())) {
+        let name = code.entry().code.as_str();
+        let forbids =
+            |letter: Letter| code.entry().forbidden.iter().any(|item| Letter::parse(item) == Some(letter));
         let mut signs = String::from("|");
         for letter in all_letters().filter(|letter| is_value(*letter)) {
             let of_word = code.entry().words.iter().find(|word| Letter::parse(&word.letter) == Some(letter));
@@ -126,14 +147,17 @@ fn rows(control: &Control, answers: &[(Case, Answer)]) -> Vec<(String, String)> 
                 (Some(Need::Modal), _) => "L",
                 (Some(Need::Conditional), _) => "c",
                 (Some(Need::Optional), _) => "o",
+                (None, Some(Answer::Reported(_))) if forbids(letter) => "x",
                 (None, Some(Answer::Reported(_))) => "!",
                 (None, Some(Answer::Silent | Answer::False(_))) => "?",
+                (None, Some(Answer::Allowed(MOTION))) => "m",
                 (None, Some(Answer::Allowed(_)) | None) => "·",
             };
             let _ = write!(signs, " {sign} |");
         }
         rows.push((name.to_owned(), signs));
     }
+    rows.sort_by_cached_key(|(name, _)| CodeNumber::parse(name));
     rows
 }
 
@@ -201,8 +225,8 @@ fn write_open(page: &mut String, table: &Table) {
 
 fn write_letters(page: &mut String, tables: &[Table]) {
     page.push_str("## Letters of the founding codes\n\n");
-    page.push_str("`R` required, `L` here or earlier, `c` depends on other words, `o` optional, `!` a finding reports it,\n");
-    page.push_str("`·` belongs to the motion in effect or to any block, `?`: the data say nothing.\n\n");
+    page.push_str("`R` required, `L` here or earlier, `c` depends on other words, `o` optional; `x` forbidden and reported, `!` passed over\n");
+    page.push_str("or refused by the control and reported; `m` read by the motion in effect, `·` by any block; `?`: nothing is known.\n\n");
     let letters: Vec<String> =
         all_letters().filter(|letter| is_value(*letter)).map(|letter| letter.to_string()).collect();
     for table in tables {

@@ -27,6 +27,13 @@ pub(super) fn compare(found: &mut Differences, a: &[&Act], b: &[&Act]) {
     }
 }
 
+impl Act {
+    /// Does the tool wait here in any case: for a time, or for the operator?
+    pub(super) const fn waits(&self) -> bool {
+        matches!(self.doing, Doing::Stand(Stand::Dwell(_) | Stand::Stop { optional: false }))
+    }
+}
+
 /// Where the end of a program moves pallets, it is an end all the same.
 fn without_shuttle<'a>(acts: &[&'a Act]) -> Vec<&'a Act> {
     let is_end = |act: Option<&&Act>| act.and_then(|act| stand(act)) == Some(&Stand::End);

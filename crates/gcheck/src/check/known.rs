@@ -11,10 +11,12 @@ use std::sync::{PoisonError, RwLock};
 use gcheck_report::{Baseline, FileReport, StaleEntry};
 
 use crate::problem::io_reason;
-use crate::{Problem, output, paths};
+use crate::{Problem, output, paths, reading};
 
 /// Files named in a message.
 const NAMED: usize = 3;
+/// Bytes of a baseline.
+const MOST_BASELINE: u64 = 256 << 20;
 
 /// A baseline and its place.
 #[derive(Debug)]
@@ -31,6 +33,9 @@ pub(super) struct KnownFindings {
 impl KnownFindings {
     /// Reads a baseline. One that is about to be written need not be there yet.
     pub(super) fn read(path: &Path, is_written: bool) -> Result<Self, Problem> {
+        if let Some(reason) = reading::irregular(path, MOST_BASELINE) {
+            return Err(Problem::with_file(path, format!("cannot read: {reason}")));
+        }
         let baseline = match fs::read_to_string(path) {
             Ok(text) => parse(path, &text)?,
             Err(error) if error.kind() == ErrorKind::NotFound && is_written => Baseline::default(),

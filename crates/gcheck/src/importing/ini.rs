@@ -438,11 +438,12 @@ impl IniFile {
         let sections = Self::sections(axis, all);
         let find = |file: &mut Self, key: &str| sections.iter().find_map(|section| file.take(section, key));
         let name = axis.to_string();
-        let has_section =
-            self.entries.iter().any(|entry| sections.iter().any(|name| **name == *entry.section));
-        if !has_section {
+        if !sections.iter().any(|name| self.has(name)) {
             let range = all.range.clone().unwrap_or(0..0);
-            if all.plain && !self.includes {
+            // An axis before others that have sections was left out on purpose.
+            let later = all.letters.iter().skip_while(|letter| **letter != axis).skip(1);
+            let is_last = !later.flat_map(|letter| Self::sections(*letter, all)).any(|name| self.has(&name));
+            if all.plain && !self.includes && is_last {
                 let message = format!("the file ends without limits of axis {axis}; is it cut short?");
                 sheet.refuse(&range, message);
                 return None;
@@ -488,6 +489,11 @@ impl IniFile {
         rapid
     }
 
+    /// Does the file have a section of this name with an entry?
+    fn has(&self, section: &str) -> bool {
+        self.entries.iter().any(|entry| *entry.section == *section)
+    }
+
     /// Refuses a file that ends in a section of the axis before it has all limits.
     fn is_cut(&self, sheet: &mut Sheet<'_>, axis: char, sections: &[String]) {
         let Some((last, range)) = self.last.as_ref().filter(|_| !self.includes) else { return };
@@ -499,6 +505,10 @@ impl IniFile {
                 .iter()
                 .any(|entry| entry.key == key && sections.iter().any(|name| **name == *entry.section))
         };
+        // A file may leave all limits to the control.
+        if !self.entries.iter().any(|entry| LIMITS.contains(&entry.key.as_str())) {
+            return;
+        }
         // An axis that turns may have no ends.
         let expected = LIMITS.into_iter().filter(|key| !is_rotary(axis) || !key.ends_with("_LIMIT"));
         if let Some(key) = expected.into_iter().find(|key| !has(key)) {

@@ -49,8 +49,7 @@ fn a_configuration_that_is_a_device_is_refused() {
 fn a_configuration_that_is_a_pipe_is_refused() {
     check_configuration(
         |shop| {
-            let made = Command::new("mkfifo").arg(shop.path("theirs/gcheck.toml")).status().unwrap();
-            assert!(made.success());
+            make_pipe(&shop.path("theirs/gcheck.toml"));
         },
         &expect![[r#"
             error: [SHOP]/theirs/gcheck.toml: cannot read the configuration: it is a pipe, a device or a folder, not a file
@@ -66,6 +65,54 @@ fn a_configuration_that_is_too_large_is_refused() {
             error: [SHOP]/theirs/gcheck.toml: cannot read the configuration: it is larger than 1 MB
         "#]],
     );
+}
+
+fn make_pipe(path: &std::path::Path) {
+    let made = Command::new("mkfifo").arg(path).status().unwrap();
+    assert!(made.success());
+}
+
+#[test]
+fn ignore_files_that_never_end_leave_out_their_folder_alone() {
+    for name in [".gitignore", ".ignore", ".gcheckignore", ".git/info/exclude"] {
+        for kind in ["pipe", "device", "large"] {
+            let said = refused(|shop| {
+                let path = shop.path(&format!("theirs/{name}"));
+                fs::create_dir_all(path.parent().unwrap()).unwrap();
+                match kind {
+                    "pipe" => make_pipe(&path),
+                    "device" => symlink("/dev/zero", path).unwrap(),
+                    _ => fs::write(path, "a".repeat(2 << 20)).unwrap(),
+                }
+            });
+            let place = format!("error: theirs/{name}: cannot read this ignore file:");
+            assert!(said.starts_with(&place), "{kind}: {said}");
+        }
+    }
+}
+
+#[test]
+fn an_ignore_file_around_the_folder_is_read_as_carefully() {
+    let shop = Shop::with(&[("around/inner/a.nc", BAD)]);
+    make_pipe(&shop.path("around/.gitignore"));
+    for command in ["check --no-cache --control haas-mill around/inner", "fmt --check around/inner"] {
+        let start = Instant::now();
+        let run = shop.gcheck(command);
+        assert!(start.elapsed() < PATIENCE, "{run}");
+        assert!(run.stderr.contains(".gitignore: cannot read this ignore file"), "{run}");
+        assert_eq!(run.code, 2, "{run}");
+    }
+}
+
+#[test]
+fn a_baseline_that_is_a_pipe_is_refused() {
+    let shop = Shop::with(&[("a.nc", BAD)]);
+    make_pipe(&shop.path("known.json"));
+    let start = Instant::now();
+    let run = shop.gcheck(&format!("{CHECK} --baseline known.json a.nc"));
+    assert!(start.elapsed() < PATIENCE, "{run}");
+    assert!(run.stderr.contains("it is a pipe, a device or a folder, not a file"), "{run}");
+    assert_eq!(run.code, 2, "{run}");
 }
 
 #[test]

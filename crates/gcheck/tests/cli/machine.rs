@@ -1220,6 +1220,19 @@ fn settings_that_are_cut_short_write_nothing() {
 }
 
 #[test]
+fn an_ini_file_without_limits_is_not_cut_short() {
+    // All is left to the control.
+    let bare = "[TRAJ]\nCOORDINATES = X Z\nLINEAR_UNITS = mm\n[KINS]\nKINEMATICS = trivkins coordinates=XZ\n[JOINT_0]\nTYPE = LINEAR\n[JOINT_1]\nTYPE = LINEAR\n";
+    check("mill.ini", bare, "", &expect![[""]]);
+    // An axis in the middle is left out on purpose.
+    let limits = "MIN_LIMIT = 0\nMAX_LIMIT = 100\nMAX_VELOCITY = 50\nMAX_ACCELERATION = 400\n";
+    let without = format!(
+        "[TRAJ]\nCOORDINATES = X Y Z\nLINEAR_UNITS = mm\n[KINS]\nKINEMATICS = trivkins\n[AXIS_X]\n{limits}[AXIS_Z]\n{limits}"
+    );
+    check("lathe.ini", &without, "", &expect![[""]]);
+}
+
+#[test]
 fn an_ini_file_or_a_tape_that_is_cut_short_writes_nothing() {
     check(
         "mill.ini",

@@ -193,6 +193,40 @@ fn wide_tables_cost_what_they_hold() {
 /// What the program and its threads take of the address space, whatever they read.
 const EMPTY_KILOBYTES: u64 = 200_000;
 
+/// A short program may take so much beside that, and a long one so much and four times its text.
+const SHORT_KILOBYTES: u64 = 100 * 1024;
+const LONG_KILOBYTES: u64 = 200 * 1024;
+
+#[test]
+fn what_an_analysis_keeps_does_not_grow_with_its_paths() {
+    let shop = Shop::new();
+    // Ten blocks that call the next program in each of nine, with and without conditions.
+    for (name, text) in [("calls", call_bomb(90)), ("conditional calls", conditional_call_bomb(27))] {
+        shop.file("short.nc", text);
+        cost_within(
+            EMPTY_KILOBYTES + SHORT_KILOBYTES,
+            &shop,
+            "check short.nc --no-cache --control haas-mill",
+            name,
+        );
+    }
+    for (name, text) in [("conditional calls", conditional_call_bomb(29_000)), ("jumps", jumps(21_000))] {
+        let kilobytes = LONG_KILOBYTES + 4 * text.len() as u64 / 1024;
+        assert!(text.len() > 900_000, "{name}: {} bytes", text.len());
+        shop.file("long.nc", text);
+        cost_within(EMPTY_KILOBYTES + kilobytes, &shop, "check long.nc --no-cache --control haas-mill", name);
+    }
+}
+
+/// Blocks each of which may jump to another one, near or far.
+fn jumps(count: usize) -> String {
+    let block = |n: usize| {
+        let (to, variable) = (n * 7919 % count + 1, 100 + n % 400);
+        format!("N{n} IF[#{}EQ{n}]GOTO{to}\n#{variable}=#{}+1\n", 500 + n % 400, 100 + n * 7 % 400)
+    };
+    format!("O1\nG21 G90\n{}M30\n", (1..=count).map(block).collect::<String>())
+}
+
 #[test]
 fn one_line_costs_at_most_twice_its_size() {
     let megabytes = 150;

@@ -8,7 +8,7 @@ use gcheck_geometry::{ArcDirection, Plane};
 
 use crate::declare::declare_rule;
 use crate::facts::arcs::by_its_words;
-use crate::{Finding, PathCx, PathRule, Report, Run, Uses, Watch};
+use crate::{Finding, PathCx, PathRule, Report, Run, Severity, Uses, Watch};
 use crate::{Remembers, remembers};
 
 declare_rule! {
@@ -107,9 +107,11 @@ struct ArcBreaksContour {
     /// Arcs around a corner itself: two words were exchanged, or the cutter makes room for a corner (a dog bone). Room is made in more
     /// than one corner.
     around_corners: Vec<AroundCorner>,
+    /// Radii of arcs of less than half a turn, as roundings have them: millimetres.
+    roundings: Vec<f64>,
 }
 
-remembers!(ArcBreaksContour: pending, around_corners);
+remembers!(ArcBreaksContour: pending, around_corners, roundings);
 
 /// An arc of more than half a turn around the point where the cuts beside it meet.
 #[derive(Debug, Clone, PartialEq)]
@@ -122,7 +124,7 @@ struct AroundCorner {
 
 remembers!(AroundCorner: bytes);
 
-/// More corners with room are not counted.
+/// More corners with room, and more radii of roundings, are not counted.
 const MOST_CORNERS: usize = 16;
 
 /// A cut, at one of its ends.
@@ -165,6 +167,8 @@ struct Pending {
     back: Option<Way>,
     /// The cut before the arc leads to its centre, and the arc is more than half a turn: the direction from its end to the centre.
     corner: Option<f64>,
+    /// Its block gives the centre, not the radius.
+    has_centre: bool,
 }
 
 remembers!(Pending: bytes);
@@ -226,6 +230,11 @@ impl PathRule for ArcBreaksContour {
                 else {
                     return;
                 };
+                let [out, _] = spokes;
+                let is_known = |radius: &f64| (radius / out.length - 1.0).abs() < EQUAL;
+                if !is_long && self.roundings.len() < MOST_CORNERS && !self.roundings.iter().any(is_known) {
+                    self.roundings.push(out.length);
+                }
                 let way = |direction| Way { direction, length: chord.length };
                 self.last = Some((arc.plane, way(end)));
                 let Some((_, before)) = last.filter(|(plane, _)| *plane == arc.plane) else { return };
@@ -235,12 +244,14 @@ impl PathRule for ArcBreaksContour {
                         |(_, [start, _]): &(Other, [f64; 2])| turn(before.direction, *start) < SMOOTH;
                     let others = others.into_iter().filter(is_smooth);
                     let others: Vec<_> = others.map(|(other, [_, end])| (other, end)).collect();
-                    let [out, back] = spokes;
+                    let [_, back] = spokes;
                     let meets = is_long && is_opposite(before.direction, out.direction);
                     let corner = meets.then_some(back.direction);
                     let back = before.is_as(out).then_some(back);
                     let (bytes, end, radius) = (cx.range(), way(end), out.length);
-                    self.pending = Some(Pending { bytes, end, others, before, chord, radius, back, corner });
+                    let has_centre = cx.word('R').is_none();
+                    self.pending =
+                        Some(Pending { bytes, end, others, before, chord, radius, back, corner, has_centre });
                 }
             }
             _ => {}
@@ -251,7 +262,10 @@ impl PathRule for ArcBreaksContour {
         for AroundCorner { bytes, radius } in &self.around_corners {
             let is_alike = |other: &&AroundCorner| (other.radius / radius - 1.0).abs() < EQUAL;
             if self.around_corners.iter().filter(is_alike).count() == 1 {
-                report.add(finding(cx, bytes.clone(), Other::Exchanged));
+                let finding = finding(cx, bytes.clone(), Other::Exchanged);
+                // Without a rounding like it, it may make room in the one corner that needs it.
+                let is_like_others = self.roundings.iter().any(|other| (other / radius - 1.0).abs() < EQUAL);
+                report.add(if is_like_others { finding } else { finding.at_most(Severity::Info) });
             }
         }
     }
@@ -261,7 +275,8 @@ impl ArcBreaksContour {
     /// The arc is reported when one of its other forms goes on smoothly to the next cut, and the arc itself does not.
     fn tell(&mut self, cx: &PathCx<'_>, pending: Option<Pending>, next: Way, report: &mut Report<'_>) {
         let Some(pending) = pending else { return };
-        if pending.corner.is_some_and(|back| is_opposite(back, next.direction)) {
+        // A radius has no words to exchange.
+        if pending.has_centre && pending.corner.is_some_and(|back| is_opposite(back, next.direction)) {
             let Pending { bytes, radius, .. } = pending;
             let is_new = self.around_corners.iter().all(|other| other.bytes != bytes);
             if is_new && self.around_corners.len() < MOST_CORNERS {

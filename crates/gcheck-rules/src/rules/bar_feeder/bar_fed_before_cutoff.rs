@@ -132,12 +132,13 @@ impl PathRule for BarFedBeforeCutoff {
         if is_at_centre(travel) {
             self.hole = self.hole.min(z);
         } else if goes_in(travel)
-            && (z <= deepest + SLACK || z > self.hole && z <= deepest + BLADE && goes_deep(travel))
+            && (z <= deepest + SLACK
+                || z <= deepest + BLADE && (z > self.hole && goes_deep(travel) || goes_to_centre(travel)))
         {
-            // A tube is cut off before the centre: nearer to the chuck than all that was turned, or at most a blade's width before
-            // its end and deep into a part with a hole.
+            // Nearer to the chuck than all that was turned, or at most a blade's width before its end: there to the centre, or deep
+            // into a part with a hole.
             self.cut = None;
-        } else if z < deepest {
+        } else if z < deepest && goes_along(travel) {
             self.cut = Some(DeepestCut { z, bytes: cx.range() });
         }
     }
@@ -164,6 +165,17 @@ impl PathRule for BarFedBeforeCutoff {
     }
 }
 
+/// Does it take the part off, whatever its bore is?
+fn goes_to_centre(travel: &Travel) -> bool {
+    travel.to.raw(Axis::X) < SLACK
+}
+
+/// Is it a cut along the part, or one that goes inward, and not the blade on its way out?
+fn goes_along(travel: &Travel) -> bool {
+    let (from, to) = (&travel.from, &travel.to);
+    (from.raw(Axis::Z) - to.raw(Axis::Z)).abs() >= SLACK || to.raw(Axis::X) < from.raw(Axis::X)
+}
+
 /// Does it come nearer to the centre than any groove?
 fn goes_deep(travel: &Travel) -> bool {
     travel.to.raw(Axis::X) < travel.from.raw(Axis::X) / 2.0
@@ -179,4 +191,34 @@ fn goes_in(travel: &Travel) -> bool {
     let (from, to) = (&travel.from, &travel.to);
     let is_square = (from.raw(Axis::Z) - to.raw(Axis::Z)).abs() < SLACK;
     is_square && to.raw(Axis::X) < from.raw(Axis::X) - SLACK
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::check_rule;
+
+    /// A part of 0.9 in, drilled as deep or not, with what the blade does at its end.
+    fn program(drill: &str, blade: &str) -> String {
+        format!(
+            "G20 G18 G40 G80 G97 G99\nT101\nG97 S800 M3\nG0 X0.65 Z0.1\nG1 Z-0.9 F0.008\nX0.8\nG0 X4. Z4.\n{drill}T808\nG0 X0.85 Z-0.868\n{blade}G0 X4.\nZ4.\nM5\nG105 J0.9\nM99\n"
+        )
+    }
+
+    #[test]
+    fn the_blade_that_goes_out_at_feed_turns_nothing() {
+        let drill = "T404\nG0 X0. Z0.2\nG1 Z-0.95 F0.006\nG0 Z4.\n";
+        check_rule(&RULE, "haas-lathe", &program(drill, "G1 X0.3 F0.0025\nX0.9 F0.05\n"), &expect![[""]]);
+    }
+
+    #[test]
+    fn to_the_centre_it_is_off_before_the_end_of_what_was_turned() {
+        check_rule(&RULE, "haas-lathe", &program("", "G1 X-0.02 F0.0025\n"), &expect![[""]]);
+        check_rule(&RULE, "haas-lathe", &program("", "G1 X0.5 F0.0025\n"), &expect![[r#"
+            14 | G105 J0.9
+               | ^^^^^^^^^ warning[bar-fed-before-cutoff] the bar is fed with the turned part still on it
+        "#]]);
+    }
 }

@@ -86,6 +86,10 @@ impl CompensationOnInArc {
             return;
         }
         let Some(begun) = self.begun.take() else { return };
+        // Where it is on some paths only, each of them is looked at by itself.
+        if !cx.state().effect(Role::Compensation, cx.model).is_some_and(is_on) {
+            return;
+        }
         let is_straight_only = cx.model.semantics().compensation.style == CompensationStyle::Intersection;
         if is_straight_only && matches!(event, Event::Arc(arc) if !arc.expanded) {
             tell(cx, begun, report);

@@ -1,7 +1,7 @@
 //! A cutter compensation offset that does not follow the scheme of the program's other tools.
 
 use gcheck_controls::Effect;
-use gcheck_engine::{Abstract, Domain, Event, Fact, Role};
+use gcheck_engine::{Abstract, At, Domain, Event, Fact, Role};
 
 use crate::declare::declare_rule;
 use crate::facts::boundary::is_before;
@@ -56,7 +56,7 @@ declare_rule! {
         fixable: OnRequest,
         since: "0.1.0",
         run: Run::Path {
-            watch: Watch::CUTS.union(Watch::FOLLOWED),
+            watch: Watch::BLOCKS.union(Watch::CUTS).union(Watch::FOLLOWED),
             make: || Box::new(DiameterOffsetOfAnotherTool { pairs: Pairs::new(), lengths: Vec::new() }),
         },
     }
@@ -83,37 +83,29 @@ impl PathRule for DiameterOffsetOfAnotherTool {
         program.may(|effect| is_on(effect) || is_pocket(effect))
     }
 
-    fn cut(&mut self, cx: &PathCx<'_>, _: &Event, _: &mut Report<'_>) {
-        let state = cx.state();
-        let Some(tool) = Abstract::known(state.tool()).and_then(whole) else { return };
-        if let Some(length) = length_of(cx)
-            && !self.lengths.contains(&(tool, length))
-            && self.lengths.len() < MOST_LENGTHS
+    /// A pocket compensates for its cutter by itself, also where its size is not known and no cut is shown.
+    fn block(&mut self, cx: &PathCx<'_>, _: &mut Report<'_>) {
+        if cx.has_effect(is_pocket)
+            && let Some(tool) = self.tool_at_work(cx)
+            && let Some(offset) = cx.known_number('D').and_then(whole)
         {
-            self.lengths.push((tool, length));
+            self.note(cx, tool, offset, Some(cx.origin().at));
         }
-        // A pocket compensates for its cutter by itself.
-        let of_pocket = if cx.has_effect(is_pocket) { cx.known_number('D') } else { None };
-        if of_pocket.is_none() && !state.effect(Role::Compensation, cx.model).is_some_and(is_on) {
+    }
+
+    fn cut(&mut self, cx: &PathCx<'_>, _: &Event, _: &mut Report<'_>) {
+        let Some(tool) = self.tool_at_work(cx) else { return };
+        if cx.has_effect(is_pocket) || !cx.state().effect(Role::Compensation, cx.model).is_some_and(is_on) {
             return;
         }
         // Compensation that the tool before left on is that tool's, and another rule reports that.
-        let on = cx.definitions().set_by(Fact::Mode(Role::Compensation)).filter(|_| of_pocket.is_none());
+        let on = cx.definitions().set_by(Fact::Mode(Role::Compensation));
         if on.zip(cx.definitions().set_by(Fact::Tool)).is_some_and(|(on, changed)| is_before(on, changed)) {
             return;
         }
-        let Some(offset) = of_pocket.or_else(|| Abstract::known(state.d())).and_then(whole) else { return };
-        self.pairs.add(tool, offset, cx.definitions().set_by(Fact::Tool), || {
-            let set_by = of_pocket.map(|_| cx.origin().at).or(on);
-            let range = set_by.and_then(|at| cx.find_word(at, |word| word.letter.ascii() == b'D'));
-            let message = format!("tool {tool} cuts with diameter offset {offset} (`D{offset}`, `T{tool}`)");
-            let finding = cx.finding(&META, range.clone().unwrap_or_else(|| cx.range()), message);
-            let finding = match cx.definitions().set_by(Fact::Tool).and_then(|at| cx.range_of(at)) {
-                Some(range) => finding.also(range, format!("tool {tool} comes into the spindle here")),
-                None => finding,
-            };
-            (finding, range)
-        });
+        if let Some(offset) = Abstract::known(cx.state().d()).and_then(whole) {
+            self.note(cx, tool, offset, on);
+        }
     }
 
     fn followed(&mut self, cx: &FollowedCx<'_>, report: &mut Report<'_>) {
@@ -151,6 +143,34 @@ impl PathRule for DiameterOffsetOfAnotherTool {
     }
 }
 
+impl DiameterOffsetOfAnotherTool {
+    /// The tool in the spindle; notes the length offset that it works with.
+    fn tool_at_work(&mut self, cx: &PathCx<'_>) -> Option<u32> {
+        let tool = Abstract::known(cx.state().tool()).and_then(whole)?;
+        if let Some(length) = length_of(cx)
+            && !self.lengths.contains(&(tool, length))
+            && self.lengths.len() < MOST_LENGTHS
+        {
+            self.lengths.push((tool, length));
+        }
+        Some(tool)
+    }
+
+    /// The tool works with an offset, which a block names.
+    fn note(&mut self, cx: &PathCx<'_>, tool: u32, offset: u32, named_by: Option<At>) {
+        self.pairs.add(tool, offset, cx.definitions().set_by(Fact::Tool), || {
+            let range = named_by.and_then(|at| cx.find_word(at, |word| word.letter.ascii() == b'D'));
+            let message = format!("tool {tool} cuts with diameter offset {offset} (`D{offset}`, `T{tool}`)");
+            let finding = cx.finding(&META, range.clone().unwrap_or_else(|| cx.range()), message);
+            let finding = match cx.definitions().set_by(Fact::Tool).and_then(|at| cx.range_of(at)) {
+                Some(range) => finding.also(range, format!("tool {tool} comes into the spindle here")),
+                None => finding,
+            };
+            (finding, range)
+        });
+    }
+}
+
 /// The number of the length offset that the tool cuts with.
 fn length_of(cx: &PathCx<'_>) -> Option<u32> {
     let is_on = |effect| matches!(effect, Effect::LengthPlus | Effect::LengthMinus);
@@ -173,7 +193,10 @@ mod tests {
             )
         };
         let program = |offset: u8| format!("G20 G90\n{}{}M30\n", pocket(3, offset), pocket(7, 7));
-        check_rule(&RULE, "haas-mill", &program(7), &expect![[""]]);
+        check_rule(&RULE, "haas-mill", &program(7), &expect![[r#"
+            5 | G13 Z-.25 I.35 D7 F18.
+              |                ^^ warning[diameter-offset-of-another-tool] tool 3 cuts with diameter offset 7 (`D7`, `T3`)
+        "#]]);
         check_rule(&RULE, "haas-mill", &program(3), &expect![[""]]);
     }
 

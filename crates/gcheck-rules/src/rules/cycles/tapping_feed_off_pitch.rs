@@ -114,7 +114,12 @@ impl PathRule for TappingFeedOffPitch {
             _ => return,
         } * units.in_mm();
         let own = || thread_in_block(cx, cx.origin().at, Wanted::Written);
-        let of_tool = || thread_of_tool(cx, changed, Wanted::Tap).or_else(|| thread_in_list(cx));
+        // A pitch that is written needs no word that it is a tap.
+        let of_tool = || {
+            thread_of_tool(cx, changed, Wanted::Tap)
+                .or_else(|| thread_of_tool(cx, changed, Wanted::Written))
+                .or_else(|| thread_in_list(cx))
+        };
         let Some(thread) = own().or_else(of_tool) else { return };
         let pitch = gcheck_geometry::Mm(thread.pitch);
         let right = if by_turns { thread.pitch } else { thread.pitch * speed } / units.in_mm();

@@ -214,7 +214,12 @@ fn thread(cx: &PathCx<'_>, changed: Option<At>) -> Option<(Thread, bool)> {
         // A title with two threads does not tell which one is cut.
         named.next().filter(|_| named.next().is_none())
     };
-    match named(here).or(of_operation).or_else(of_tool) {
+    // The size of a tap alone stands for its coarse pitch.
+    let of_tap = || {
+        let changed = changed.filter(|_| cx.has_effect(|effect| effect == Effect::RigidTap))?;
+        Some(Some(thread_of_tool(cx, changed, Wanted::Tap)?))
+    };
+    match named(here).or(of_operation).or_else(of_tool).or_else(of_tap) {
         Some(thread) => thread.map(|thread| (thread, false)),
         None => title()?.map(|thread| (thread, true)),
     }
@@ -229,6 +234,15 @@ mod tests {
 
     fn cycle(tool: &str, above: &str, words: &str) -> String {
         format!("O1\nG20 G99\n{tool}\nG97 S500 M3\nG54 G0 X.7 Z.3\n{above}G76 X.4056 Z-.9 {words}\nM30\n")
+    }
+
+    #[test]
+    fn the_size_of_a_tap_stands_for_its_coarse_pitch() {
+        let program = |lead: &str| {
+            format!("G21 G90 G94\nT3 M6 (M6 TAP)\nG0 X0 Y0\nG43 H3 Z5\nS300 M3\nG33.1 Z-12 K{lead}\nM2\n")
+        };
+        check_rule(&RULE, "linuxcnc", &program("1.25"), &expect![[""]]);
+        check_rule(&RULE, "linuxcnc", &program("1"), &expect![[""]]);
     }
 
     #[test]

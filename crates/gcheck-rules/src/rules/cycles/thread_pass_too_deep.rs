@@ -1,11 +1,11 @@
 //! A pass of a thread that goes deeper than the thread is high.
 
-use gcheck_engine::Event;
+use gcheck_engine::{Event, TravelKind};
 use gcheck_geometry::Mm;
 
 use crate::declare::declare_rule;
-use crate::facts::thread_passes::{ThreadPasses, cuts_pass};
-use crate::{PathCx, PathRule, Remembers, Report, Run, Uses, Watch, remembers};
+use crate::facts::thread_passes::{Pass, ThreadPasses, cuts_pass};
+use crate::{Finding, PathCx, PathRule, Remembers, Report, Run, Uses, Watch, remembers};
 
 declare_rule! {
     /// A pass of a thread (`G92`, `G32`, `G33`) is deeper than the one before it by more than the lead of the thread.
@@ -55,9 +55,11 @@ struct ThreadPassTooDeep {
     cuts: bool,
     /// A cycle cuts the passes.
     by_cycle: bool,
+    /// The second pass of a thread is much deeper than the first one, which may have run dry: the next one shows which of them is odd.
+    pending: Option<(Pass, Finding)>,
 }
 
-remembers!(ThreadPassTooDeep: passes);
+remembers!(ThreadPassTooDeep: passes, pending);
 
 impl PathRule for ThreadPassTooDeep {
     fn memory(&mut self) -> Remembers<'_> {
@@ -78,13 +80,23 @@ impl PathRule for ThreadPassTooDeep {
             self.cuts &= !self.by_cycle || travel.expanded;
             self.by_cycle = travel.expanded;
         }
-        let Some((before, pass)) = self.passes.pass(cx, event) else { return };
+        let Some((before, pass)) = self.passes.pass(cx, event) else {
+            if matches!(event, Event::Travel(travel) if travel.kind == TravelKind::Thread) {
+                // Another thread begins.
+                (self.cuts, self.pending) = (false, None);
+            }
+            return;
+        };
         // An inside thread gets deeper outward, and a larger thread over the same length is cut by the same way out: only
         // inward nothing else can be meant.
         let step = before.x[1] - pass.x[1];
         let starts = before.x[0] - pass.x[0];
         let had_cut = std::mem::replace(&mut self.cuts, step.abs() <= pass.lead);
-        if !(had_cut && step > pass.lead && starts > pass.lead) {
+        if let Some((_, finding)) = self.pending.take_if(|(deep, _)| pass.x[1] - deep.x[1] > pass.lead) {
+            report.add(finding);
+        }
+        self.pending = None;
+        if !(step > pass.lead && starts > pass.lead) {
             return;
         }
         let mut finding = cx
@@ -98,7 +110,12 @@ impl PathRule for ThreadPassTooDeep {
         if let Some(range) = cx.range_of(before.at) {
             finding = finding.also(range, "the pass before it");
         }
-        report.add(finding.help("check the digits and the decimal point of `X`"));
+        let finding = finding.help("check the digits and the decimal point of `X`");
+        if had_cut {
+            report.add(finding);
+        } else {
+            self.pending = Some((pass, finding));
+        }
     }
 }
 
@@ -128,7 +145,15 @@ mod tests {
         for x in ["X19.2", "X18.2", "X21.4", "X24.", "G0 X30. Z5.\nG92 X9.4 Z-20. F1.5"] {
             check_rule(&RULE, "fanuc-lathe", &program(x), &expect![[""]]);
         }
-        // A first pass may run dry.
+        // The second pass: only the third one shows that the first did not run dry.
+        let second = program("X19.2").replace("X19.4", "X1.94");
+        check_rule(&RULE, "fanuc-lathe", &second, &expect![[r#"
+            5 | X1.94
+              | ^^^^^ warning[thread-pass-too-deep] the pass is deeper than its thread is high
+        "#]]);
+        // A first pass may run dry, of a second thread as well.
+        let two = "G21 G99 T0101\nG97 S500 M3\nG0 X20. Z5.\nG32 Z-20. F1.5\nG0 X30.\nZ5.\nX19.6\nG32 Z-20.\nG0 X60.\nZ-30.\nX43.\nG32 Z-50. F1.5\nG0 X60.\nZ-30.\nX39.6\nG32 Z-50.\nG0 X60.\nM30\n";
+        check_rule(&RULE, "fanuc-lathe", two, &expect![[""]]);
         let dry = program("G0 X60.").replace("X19.6", "X40.");
         check_rule(&RULE, "fanuc-lathe", &dry, &expect![[""]]);
     }

@@ -60,7 +60,7 @@ impl PathRule for FiveAxisAxisLeftOut {
             || turning.is_empty()
             || left_out.is_empty()
             || is_no_length
-            || cx.has_effect(Effect::goes_home)
+            || cx.has_effect(Effect::goes_to_machine_place)
         {
             return;
         }

@@ -108,7 +108,7 @@ impl PathRule for AlarmReached {
 
     fn ended(&mut self, cx: &PathCx<'_>, ending: Ending, _: &mut Report<'_>) {
         let Some(number) = self.alarm(cx, ending) else { return };
-        // A loop before it may be what the other paths never leave.
+        // A loop before it may be what the other paths never leave: that is known only after this is reported.
         let start = cx.range().start;
         if cx.file_index.loops.iter().any(|turn| turn.begins && turn.range.start < start) {
             return;
@@ -166,8 +166,8 @@ impl AlarmReached {
 
 fn raises(number: i64, text: Option<String>) -> String {
     match text {
-        Some(text) => format!("raises alarm {number}: {text}"),
-        None => format!("raises alarm {number}"),
+        Some(text) => format!("`#3000={number}`: {text}"),
+        None => format!("`#3000={number}`"),
     }
 }
 
@@ -180,12 +180,11 @@ fn abort_of(cx: &PathCx<'_>, comment: &str) -> Option<(String, String)> {
     Some((name.clone(), text.trim().to_owned()))
 }
 
-/// The comment of the block, which the control shows with the alarm.
+/// The comment of the line, which the control shows with the alarm: also of a statement after `THEN`.
 fn text_of(cx: &PathCx<'_>) -> Option<String> {
     let file = cx.program.file(cx.origin().at.file)?;
-    let block = file.loaded.slice(cx.range());
-    let (_, behind) = block.split_once('(')?;
-    let (text, _) = behind.split_once(')')?;
+    let (_, rest) = file.loaded.line_from(cx.range().start).split_once('(')?;
+    let (text, _) = rest.split_once(')')?;
     let text = text.trim();
     (!text.is_empty()).then(|| text.to_owned())
 }

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use gcheck_controls::{Effect, LetterSet};
+use gcheck_controls::{Effect, Letter, LetterSet};
 use gcheck_engine::{At, Ending, Event, Fact, Role};
 use gcheck_program::BlockFlags;
 
@@ -305,9 +305,14 @@ impl IncrementalLeftOn {
     }
 }
 
-/// Does the program move X or Y by increments between the block that set them and this one? Then that is how it is written.
+/// Does the program move X or Y by increments between the block that set them and this one? Then that is how it is written,
+/// except where the block says where to go: it chooses a work offset, or names X and Y.
 fn works_in_increments(cx: &PathCx<'_>) -> bool {
     const MOST: u32 = 500;
+    let names = |letter| cx.origin().letters.contains(Letter::of(letter));
+    if cx.code_of_role(Role::WorkOffset).is_some() || names('X') && names('Y') {
+        return false;
+    }
     let here = cx.origin().at;
     let Some(set) = cx.definitions().set_by(Fact::Mode(Role::Distance)).filter(|at| at.file == here.file)
     else {
@@ -316,7 +321,7 @@ fn works_in_increments(cx: &PathCx<'_>) -> bool {
     let last = here.block.min(set.block.saturating_add(MOST));
     (set.block..last).any(|block| {
         let at = At { block, ..here };
-        let is_elsewhere = |word: &gcheck_program::Word| cx.model.effect(word.code).goes_home();
+        let is_elsewhere = |word: &gcheck_program::Word| cx.model.effect(word.code).goes_to_machine_place();
         let names = cx.place_of(at).is_some_and(|p| p.block().letters.intersects(LetterSet::of("XY")));
         names && cx.find_word(at, is_elsewhere).is_none()
     })
@@ -435,8 +440,10 @@ mod tests {
         "#]],
         );
         check_rule(&RULE, "haas-mill", &program("G90 "), &expect![[""]]);
-        // One tool after the other goes on by increments.
-        let by_increments = program("").replace("G1 G91 Z-.25 F5.\n", "G91 G1 Z-.25 F5.\nX1.\nX-1.\n");
+        // One tool after the other goes on by increments, but where a block says where to go.
+        let by_increments = program("")
+            .replace("G1 G91 Z-.25 F5.\n", "G91 G1 Z-.25 F5.\nX1.\nX-1.\n")
+            .replace("G54 G0 X1. Y1.", "G0 X1.");
         check_rule(&RULE, "haas-mill", &by_increments, &expect![[""]]);
     }
 

@@ -4,7 +4,6 @@ use gcheck_controls::Effect;
 use gcheck_engine::{At, Event, Fact, Role, Units};
 
 use crate::declare::declare_rule;
-use crate::facts::turned::goes_home;
 use crate::{PathCx, PathRule, Report, Run, Severity, Uses, Watch};
 use crate::{Remembers, remembers};
 
@@ -115,7 +114,7 @@ impl PathRule for UnitsChanged {
 
 impl UnitsChanged {
     fn moves(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
-        if goes_home(cx) {
+        if cx.has_effect(Effect::goes_to_machine_place) {
             return;
         }
         self.has_moved = true;

@@ -1,11 +1,12 @@
 //! A drill that moves in X while it is in its hole.
 
+use gcheck_controls::Effect;
 use gcheck_engine::{At, Event, Fact, Spindle, TravelKind};
 use gcheck_geometry::Mm;
 
 use crate::declare::declare_rule;
 use crate::facts::tool_words::ToolWords;
-use crate::facts::turned::{SLACK, Spot, Turned, UNDER, end, goes_home, is_other_part};
+use crate::facts::turned::{SLACK, Spot, Turned, UNDER, end, is_other_part};
 use crate::facts::turning::is_turned;
 use crate::{MakeShared, PathCx, PathRule, Remembers, Report, Run, Uses, Watch, remembers};
 
@@ -110,7 +111,7 @@ impl PathRule for DrillLeavesSideways {
             let to = end(cx, travel);
             match travel.kind {
                 TravelKind::Feed | TravelKind::Thread => self.feed(cx, here, to),
-                TravelKind::Rapid if !travel.expanded || goes_home(cx) => {
+                TravelKind::Rapid if !travel.expanded || cx.has_effect(Effect::goes_to_machine_place) => {
                     self.leave(cx, turned, here, to, report);
                 }
                 _ => {}
@@ -137,7 +138,11 @@ impl DrillLeavesSideways {
     fn leave(&mut self, cx: &PathCx<'_>, turned: &Turned, from: Spot, to: Spot, report: &mut Report<'_>) {
         let tool = cx.definitions().set_by(Fact::Tool);
         let Some(hole) = self.hole.as_ref().filter(|hole| hole.tool == tool) else { return };
-        let is_sideways = if to[0].is_nan() { goes_home(cx) } else { (to[0] - from[0]).abs() > SHORT };
+        let is_sideways = if to[0].is_nan() {
+            cx.has_effect(Effect::goes_to_machine_place)
+        } else {
+            (to[0] - from[0]).abs() > SHORT
+        };
         let is_inside = from[0].abs() < SLACK && from[1] < -UNDER && from[1] < hole.top - UNDER;
         if !is_sideways || !is_inside {
             return;

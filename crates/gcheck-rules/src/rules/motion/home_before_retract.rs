@@ -78,7 +78,7 @@ impl PathRule for HomeBeforeRetract {
     }
 
     fn concerns(&self, program: &Uses<'_>) -> bool {
-        program.may(Effect::goes_home)
+        program.may(Effect::goes_to_machine_place)
             && program.environment.control().machine() == gcheck_controls::Machine::Mill
     }
 
@@ -86,7 +86,7 @@ impl PathRule for HomeBeforeRetract {
         let Event::Travel(travel) = event else { return };
         // A mill's control may drive a lathe, whose tools leave the part across.
         let turns = cx.state().plane(cx.model) == Some(Plane::Zx);
-        if !cx.has_effect(Effect::goes_home) || !cx.is_on_every_path() || turns {
+        if !cx.has_effect(Effect::goes_to_machine_place) || !cx.is_on_every_path() || turns {
             return;
         }
         let Some(z) = travel.from.get(Axis::Z).filter(|_| leaves_sideways(travel)) else { return };
@@ -100,7 +100,7 @@ impl PathRule for HomeBeforeRetract {
         } else {
             ("the tool goes home sideways while it is in the part", "this moves X and Y at rapid, and not Z")
         };
-        let finding = cx.finding(&META, cx.effect_range(Effect::goes_home), message).label(label);
+        let finding = cx.finding(&META, cx.effect_range(Effect::goes_to_machine_place), message).label(label);
         let finding = match cx.range_of(cut) {
             Some(range) => {
                 let at = cx.shown(Mm(z));

@@ -138,7 +138,7 @@ fn look(cx: &PathCx<'_>, event: &Event, travel: &Travel, has_place: bool) -> Opt
     // A length that is off makes Z a matter of the machine.
     let has_length =
         cx.state().effect(Role::Length, cx.model).is_some_and(|effect| effect != Effect::LengthOff);
-    if !is_rapid || cx.has_effect(Effect::goes_home) || !has_length || z >= SURFACE {
+    if !is_rapid || cx.has_effect(Effect::goes_to_machine_place) || !has_length || z >= SURFACE {
         return None;
     }
     let cuts = cx.shared::<Cuts>().filter(|cuts| cuts.knows(cx, event));

@@ -9,6 +9,7 @@ use crate::declare::declare_rule;
 use crate::facts::boundary::{Boundary, boundary};
 use crate::facts::compensation::is_compensated;
 use crate::facts::cuts::{Cuts, LEVEL, SURFACE, cutter_radius, point};
+use crate::facts::tool_words::ToolWords;
 use crate::{Finding, FollowedCx, MakeShared, PathCx, PathRule, Report, Run, Severity, Watch};
 use crate::{Remembers, remembers};
 
@@ -186,6 +187,8 @@ const MOST_DRAGGED: usize = 8;
 const SHORT: f64 = 2.0;
 /// How far beside its path a cutter of unknown diameter clears: millimetres. For suspicions.
 const CLEARS: f64 = 6.35;
+/// The same of a face mill: millimetres.
+const FACE_CLEARS: f64 = 50.0;
 /// Sine of an angle below which two ways go in one direction.
 const STRAIGHT: f64 = 0.035;
 /// The same, of contours whose numbers are rounded coarsely.
@@ -579,7 +582,7 @@ fn tell(cx: &PathCx<'_>, way: &Way, message: &str, why: &str) -> Finding {
 
 /// How far beside its path the tool in the spindle clears, millimetres.
 fn clears(cx: &PathCx<'_>) -> f64 {
-    cutter_radius(cx).unwrap_or(CLEARS)
+    cutter_radius(cx).unwrap_or_else(|| if ToolWords::of(cx).faces() { FACE_CLEARS } else { CLEARS })
 }
 
 /// Length one; `None` for a way that goes nowhere.

@@ -2,13 +2,13 @@
 
 use std::ops::Range;
 
+use gcheck_controls::Effect;
 use gcheck_engine::{Axis, Event, Position, Role, TravelKind};
 use gcheck_geometry::Mm;
 
 use crate::declare::declare_rule;
 use crate::facts::cuts::SURFACE;
 use crate::facts::five_axis::follows_the_tip;
-use crate::facts::turned::goes_home;
 use crate::{Finding, PathCx, PathRule, Report, Run, Watch};
 use crate::{Remembers, remembers};
 
@@ -125,7 +125,10 @@ impl PathRule for RapidDownFromCut {
         }
         let (last, waiting) = (self.last.take(), self.waiting.take());
         let travel = match event {
-            Event::Travel(travel) if !travel.expanded => travel,
+            // A reference return goes by a point of its block, and on.
+            Event::Travel(travel) if !travel.expanded || cx.has_effect(Effect::goes_to_machine_place) => {
+                travel
+            }
             Event::Arc(arc) if !arc.expanded => {
                 self.last = Some((arc.programmed, true));
                 return;
@@ -147,7 +150,7 @@ impl PathRule for RapidDownFromCut {
         self.last = Some((travel.programmed, travel.kind == TravelKind::Feed && is_across));
         if let Some((from, true)) = last
             && is_rapid
-            && !goes_home(cx)
+            && !cx.has_effect(Effect::goes_to_machine_place)
         {
             self.down(cx, &from, &travel.programmed, report);
         }
@@ -187,7 +190,7 @@ impl RapidDownFromCut {
 
 /// The rapid move after one down: to the next cut, or up again.
 fn goes_on(cx: &PathCx<'_>, waiting: Waiting, to: &Position, report: &mut Report<'_>) -> Option<Waiting> {
-    let is_up = goes_home(cx) || to.raw(Axis::Z) > waiting.z + SHORT;
+    let is_up = cx.has_effect(Effect::goes_to_machine_place) || to.raw(Axis::Z) > waiting.z + SHORT;
     if !is_up {
         return Some(waiting);
     }

@@ -1,10 +1,11 @@
 //! A rapid move of a lathe out of a bore through its wall.
 
+use gcheck_controls::Effect;
 use gcheck_engine::{At, Event};
 use gcheck_geometry::Mm;
 
 use crate::declare::declare_rule;
-use crate::facts::turned::{SLACK, Spot, Turned, UNDER, end, goes_home};
+use crate::facts::turned::{SLACK, Spot, Turned, UNDER, end};
 use crate::facts::turning::is_turned;
 use crate::{MakeShared, PathCx, PathRule, Remembers, Report, Run, Uses, Watch, remembers};
 
@@ -87,7 +88,7 @@ impl PathRule for RapidThroughBoreWall {
     fn rapid(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
         let Some(turned) = Turned::of(cx) else { return };
         if let (Event::Travel(travel), Some(here)) = (event, turned.here())
-            && (!travel.expanded || goes_home(cx))
+            && (!travel.expanded || cx.has_effect(Effect::goes_to_machine_place))
             && turned.knows(cx)
             && self.told != Some(cx.origin().at)
         {
@@ -103,7 +104,7 @@ impl RapidThroughBoreWall {
         }
         let Some((wall, cut)) = turned.bore(from[1]) else { return };
         let is_through = if to[0].is_nan() {
-            goes_home(cx)
+            cx.has_effect(Effect::goes_to_machine_place)
         } else {
             // On a slant the tool may be out of the bore before it is as wide.
             let rise = if to[1].is_nan() { 0.0 } else { to[1] - from[1] };

@@ -82,7 +82,7 @@ impl PathRule for RapidWithFeed {
             || !is_plain
             || !is_below && !is_inverse
             || is_still
-            || cx.has_effect(Effect::goes_home)
+            || cx.has_effect(Effect::goes_to_machine_place)
             || has_unknown_code(cx)
         {
             return;

@@ -74,6 +74,8 @@ struct RetractLeftOut {
     /// Where Z is, and the highest place where it was before that, apart from home: millimetres.
     level: Option<f64>,
     highest: Option<f64>,
+    /// What the axes A, B and C were turned to last, as programmed: degrees.
+    angles: [Option<f64>; 3],
     /// The tool has cut since the last tool change, and since the last turn of a rotary axis.
     has_cut: [bool; 2],
     /// What came before tool changes, and before turns.
@@ -102,8 +104,10 @@ const MOST: usize = 64;
 /// A rotary axis that turns by less follows a contour, or corrects a part: degrees.
 const TURN: f64 = 20.0;
 
-/// Levels that differ by more are two: millimetres.
-const ABOVE: f64 = 1.0;
+/// So far above the other levels of the program a tool arm or a part that turns may have room: millimetres.
+const ROOM: f64 = 50.0;
+
+const ROTARY: [Axis; 3] = [Axis::A, Axis::B, Axis::C];
 
 const TOOL_CHANGE: usize = 0;
 const ROTATION: usize = 1;
@@ -115,7 +119,7 @@ impl PathRule for RetractLeftOut {
 
     fn concerns(&self, program: &Uses<'_>) -> bool {
         program.environment.control().machine() == gcheck_controls::Machine::Mill
-            && program.may(Effect::goes_home)
+            && program.may(Effect::goes_to_machine_place)
     }
 
     fn block(&mut self, cx: &PathCx<'_>, _: &mut Report<'_>) {
@@ -139,12 +143,12 @@ impl PathRule for RetractLeftOut {
             self.has_cut = [true; 2];
         }
         if moves(travel, Axis::Z) {
-            self.is_home = cx.has_effect(Effect::goes_home);
+            self.is_home = cx.has_effect(Effect::goes_to_machine_place);
             if let Some(level) = self.level.take() {
                 self.highest = Some(self.highest.map_or(level, |highest| highest.max(level)));
             }
             self.level = travel.to.get(Axis::Z).filter(|_| !self.is_home);
-        } else if travel.kind == TravelKind::Rapid && !travel.expanded && turns(cx, travel) {
+        } else if travel.kind == TravelKind::Rapid && !travel.expanded && self.turns(cx, travel) {
             self.note(
                 cx,
                 ROTATION,
@@ -152,6 +156,11 @@ impl PathRule for RetractLeftOut {
                 "the part turns without the retract that the other turns have",
             );
             self.has_cut = [self.has_cut.first() == Some(&true), false];
+        }
+        for (axis, angle) in ROTARY.into_iter().zip(&mut self.angles) {
+            if cx.origin().letters.contains(axis.letter()) {
+                *angle = travel.programmed.get(axis);
+            }
         }
     }
 
@@ -174,20 +183,34 @@ impl PathRule for RetractLeftOut {
 }
 
 impl RetractLeftOut {
+    /// Does a rotary axis that the block names turn by much, as far as is known? A work offset that is not known hides the angle
+    /// from which it turns; then the angle that was programmed last counts.
+    fn turns(&self, cx: &PathCx<'_>, travel: &Travel) -> bool {
+        ROTARY.into_iter().zip(self.angles).any(|(axis, last)| {
+            let (from, to) = (travel.from.raw(axis), travel.to.raw(axis));
+            let turn = if from.is_nan() {
+                last.zip(travel.programmed.get(axis)).map(|(last, now)| last - now)
+            } else {
+                Some(from - to)
+            };
+            cx.origin().letters.contains(axis.letter()) && turn.is_none_or(|turn| turn.abs() > TURN)
+        })
+    }
+
     fn note(&mut self, cx: &PathCx<'_>, kind: usize, range: Range<u32>, message: &str) {
         let (Some(habit), Some(true)) = (self.habits.get_mut(kind), self.has_cut.get(kind)) else { return };
         // Programs of other files are not shown, and what a loop repeats is one place.
         if cx.origin().at.file != 0 || cx.is_after_unknown_program() {
             return;
         }
-        if self.is_home {
+        if self.is_home || goes_home_first(cx) {
             if !habit.home.contains(&range) && habit.home.len() < MOST {
                 habit.home.push(range);
             }
             return;
         }
-        // Above every other level of the program the room may be enough.
-        if self.level.zip(self.highest).is_none_or(|(level, highest)| level > highest + ABOVE) {
+        // Far above every other level of the program the room may be enough.
+        if self.level.zip(self.highest).is_none_or(|(level, highest)| level > highest + ROOM) {
             return;
         }
         match &habit.odd {
@@ -203,18 +226,14 @@ impl RetractLeftOut {
     }
 }
 
+/// Does the block itself take Z home, before it changes the tool?
+fn goes_home_first(cx: &PathCx<'_>) -> bool {
+    cx.has_effect(Effect::goes_to_machine_place) && cx.origin().letters.contains(Axis::Z.letter())
+}
+
 fn moves(travel: &Travel, axis: Axis) -> bool {
     let (from, to) = (travel.from.raw(axis), travel.to.raw(axis));
     to.is_nan() != from.is_nan() || (from - to).abs() > 0.001
-}
-
-/// Does a rotary axis that the block names turn by much, as far as is known? A work offset that is not known hides the angle from
-/// which it turns.
-fn turns(cx: &PathCx<'_>, travel: &Travel) -> bool {
-    [Axis::A, Axis::B, Axis::C].into_iter().any(|axis| {
-        let (from, to) = (travel.from.raw(axis), travel.to.raw(axis));
-        cx.origin().letters.contains(axis.letter()) && (from.is_nan() || (from - to).abs() > TURN)
-    })
 }
 
 #[cfg(test)]
@@ -244,6 +263,14 @@ mod tests {
         "#]],
         );
         check_rule(&RULE, "fanuc-mill", &program("G53 G0 Z0.\n"), &expect![[""]]);
+        // A little higher than the clearance of the others.
+        let low = program("G0 Z50.\n").replace("Z50.\nG1", "Z5.\nG1");
+        check_rule(&RULE, "fanuc-mill", &low, &expect![[r#"
+            12 | T3 M6
+               |    ^^ warning[retract-left-out] the tool is changed without the retract that the others have
+        "#]]);
+        let in_one_block = program("G91 G28 Z0. M6 T3\n").replace("T3 M6\n", "");
+        check_rule(&RULE, "fanuc-mill", &in_one_block, &expect![[""]]);
         // The tool change of this control goes home by itself.
         check_rule(&RULE, "haas-mill", &program("G0 Z50.\n"), &expect![[""]]);
     }
@@ -269,6 +296,9 @@ mod tests {
         "#]],
         );
         check_rule(&RULE, "haas-mill", &program("G0 Z200.\n"), &expect![[""]]);
+        // The angle is stated again, and the part does not turn.
+        let again = program("G0 Z50.\n").replace("G0 B270.", "G55 G0 B180. X0. Y0.");
+        check_rule(&RULE, "haas-mill", &again, &expect![[""]]);
     }
 
     #[test]

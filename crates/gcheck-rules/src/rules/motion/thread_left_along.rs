@@ -3,6 +3,7 @@
 use gcheck_engine::{At, Axis, Event, Fact, Position, Role, TravelKind};
 
 use crate::declare::declare_rule;
+use crate::facts::tool_words::ToolWords;
 use crate::facts::turning::is_turned;
 use crate::{PathCx, PathRule, Remembers, Report, Run, Uses, Watch, remembers};
 
@@ -86,7 +87,8 @@ impl PathRule for ThreadLeftAlong {
         let Some(pass) = last.filter(|_| travel.kind == TravelKind::Rapid && cx.is_on_every_path()) else {
             return;
         };
-        if travel.expanded || !goes_back(&pass, to) {
+        // A die that opens by itself goes back as it came.
+        if travel.expanded || !goes_back(&pass, to) || ToolWords::of(cx).follows_its_pitch() {
             return;
         }
         let mut finding = cx

@@ -60,7 +60,8 @@ impl PathRule for OffsetRotationLeft {
     }
 
     fn concerns(&self, program: &Uses<'_>) -> bool {
-        program.may(|effect| effect == Effect::WriteOffsets)
+        program.environment.control().semantics().work_offsets_rotate
+            && program.may(|effect| effect == Effect::WriteOffsets)
     }
 
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
@@ -107,8 +108,9 @@ impl OffsetRotationLeft {
         }
         for (number, at) in self.written.iter().filter(|(number, _)| self.used.contains(number)) {
             let angle = cx.state().tables().offset(*number).rotation;
-            // Unknown angles are not zero for sure, nor anything else.
-            if angle.is_nan() || angle.abs() < 1e-6 {
+            // Full turns turn nothing, and of an unknown angle nothing can be said.
+            let off = angle - 360.0 * (angle / 360.0).round();
+            if off.is_nan() || off.abs() < 1e-6 {
                 continue;
             }
             let range = cx.range_of(*at).unwrap_or_else(|| boundary_range(cx, Boundary::ProgramEnd));
@@ -156,7 +158,32 @@ mod tests {
     }
 
     #[test]
-    fn another_table_has_another_r() {
-        check_rule(&RULE, "fanuc-mill", "G10 L11 P2 R5.\nM30\n", &expect![[""]]);
+    fn full_turns_turn_nothing() {
+        let program = |angle: &str| format!("G21 G90\nG10 L2 P2 R{angle}\nG55 G0 X20 Y0\nG1 X35 F500\nM2\n");
+        check_rule(&RULE, "linuxcnc", &program("360"), &expect![[""]]);
+        check_rule(&RULE, "linuxcnc", &program("-315"), &expect![[r#"
+            2 | G10 L2 P2 R-315
+              | ^^^^^^^^^^^^^^^ warning[offset-rotation-left] work offset P2 stays rotated by -315 degrees
+        "#]]);
+    }
+
+    #[test]
+    fn offset_zero_is_the_active_one() {
+        let program = "G21 G90\nG55\nG10 L2 P0 R30\nG0 X20 Y0\nG1 X35 F500\nM2\n";
+        check_rule(&RULE, "linuxcnc", program, &expect![[r#"
+            3 | G10 L2 P0 R30
+              | ^^^^^^^^^^^^^ warning[offset-rotation-left] work offset P2 stays rotated by 30 degrees
+        "#]]);
+    }
+
+    #[test]
+    fn another_r_turns_nothing() {
+        let program = |write: &str| format!("G21 G90\n{write}\nG55 G0 X20. Y0.\nG1 X35. F500.\nM2\n");
+        // The radius of a tool.
+        check_rule(&RULE, "linuxcnc", &program("G10 L1 P2 R5."), &expect![[""]]);
+        // Offsets of these controls do not turn.
+        for control in ["fanuc-mill", "haas-mill", "grbl"] {
+            check_rule(&RULE, control, &program("G10 L2 P2 X1. R30."), &expect![[""]]);
+        }
     }
 }

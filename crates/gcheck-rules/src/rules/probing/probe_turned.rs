@@ -77,13 +77,44 @@ impl PathRule for ProbeTurned {
     }
 }
 
-/// Is the comment the name of a probe, and nothing else? Of a cutter it may say what to do with the probe.
+/// Is the comment the name of a probe, and nothing else? Of a cutter it may say what to do with the probe: `PROBE TOOL`,
+/// `MEASURE AFTER PROBE`.
 fn is_probe(comment: &ToolComment) -> bool {
-    const NAMES: [&str; 8] = ["PROBE", "TOUCHPROBE", "TOUCH", "SPINDLE", "RENISHAW", "TOOL", "3D", "WORK"];
-    let is_type = |word: &str| ["OMP", "RMP", "OMI", "MP"].iter().any(|name| word.starts_with(name));
-    let is_number = |word: &str| word.trim_start_matches('T').bytes().all(|byte| byte.is_ascii_digit());
-    let is_name = |word: &String| NAMES.contains(&word.as_str()) || is_type(word) || is_number(word);
-    comment.has(&["PROBE", "TOUCHPROBE"]) && comment.words.iter().all(is_name)
+    const PROBES: [&str; 4] = ["PROBE", "TOUCHPROBE", "TASTER", "MESSTASTER"];
+    // What belongs to the name: its kind, its maker, its stylus, what posts list of every tool.
+    const BESIDE: [&str; 18] = [
+        "TOUCH",
+        "SPINDLE",
+        "RENISHAW",
+        "HAAS",
+        "WIPS",
+        "BLUM",
+        "HEIDENHAIN",
+        "MARPOSS",
+        "3D",
+        "WORK",
+        "BALL",
+        "RUBY",
+        "STYLUS",
+        "TIP",
+        "MM",
+        "D",
+        "CR",
+        "ZMIN",
+    ];
+    let begins = |names: &[&str], word: &str| names.iter().any(|name| word.starts_with(name));
+    let is_type =
+        |word: &str| begins(&["OMP", "RMP", "OMI", "MP"], word) && word.bytes().any(|b| b.is_ascii_digit());
+    let is_size = |word: &str| {
+        word.trim_start_matches(['T', 'D', 'R']).trim_end_matches("MM").bytes().all(|b| b.is_ascii_digit())
+    };
+    let words = || comment.words.iter().map(String::as_str);
+    // `PROBE WORK` says what to do.
+    let is_order = words().zip(words().skip(1)).any(|(one, next)| PROBES.contains(&one) && next == "WORK");
+    words().any(|word| PROBES.contains(&word) || is_type(word))
+        && !is_order
+        && words()
+            .all(|word| PROBES.contains(&word) || BESIDE.contains(&word) || is_type(word) || is_size(word))
 }
 
 #[cfg(test)]
@@ -91,7 +122,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::testing::check_rule;
+    use crate::testing::{World, check_rule, findings, only};
 
     #[test]
     fn slowly_it_may_be_switched_on() {
@@ -111,8 +142,37 @@ mod tests {
     }
 
     #[test]
+    fn names_of_probes() {
+        for comment in [
+            "RENISHAW OMP40",
+            "OMP40",
+            "HAAS PROBE",
+            "WIPS PROBE",
+            "6MM PROBE",
+            "PROBE 6MM BALL",
+            "TOUCH PROBE D6",
+            "D=6. CR=3. - ZMIN=-5. - PROBE",
+            "WORK PROBE T20",
+        ] {
+            let program = format!("T20 M6 ({comment})\nG54 G0 X0. Y0.\nG43 H20 Z2.\nS3500 M3\nM30\n");
+            assert_eq!(
+                findings(&only(&RULE), "haas-mill", &program, &World::default()).len(),
+                1,
+                "{comment}"
+            );
+        }
+    }
+
+    #[test]
     fn a_cutter_whose_comment_speaks_of_the_probe() {
-        for comment in ["SPOTDRILL - THEN PROBE", "BORING BAR - PROBE SIZE", "PROBE TOOL LENGTH"] {
+        for comment in [
+            "SPOTDRILL - THEN PROBE",
+            "BORING BAR - PROBE SIZE",
+            "PROBE TOOL LENGTH",
+            "PROBE TOOL",
+            "PROBE TOOL 1",
+            "PROBE WORK",
+        ] {
             let program = format!("T1 M6 ({comment})\nG54 G0 X0. Y0.\nG43 H1 Z2.\nS3500 M3\nM30\n");
             check_rule(&RULE, "haas-mill", &program, &expect![[""]]);
         }

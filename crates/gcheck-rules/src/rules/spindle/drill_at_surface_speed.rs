@@ -9,7 +9,6 @@ use crate::declare::declare_rule;
 use crate::facts::boundary::is_before;
 use crate::facts::live_tool::may_be_live;
 use crate::facts::tool_words::ToolWords;
-use crate::facts::turned::goes_home;
 use crate::facts::turning::{is_turned, turns_the_part};
 use crate::{Finding, PathCx, PathRule, Report, Run, Uses, Watch};
 use crate::{Remembers, remembers};
@@ -121,7 +120,7 @@ impl PathRule for DrillAtSurfaceSpeed {
         if let Some(waiting) = waiting.filter(|_| is_along) {
             // A bar that turns outward from the bottom of a bore does not come out along the centre.
             let is_out = down < 0.0 && (travel.kind == TravelKind::Rapid || to.raw(Axis::Z) > -DEEP);
-            if is_out || goes_home(cx) {
+            if is_out || cx.has_effect(Effect::goes_to_machine_place) {
                 self.told = waiting.tool;
                 report.add(waiting.finding);
             } else {

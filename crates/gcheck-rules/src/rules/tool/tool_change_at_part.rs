@@ -2,13 +2,13 @@
 
 use std::ops::Range;
 
+use gcheck_controls::Effect;
 use gcheck_engine::{Axis, Event, Travel, TravelKind};
 use gcheck_geometry::{Mm, Plane};
 
 use crate::declare::declare_rule;
 use crate::facts::boundary::{Boundary, boundary, boundary_range};
 use crate::facts::cycles::cycle_code;
-use crate::facts::turned::goes_home;
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 use crate::{Remembers, remembers};
 
@@ -132,7 +132,8 @@ impl ToolChangeAtPart {
         let way = |axis: Axis| travel.to.raw(axis) - travel.from.raw(axis);
         let (across, along) = (way(Axis::X), way(Axis::Z));
         let is_outward = across > -SLACK && along > -SLACK;
-        goes_home(cx) || is_outward && (along > FAR || self.cut.is_none() && self.lowest.is_finite())
+        cx.has_effect(Effect::goes_to_machine_place)
+            || is_outward && (along > FAR || self.cut.is_none() && self.lowest.is_finite())
     }
 }
 

@@ -48,10 +48,11 @@ fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
     if cx.block().flags.contains(BlockFlags::ERROR) || cx.words_may_be_arguments() {
         return;
     }
-    let builder = cx.control().code_list().builder_m_codes;
     for word in cx.code_words() {
-        let is_m = word.letter == Letter::of('M');
-        if !word.code.is_some() && matches!(word.value, Value::Number(_)) && !(is_m && builder) {
+        if let Value::Number(number) = word.value
+            && !word.code.is_some()
+            && !cx.control().may_be_of_builder(word.letter, number)
+        {
             report.add(finding(cx, word));
         }
     }

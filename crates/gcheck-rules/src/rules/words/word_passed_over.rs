@@ -137,9 +137,8 @@ fn unread(cx: &PathCx<'_>) -> Option<LetterSet> {
         read = read.or(code.reads());
     }
     let is_refused = control.block_rules().unread_word == Handling::Refused;
-    // Where unread words are refused, words belong to the motion in effect only in a block that moves.
-    if !replaced && (!is_refused || may_move(cx)) {
-        read = read.or(of_motion(cx)?);
+    if !replaced {
+        read = read.or(of_motion(cx, is_refused)?);
     }
     // A compensation may read the words of its code again in later blocks: its vector.
     let lasting = |code: &Code<'_>| {
@@ -171,7 +170,10 @@ fn may_move(cx: &PathCx<'_>) -> bool {
 }
 
 /// Addresses that the motion or the cycle in effect reads; `None` if it may be any.
-fn of_motion(cx: &PathCx<'_>) -> Option<LetterSet> {
+///
+/// Motion reads its words in a block that moves. A cycle keeps words of other blocks for later ones, where the control does not
+/// refuse them.
+fn of_motion(cx: &PathCx<'_>, is_refused: bool) -> Option<LetterSet> {
     let control = cx.control();
     let cycle = cx.state().active_cycle(cx.model)?;
     let motion = cx.state().mode(Role::Motion).only()?;
@@ -180,7 +182,12 @@ fn of_motion(cx: &PathCx<'_>) -> Option<LetterSet> {
         Some(code) => Some(code.reads()),
         None => Some(LetterSet::EMPTY),
     };
-    Some(reads(cycle)?.or(reads(motion)?))
+    let (cycle, motion) = (reads(cycle)?, reads(motion)?);
+    Some(match (may_move(cx), is_refused) {
+        (true, _) => cycle.or(motion),
+        (false, false) => cycle,
+        (false, true) => LetterSet::EMPTY,
+    })
 }
 
 /// Does the code, while it is active, read words of any block?
@@ -242,6 +249,13 @@ mod tests {
             "G90 G0 X0. Y0.\nG83 Z-1. R.1 Q.2 F10.\nG98 R.5\nG80\nG2 X1. R1.\nG90 X3. R2.\nM30\n",
             &expect![[""]],
         );
+    }
+
+    #[test]
+    fn words_of_the_motion_in_effect_need_a_move() {
+        let program = |block: &str| format!("G21 G90 G54 G0 X0. Y0.\nG1 X10. F100.\n{block}\nX20.\nM30\n");
+        check_rule(&RULE, "fanuc-mill", &program("G55 ,R2."), &expect![[""]]);
+        check_rule(&RULE, "fanuc-mill", &program("G55 X5. ,R2."), &expect![[""]]);
     }
 
     #[test]
