@@ -389,12 +389,13 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
         state: &mut State<D>,
     ) -> Step<Outcome<D>> {
         let words = self.words_to_come(table, block);
-        let is_row = !words.is_empty() && Self::may_read_as_data(words, state);
-        if is_row {
+        let mut acts = !words.is_empty();
+        if acts && Self::may_read_as_data(words, state) {
             let row = self.row(place, table, words, state);
             self.emit(state, Event::DataRow(row));
+            acts = !state.reads_data();
         }
-        if !words.is_empty() && !(is_row && state.reads_data()) {
+        if acts {
             // Whether the words are data or commands is not known: what was before stays possible.
             let unread = (state.data_entry == Truth::Unknown).then(|| state.clone());
             self.read_words(place, table, words, state)?;
