@@ -120,6 +120,17 @@ pub struct Code<'c> {
     facts: &'c CodeFacts,
 }
 
+/// What the blocks after a code are; see [`Code::data_opening`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum DataOpening {
+    /// Commands.
+    Never,
+    /// Lines of data if a code comes that ends them, before any other code.
+    IfEnded,
+    /// Lines of data.
+    Certain,
+}
+
 impl<'c> Code<'c> {
     /// The entry as written in data.
     pub fn entry(self) -> &'c CodeEntry {
@@ -132,6 +143,18 @@ impl<'c> Code<'c> {
             let letter = Letter::parse(&opens.letter);
             letter.and_then(number).is_some_and(|number| opens.values.contains(&number))
         })
+    }
+
+    /// May the blocks after one with this code be lines of data? `value` is that of an address in the block: `None` without a
+    /// word, `Some(None)` where the number is computed.
+    pub fn data_opening(self, value: impl FnOnce(Letter) -> Option<Option<f64>>) -> DataOpening {
+        let Some(opens) = &self.facts.entry.opens_data else { return DataOpening::Never };
+        match Letter::parse(&opens.letter).and_then(value) {
+            None => DataOpening::Never,
+            Some(Some(number)) if opens.values.contains(&number) => DataOpening::Certain,
+            Some(Some(number)) if opens.in_one_block.contains(&number) => DataOpening::Never,
+            Some(_) => DataOpening::IfEnded,
+        }
     }
 
     /// Does this code end lines of data that another one opened?

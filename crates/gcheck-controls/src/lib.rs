@@ -28,7 +28,7 @@ mod wording;
 
 pub use bar_feeder::BarFeederRules;
 pub use code_number::CodeNumber;
-pub use control::{Code, CodeIx, Control, GroupIx, UserCode, Variable};
+pub use control::{Code, CodeIx, Control, DataOpening, GroupIx, UserCode, Variable};
 pub use detect::{Evidence, Foreign, Guess, Score, foreign, guess, may_be_for, scores};
 pub use execution::{
     AlongTool, ArcRules, CompensationRefusals, CompensationRules, CompensationStyle, CycleRules,

@@ -506,12 +506,14 @@ pub(crate) struct CodesFile {
 
 /// When a code opens lines of data; see [`CodeEntry::opens_data`].
 #[derive(Debug, Clone, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct OpensData {
     /// Address of the word that decides: `"L"`.
     pub letter: String,
     /// Its values that open them.
     pub values: Vec<f64>,
+    /// Its values that say everything in their own block (`L2`). With any other value the code may open lines of data.
+    pub in_one_block: Vec<f64>,
 }
 
 /// One G or M code.

@@ -143,9 +143,10 @@ impl Problems<'_> {
         if let Some(opens) = &entry.opens_data
             && (!seen_letter(&opens.letter)
                 || opens.values.is_empty()
+                || opens.values.iter().any(|value| opens.in_one_block.contains(value))
                 || !entry.cancelled_by.iter().any(|item| self.resolves(item)))
         {
-            self.say(code, "opens lines of data by a word that it does not have, or no code ends them");
+            self.say(code, "opens lines of data by a word that it does not have, by a value that does not, or no code ends them");
         }
         let mut seen = crate::LetterSet::EMPTY;
         for word in &entry.words {

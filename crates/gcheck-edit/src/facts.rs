@@ -5,6 +5,7 @@
 use gcheck_controls::{CodeIx, Effect};
 use gcheck_engine::{Concrete, ConcreteValue, FeedMode, Model, Role, State, Transform, Units};
 use gcheck_geometry::Plane;
+use gcheck_program::{Block, BlockFlags};
 
 /// The modes in effect for the words of a block.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -28,11 +29,13 @@ pub(crate) struct Facts {
     pub(crate) surface: bool,
     /// The tool in the spindle.
     pub(crate) tool: Option<u32>,
+    /// The block is a row of data, and none of its words is what it is in a command.
+    pub(crate) is_row: bool,
 }
 
 impl Facts {
     /// The modes of a state after a block, which are those that its words were read in.
-    pub(crate) fn of(state: &State<Concrete>, model: &Model<'_>) -> Self {
+    pub(crate) fn of(block: &Block, state: &State<Concrete>, model: &Model<'_>) -> Self {
         Self {
             incremental: state.is_incremental(model),
             centre_absolute: state.effect(Role::ArcCentre, model) == Some(Effect::ArcCentreAbsolute),
@@ -45,6 +48,8 @@ impl Facts {
             feed_mode: state.feed_mode(model),
             surface: state.effect(Role::SpindleMode, model) == Some(Effect::SurfaceSpeed),
             tool: tool(state),
+            // A code ends the data.
+            is_row: state.reads_data() && !block.flags.contains(BlockFlags::CODE),
         }
     }
 

@@ -410,8 +410,9 @@ impl Region {
                 found.push(series);
             } else {
                 // The next block may begin one.
-                let block = deed.block;
-                at = begin + rest(begin).iter().take_while(|deed| deed.block == block).count();
+                let long = finder.too_long(rest(begin)).unwrap_or(1);
+                let block = rest(begin).get(long - 1).map_or(deed.block, |deed| deed.block);
+                at = begin + rest(begin).iter().take_while(|deed| deed.block <= block).count();
             }
         }
         (found, misses)

@@ -11,7 +11,7 @@ use gcheck_engine::cycles::{Hole, Overrides, Stroke, hole};
 use gcheck_engine::{Machine, Model, Units};
 use gcheck_geometry::{Mm, Plane, Seconds};
 
-/// Moves and dwells of one hole that are read: a hole with more strokes stays as it is written.
+/// Moves and dwells of one hole that are read, with its approach: a hole with more strokes stays as it is written.
 const MOST_DEEDS: usize = 1024;
 /// Millimetres within which points are the same.
 const SAME: f64 = 1e-3;
@@ -142,6 +142,16 @@ impl Finder<'_> {
         has(Effect::ReturnToR) && has(Effect::ReturnToInitial)
     }
 
+    /// How many deeds the hole has that begins with the first of them, if it has more than are read. What is left of it is not
+    /// a hole either.
+    pub(crate) fn too_long(&self, deeds: &[Deed]) -> Option<usize> {
+        let first: Vec<Deed> = deeds.iter().take(MOST_APPROACHES).map(|deed| self.local(deed)).collect();
+        let start = approach(&first);
+        let rest = deeds.get(start..)?.iter();
+        let count = start + rest.take_while(|deed| is_along_depth(&self.local(deed))).count();
+        (count > MOST_DEEDS).then_some(count)
+    }
+
     /// The hole that begins with the first deed. `initial` is the level that its series began at, `cycle` its cycle.
     pub(crate) fn hole(
         &self,
@@ -149,9 +159,8 @@ impl Finder<'_> {
         initial: Option<f64>,
         cycle: Option<CodeIx>,
     ) -> Result<Option<Found>, Miss> {
-        let deeds: Vec<Deed> = deeds.iter().take(MOST_DEEDS).map(|deed| self.local(deed)).collect();
-        let is_approach = |deed: &&Deed| deed.kind == Kind::Rapid || deed.goes_nowhere();
-        let start = deeds.iter().take(MOST_APPROACHES).take_while(is_approach).count();
+        let deeds: Vec<Deed> = deeds.iter().take(MOST_DEEDS + 1).map(|deed| self.local(deed)).collect();
+        let start = approach(&deeds);
         let (Some(begin), Some(first)) = (deeds.first(), deeds.get(start)) else { return Ok(None) };
         if first.kind != Kind::Feed || !is_along_depth(first) {
             return Ok(None);
@@ -163,6 +172,9 @@ impl Finder<'_> {
         }
         let rest = deeds.get(start..).unwrap_or_default();
         let down: Vec<Deed> = rest.iter().take_while(|deed| is_along_depth(deed)).copied().collect();
+        if start + down.len() > MOST_DEEDS {
+            return Ok(None);
+        }
         let cuts = cuts(&down);
         let guess = Found {
             cycle: CodeIx::NONE,
@@ -382,6 +394,12 @@ impl Finder<'_> {
         }
         miss(format!("the depths of the {pecks} pecks are not those that {name} of this control makes"), None)
     }
+}
+
+/// How many deeds may be the approach to a hole.
+fn approach(deeds: &[Deed]) -> usize {
+    let is_approach = |deed: &&Deed| deed.kind == Kind::Rapid || deed.goes_nowhere();
+    deeds.iter().take(MOST_APPROACHES).take_while(is_approach).count()
 }
 
 /// A cut down or up, with what comes after it.

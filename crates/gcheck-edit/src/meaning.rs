@@ -116,13 +116,18 @@ pub(crate) fn read(place: &Place, facts: &Facts, model: &Model<'_>) -> Read {
     let words = place.table.words(place.block());
     let codes: Vec<CodeIx> = words.iter().map(|word| word.code).filter(|code| code.is_some()).collect();
     let is_code = |word: &Word| matches!(word.letter.ascii(), b'G' | b'M') && !word.letter.is_corner();
-    let class = if words.iter().any(|word| is_code(word) && matches!(word.value, Value::Expr(_))) {
+    let class = if facts.is_row {
+        Class::Other
+    } else if words.iter().any(|word| is_code(word) && matches!(word.value, Value::Expr(_))) {
         Class::Computed
     } else {
         class(&codes, words, model)
     };
     let depth = if model.drills_across(facts.cycle) { 0 } else { facts.plane.unwrap_or(Plane::Xy).axes().2 };
     let meanings = words.iter().map(|word| {
+        if facts.is_row {
+            return (*word, Meaning::Other);
+        }
         let entry = codes.iter().filter_map(|code| control.code_at(*code)).find_map(|code| {
             code.entry().words.iter().find(|entry| Letter::parse(&entry.letter) == Some(word.letter))
         });

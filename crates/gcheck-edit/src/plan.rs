@@ -3,6 +3,7 @@
 //! Knows: which blocks are rewritten, and when that is not certain. Must not know: whether the proof holds.
 
 use std::collections::BTreeSet;
+use std::ops::Range;
 
 use gcheck_diagnostics::Edit;
 use gcheck_engine::{Assumption, FeedMode, Machine, Model, Program, Units};
@@ -43,13 +44,19 @@ pub fn plan(
     }
     let Some(file) = program.file(0) else { return Err(Refusal::whole("the text has no program")) };
     let mut sheet = Sheet::new(program, &file.loaded, model, machine);
+    let rows = Rows::of(witness, &file.loaded, program, model);
     if let Tracker::Folds(folds) = &witness.following.tracker {
         let notes = folds.write(&mut sheet, program, machine)?;
-        return Ok(Plan { edits: sheet.into_edits(), notes });
+        let edits = sheet.into_edits();
+        rows.check(&edits)?;
+        return Ok(Plan { edits, notes });
     }
     let mut planner = Planner { change, scope, witness, model, cuts: false };
     for number in 0..file.loaded.flow_graph().blocks() {
         let Some(place) = file.loaded.place(number, program.dialect()) else { continue };
+        if rows.unreached.binary_search(&number).is_ok() {
+            continue;
+        }
         match &witness.following.tracker {
             Tracker::Cycles(cycles) => cycles.write(&mut sheet, number, &place)?,
             Tracker::Loops(loops) => loops.write(&mut sheet, number, &place, program),
@@ -71,6 +78,7 @@ pub fn plan(
         inserted(&mut sheet, rates, program, &file.loaded)?;
     }
     let edits = sheet.into_edits();
+    rows.check(&edits)?;
     let mut notes = Vec::new();
     if matches!(change, Change::Mirror(..)) && planner.cuts && !edits.is_empty() {
         notes.push(
@@ -89,6 +97,52 @@ pub fn plan(
 /// What a run rests on that leaves moves out: passes of a cycle, programs that are not there. A proof would have a gap.
 pub fn gaps(assumptions: &BTreeSet<Assumption>) -> BTreeSet<Assumption> {
     assumptions.iter().filter(|assumption| assumption.leaves_moves_out()).cloned().collect()
+}
+
+/// Blocks that are rows of data as the text has them, and that no run has read as such.
+#[derive(Default)]
+struct Rows {
+    /// Numbers of those that no run came to, ascending.
+    unreached: Vec<u32>,
+    /// Bytes of those that a run has executed as commands: the code in front of them may open data or not.
+    doubtful: Vec<Range<u32>>,
+}
+
+impl Rows {
+    fn of(witness: &Witness<'_>, loaded: &Loaded<'_>, program: &Program<'_>, model: &Model<'_>) -> Self {
+        let mut rows = Self::default();
+        if !model.control().codes().any(|code| code.entry().opens_data.is_some()) {
+            return rows;
+        }
+        let file_index = loaded.file_index(program.dialect());
+        if !file_index.has_data() {
+            return rows;
+        }
+        for number in 0..loaded.flow_graph().blocks() {
+            let Some(place) = loaded.place(number, program.dialect()) else { continue };
+            if !file_index.is_data(place.range().start) {
+                continue;
+            }
+            match witness.blocks.get(number as usize).copied().flatten() {
+                None => rows.unreached.push(number),
+                Some(seen) if !seen.facts.is_row => rows.doubtful.push(place.range()),
+                Some(_) => {}
+            }
+        }
+        rows
+    }
+
+    /// Does no edit touch a block that may be a row of data?
+    fn check(&self, edits: &[Edit]) -> Result<(), Refusal> {
+        for edit in edits {
+            let next = self.doubtful.partition_point(|row| row.end < edit.range.start);
+            if let Some(row) = self.doubtful.get(next).filter(|row| row.start <= edit.range.end) {
+                let reason = "this block may be a row of data, which has to stay as it is";
+                return Err(Refusal::at(row.clone(), reason).help("select lines without it"));
+            }
+        }
+        Ok(())
+    }
 }
 
 struct Planner<'p> {

@@ -177,7 +177,7 @@ impl<V: Visitor> Observer<Concrete> for Watcher<'_, '_, V> {
         if let Some(file) = self.program.file(origin.at.file)
             && let Some(place) = file.loaded.place(origin.at.block, self.program.dialect())
         {
-            let facts = Facts::of(state, self.model);
+            let facts = Facts::of(place.block(), state, self.model);
             let is_main = origin.at.file == 0;
             self.visitor.executed(&Executed {
                 at: origin.at,

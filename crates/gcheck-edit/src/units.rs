@@ -98,7 +98,7 @@ fn is_argument(word: &Word) -> bool {
 
 /// By what a word is multiplied; `None` for a word that measures nothing.
 fn factor(place: &Place, word: &Word, facts: &Facts, model: &Model<'_>, to: Units) -> Option<f64> {
-    let from = facts.units?;
+    let from = facts.units.filter(|_| !facts.is_row)?;
     let length = from.in_mm() / to.in_mm();
     let read = read(place, facts, model);
     let (_, meaning) = read.words.iter().find(|(other, _)| other == word)?;

@@ -194,6 +194,7 @@ impl<'c> Loops<'c> {
         }
         let block = place.range();
         let words = place.table.words(place.block());
+        let is_row = state.reads_data() && !place.block().flags.contains(BlockFlags::CODE);
         let (mut out, mut from) = (String::new(), block.start);
         for word in words {
             let range = Sheet::range(place, word);
@@ -203,7 +204,8 @@ impl<'c> Loops<'c> {
                 out.push_str(self.hand?.gap());
             }
             from = range.end;
-            if word.letter.ascii() == b'N' {
+            // `N` of a row of data is not the number of a block.
+            if word.letter.ascii() == b'N' && !is_row {
                 continue;
             }
             match word.value {
@@ -212,12 +214,8 @@ impl<'c> Loops<'c> {
                     let expr = place.base + expr.start..place.base + expr.end;
                     let value = values.iter().find(|(other, _)| *other == expr);
                     let Some((_, AbstractValue::Number(number))) = value else { return None };
-                    out.push_str(&self.word(
-                        file.loaded.slice(range),
-                        word,
-                        *number,
-                        state.units(self.model),
-                    )?);
+                    let old = file.loaded.slice(range);
+                    out.push_str(&self.word(old, word, *number, state.units(self.model), is_row)?);
                 }
                 _ => out.push_str(file.loaded.slice(range)),
             }
@@ -229,9 +227,16 @@ impl<'c> Loops<'c> {
     }
 
     /// A word with a value.
-    fn word(&self, old: &str, word: &Word, number: f64, units: Option<Units>) -> Option<String> {
+    fn word(
+        &self,
+        old: &str,
+        word: &Word,
+        number: f64,
+        units: Option<Units>,
+        is_row: bool,
+    ) -> Option<String> {
         let control = self.model.control();
-        let kind = control.letter(word.letter).map(|entry| entry.kind);
+        let kind = control.letter(word.letter).map(|entry| entry.kind).filter(|_| !is_row);
         let has_point =
             matches!(kind, Some(WordKind::Length | WordKind::Angle | WordKind::Feed | WordKind::Real));
         let hand = self.hand?;

@@ -6,7 +6,7 @@
 
 use std::rc::Rc;
 
-use gcheck_controls::{CodeIx, Effect};
+use gcheck_controls::{CodeIx, Effect, Letter};
 use gcheck_geometry::{Mm, Plane, Seconds};
 
 use crate::cylinder::Cylinder;
@@ -186,6 +186,8 @@ pub enum Event {
     Modal(CodeIx),
     /// Text for the operator or a log.
     Message(Rc<str>),
+    /// A row of a table that the control takes as data: its words, each with its number (NaN unknown).
+    DataRow(Rc<[(Letter, f64)]>),
 
     /// The program stops until cycle start.
     Stop(Stop),
@@ -234,6 +236,12 @@ impl Event {
             (Self::SelectTool(a), Self::SelectTool(b))
             | (Self::ToolChange(a), Self::ToolChange(b))
             | (Self::SetToolNumber(a), Self::SetToolNumber(b)) => a.is_none() || a == b,
+            (Self::DataRow(a), Self::DataRow(b)) => {
+                let covers = |((letter, a), (other, b)): (&(Letter, f64), &(Letter, f64))| {
+                    letter == other && a.covers(b)
+                };
+                a.len() == b.len() && a.iter().zip(b.iter()).all(covers)
+            }
             _ => self == inner,
         }
     }

@@ -389,7 +389,13 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
         state: &mut State<D>,
     ) -> Step<Outcome<D>> {
         let words = self.words_to_come(table, block);
-        if !words.is_empty() && !Self::reads_as_data(words, state) {
+        let mut acts = !words.is_empty();
+        if acts && Self::may_read_as_data(words, state) {
+            let row = self.row(place, table, words, state);
+            self.emit(state, Event::DataRow(row));
+            acts = !state.reads_data();
+        }
+        if acts {
             // Whether the words are data or commands is not known: what was before stays possible.
             let unread = (state.data_entry == Truth::Unknown).then(|| state.clone());
             self.read_words(place, table, words, state)?;
@@ -489,6 +495,7 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
                 | Event::ToolTableEntry(_)
                 | Event::SetToolNumber(_)
                 | Event::Message(_)
+                | Event::DataRow(_)
                 | Event::Plane(_)
                 | Event::Units(_)
         );

@@ -108,8 +108,10 @@ impl Labels {
             found.add(table, base, region_end, part, dialect);
             file_index.add(table, base, region_end, dialect);
         });
-        // `N` of a row of data is the number of something else.
+        // `N` of a row of data is the number of something else, wherever it is in the row.
         found.labels.retain(|(_, label)| !file_index.is_data(label.range.start));
+        let is_stray = |reference: &Reference| matches!(reference.target, Target::Stray);
+        found.references.retain(|(_, of)| !is_stray(of) || !file_index.is_data(of.range.start));
         Self::resolve(found, loaded.flow_graph(), dialect)
     }
 

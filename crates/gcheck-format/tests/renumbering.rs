@@ -145,6 +145,50 @@ fn parameter_numbers_stay() {
 }
 
 #[test]
+fn numbers_of_rows_stay_where_a_code_only_may_open_data() {
+    for opens in ["#1=50\nG10 L#1", "G10 L#500", "G10 L75 P1"] {
+        let rows = "N3032 P1 R1\nN1 T1000 C2";
+        assert_eq!(
+            renumbered("fanuc-mill", &format!("{opens}\n{rows}\nN2 G11\nN3 G0 X1.\n"), 10, 10),
+            format!("{opens}\n{rows}\nN10 G11\nN20 G0 X1.\n")
+        );
+    }
+    // Nothing ends them: these are commands.
+    check(
+        "fanuc-mill",
+        "G10 L75 P1\nN3032 X1.\nN2 G0 X2.\n",
+        &expect![[r#"
+            G10 L75 P1
+            N10 X1.
+            N20 G0 X2.
+        "#]],
+    );
+}
+
+#[test]
+fn numbers_of_rows_that_nothing_ends_stay() {
+    check(
+        "fanuc-mill",
+        "N1 G10 L50\nN1320 P1 R500000\nP2 N1321 R5\nN2 M98 P10\nN3 G0 X1.\n",
+        &expect![[r#"
+            N10 G10 L50
+            N1320 P1 R500000
+            P2 N1321 R5
+            N20 M98 P10
+            N30 G0 X1.
+        "#]],
+    );
+    check(
+        "fanuc-mill",
+        "N1 G10 L50\nN1320 P1 R500000\n",
+        &expect![[r#"
+            N10 G10 L50
+            N1320 P1 R500000
+        "#]],
+    );
+}
+
+#[test]
 fn an_outline_is_a_block_or_a_program() {
     check(
         "haas-mill",

@@ -161,7 +161,7 @@ const PAGES: &[Page] = &[
             ("Each block that feeds has its own `F`.", "in every block that feeds"),
             ("It is meant for work with rotary axes.", "mix linear and rotary axes"),
             ("The largest `F` is 45000.", "The largest F is 45000"),
-            ("`G94` goes back to feed per minute.", "Ended by `G94`"),
+            ("`G94` goes back to feed per minute.", "ended by `G94`"),
             ("It is recommended with `G143`.", "Recommended with G143"),
         ],
     },

@@ -167,7 +167,7 @@ impl<'c> Collector<'c> {
 
     /// Lines of data are rows of a table, of which only the form is looked at.
     pub(crate) fn leave_data(&mut self, file_index: &FileIndex) {
-        if !file_index.data.is_empty() {
+        if file_index.has_data() {
             let is_of_rows = |finding: &Finding| {
                 finding.rule.tier != Tier::Token && file_index.is_data(finding.range.start)
             };

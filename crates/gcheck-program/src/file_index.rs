@@ -6,7 +6,7 @@ use std::collections::HashSet;
 use std::ops::Range;
 use std::sync::OnceLock;
 
-use gcheck_controls::{CodeIx, CodeNumber, Effect, Ends, Letter, LetterSet, WordKind};
+use gcheck_controls::{Code, CodeIx, CodeNumber, DataOpening, Effect, Ends, Letter, LetterSet, WordKind};
 
 use crate::block::{Block, BlockFlags, BlockIx, BlockTable, Value, Word};
 use crate::lower::Dialect;
@@ -187,13 +187,32 @@ pub struct NeverGiven {
     pub range: Range<u32>,
 }
 
+/// A code that opens lines of data which nothing ends before the next command.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct DataLeftOpen {
+    /// The code.
+    pub code: CodeIx,
+    /// Bytes of the file: its block.
+    pub block: Range<u32>,
+    /// The next command, where it leads to another program: it calls one or returns to one, which may end the data.
+    pub leads_elsewhere: Option<CodeIx>,
+}
+
 /// A block that matters to lines of data.
 #[derive(Debug, Clone, PartialEq, Eq)]
 struct DataMark {
     kind: DataMarkKind,
+    /// The code that makes it so; of another command the one that leads to another program, else none.
     code: CodeIx,
     /// Bytes of the file: the block.
     block: Range<u32>,
+}
+
+impl DataMark {
+    /// The same mark of a chunk that begins at this byte.
+    fn moved(&self, base: u32) -> Self {
+        Self { block: shift(&self.block, base), ..*self }
+    }
 }
 
 /// What a block is to lines of data.
@@ -201,10 +220,18 @@ struct DataMark {
 enum DataMarkKind {
     /// Its code opens them: `G10 L50`.
     Opens,
+    /// Its code opens them if a later block ends them: `G10 L#1`, `G10 L75`.
+    MayOpen,
     /// Its code may end them: `G11`.
     MayEnd,
-    /// It has another code, which shows that the block is a command.
+    /// It has another code, which shows that the block is a command, or begins a program.
     Command,
+}
+
+impl DataMarkKind {
+    const fn may_open(self) -> bool {
+        matches!(self, Self::Opens | Self::MayOpen)
+    }
 }
 
 /// Everything collected from the chunks of one file.
@@ -255,15 +282,15 @@ pub struct FileIndex {
     pub has_speed_in_cuts: bool,
     /// Codes that rely on an earlier value which no block before them gives, in text order.
     pub never_given: Vec<NeverGiven>,
-    /// Lines of data between the block that opens them and the one that ends them, in text order: rows of a table, not
-    /// commands. Their `N` are not labels.
-    pub data: Vec<Range<u32>>,
+    /// Lines of data from the block that opens them to the next command, in text order: rows of a table. See
+    /// [`FileIndex::is_data`].
+    data: Vec<Range<u32>>,
     /// Blocks that matter to lines of data, for a file that this chunk is joined to.
     data_marks: Vec<DataMark>,
-    /// The block that opened lines of data which nothing has ended yet.
+    /// The block that opened lines of data, if no command has come after it.
     data_opened: Option<DataMark>,
-    /// Blocks that opened lines of data which a command follows before any end.
-    data_left_open: Vec<DataMark>,
+    /// Codes that opened lines of data which a command follows before any end.
+    data_left_open: Vec<DataLeftOpen>,
     /// Levels of block delete that are used: bit 0 for a plain `/`.
     pub block_deletes: u16,
     /// How many blocks there are.
@@ -343,13 +370,14 @@ impl FileIndex {
             if block.delete > 0 {
                 self.block_deletes |= 1 << (block.delete - 1).min(15);
             }
+            let is_row = self.is_data_open() && is_row(block);
             let is_pointed = block.letters.intersects(dialect.control().axes())
                 && !block.flags.contains(BlockFlags::UNPOINTED);
-            self.pointed += usize::from(is_pointed);
-            if block.flags.contains(BlockFlags::LONG_NUMBER) {
+            self.pointed += usize::from(is_pointed && !is_row);
+            if block.flags.contains(BlockFlags::LONG_NUMBER) && !is_row {
                 self.long_numbers.push(shift(&block.range, base));
             }
-            if block.flags.contains(BlockFlags::UNPOINTED) {
+            if block.flags.contains(BlockFlags::UNPOINTED) && !is_row {
                 self.unpointed.push(shift(&block.range, base));
             }
             if block.flags.contains(BlockFlags::TAPE_MARK) {
@@ -367,11 +395,11 @@ impl FileIndex {
             let interesting =
                 BlockFlags::CODE | BlockFlags::LABEL | BlockFlags::PROGRAM_NUMBER | BlockFlags::STATEMENT;
             if block.flags.intersects(interesting) {
-                self.add_block(table, ix, block, base, dialect);
+                self.add_block(table, ix, block, base, is_row, dialect);
                 if let Some(mark) = data_mark(table, block, base, dialect)
                     && (may_be_data || mark.kind != DataMarkKind::Command)
                 {
-                    may_be_data = mark.kind == DataMarkKind::Opens;
+                    may_be_data = mark.kind.may_open();
                     self.take_data_mark(&mark, dialect);
                     self.data_marks.push(mark);
                 }
@@ -392,41 +420,77 @@ impl FileIndex {
         file_index
     }
 
-    /// Opens lines of data, or ends those that are open. Whether a later block ends them is not known before it comes, so that
-    /// their labels go then.
+    /// Opens lines of data, or ends those that are open.
     fn take_data_mark(&mut self, mark: &DataMark, dialect: &Dialect<'_>) {
         let code = |mark: &DataMark| dialect.control().code_at(mark.code);
         if let Some(opened) = self.data_opened.take() {
-            let ends = code(mark).zip(code(&opened)).is_some_and(|(end, opener)| end.ends_data_of(opener));
-            if mark.kind == DataMarkKind::MayEnd && ends {
-                let data = opened.block.end..mark.block.start;
-                self.labels.retain(|label| !data.contains(&label.range.start));
+            let data = opened.block.end..mark.block.start;
+            let is_ended = mark.kind == DataMarkKind::MayEnd
+                && code(mark).zip(code(&opened)).is_some_and(|(end, opener)| end.ends_data_of(opener));
+            if opened.kind == DataMarkKind::Opens {
+                if !is_ended {
+                    let leads_elsewhere = (mark.kind == DataMarkKind::Command)
+                        .then_some(mark.code)
+                        .filter(|code| code.is_some());
+                    let DataMark { code, block, .. } = opened;
+                    self.data_left_open.push(DataLeftOpen { code, block, leads_elsewhere });
+                }
                 self.data.push(data);
-            } else {
-                self.data_left_open.push(opened);
+            } else if is_ended {
+                // Only now are they known for rows, when they have been counted as blocks.
+                drain(&mut self.labels, &data, |label| label.range.start);
+                drain(&mut self.unpointed, &data, |block| block.start);
+                drain(&mut self.long_numbers, &data, |block| block.start);
+                self.data.push(data);
             }
         }
-        if mark.kind == DataMarkKind::Opens {
+        if mark.kind.may_open() {
             self.data_opened = Some(mark.clone());
         }
     }
 
-    /// The codes that open lines of data which nothing ends before the next command, each with its block, in text order.
-    pub fn data_left_open(&self) -> impl Iterator<Item = (CodeIx, &Range<u32>)> {
-        self.data_left_open.iter().chain(&self.data_opened).map(|mark| (mark.code, &mark.block))
+    /// Are blocks without a code rows, as far as the file goes so far?
+    fn is_data_open(&self) -> bool {
+        self.data_opened.as_ref().is_some_and(|opened| opened.kind == DataMarkKind::Opens)
     }
 
-    /// Is the place in lines of data?
+    /// The codes that open lines of data which nothing ends before the next command, in text order.
+    pub fn data_left_open(&self) -> impl Iterator<Item = DataLeftOpen> {
+        let is_open = |mark: &&DataMark| mark.kind == DataMarkKind::Opens;
+        let last = self.data_opened.as_ref().filter(is_open).map(|mark| DataLeftOpen {
+            code: mark.code,
+            block: mark.block.clone(),
+            leads_elsewhere: None,
+        });
+        self.data_left_open.iter().cloned().chain(last)
+    }
+
+    /// Has the file lines of data?
+    pub fn has_data(&self) -> bool {
+        !self.data.is_empty() || self.is_data_open()
+    }
+
+    /// Is the place in lines of data? They are rows of a table, not commands, and their `N` are not labels. So are the lines
+    /// after a code that may open data, if another code ends these.
     pub fn is_data(&self, at: u32) -> bool {
         let after = self.data.partition_point(|data| data.end <= at);
+        let in_open = |opened: &DataMark| opened.kind == DataMarkKind::Opens && opened.block.end <= at;
         self.data.get(after).is_some_and(|data| data.contains(&at))
+            || self.data_opened.as_ref().is_some_and(in_open)
     }
 
     /// Adds the next chunk by what it holds; `base` is its offset in the file.
     pub fn join(&mut self, chunk: &Self, base: u32, dialect: &Dialect<'_>) {
         self.is_called = Answer::default();
         let moved = |range: &Range<u32>| shift(range, base);
-        self.labels.extend(chunk.labels.iter().map(|l| Label { range: moved(&l.range), ..*l }));
+        // Up to its first command the chunk is rows, if lines of data are open.
+        let first_command = chunk.data_marks.first().map_or(u32::MAX, |mark| mark.block.start);
+        let commands_from = if self.is_data_open() { first_command } else { 0 };
+        let is_command = |range: &Range<u32>| range.start >= commands_from;
+        let labels = chunk.labels.iter().filter(|label| is_command(&label.range));
+        self.labels.extend(labels.map(|l| Label { range: moved(&l.range), ..*l }));
+        self.unpointed.extend(chunk.unpointed.iter().filter(|block| is_command(block)).map(moved));
+        self.long_numbers.extend(chunk.long_numbers.iter().filter(|block| is_command(block)).map(moved));
         self.programs.extend(chunk.programs.iter().map(|p| ProgramNumber { range: moved(&p.range), ..*p }));
         self.jumps.extend(chunk.jumps.iter().map(|j| Jump { range: moved(&j.range), ..*j }));
         self.calls.extend(chunk.calls.iter().map(|c| Call { range: moved(&c.range), ..c.clone() }));
@@ -434,11 +498,9 @@ impl FileIndex {
         self.o_words.extend(chunk.o_words.iter().map(|o| OWord { range: moved(&o.range), ..o.clone() }));
         self.ends.extend(chunk.ends.iter().map(|e| EndMark { range: moved(&e.range), ..*e }));
         for mark in &chunk.data_marks {
-            self.take_data_mark(&DataMark { block: moved(&mark.block), ..*mark }, dialect);
+            self.take_data_mark(&mark.moved(base), dialect);
         }
         self.tape_marks.extend(chunk.tape_marks.iter().map(moved));
-        self.unpointed.extend(chunk.unpointed.iter().map(moved));
-        self.long_numbers.extend(chunk.long_numbers.iter().map(moved));
         for (code, range) in &chunk.codes {
             if self.seen.0.insert(*code) {
                 self.codes.push((*code, moved(range)));
@@ -500,6 +562,7 @@ impl FileIndex {
         ix: BlockIx,
         block: &Block,
         base: u32,
+        is_row: bool,
         dialect: &Dialect<'_>,
     ) {
         let words = table.words(block);
@@ -508,7 +571,7 @@ impl FileIndex {
             let is_head =
                 position == 0 || words.first().is_some_and(|w| matches!(w.letter.ascii(), b'N' | b'O'));
             match word.letter {
-                letter if letter == Letter::of('N') && is_head => {
+                letter if letter == Letter::of('N') && is_head && !is_row => {
                     if let Some(number) = word.integer() {
                         self.labels.push(Label { number, range: shift(&word.range(), base) });
                     }
@@ -666,21 +729,48 @@ impl<'t> References<'t> {
     }
 }
 
-/// What a block with a code is to lines of data. A number that is computed decides nothing here.
+/// What a block with a code, or the head of a program, is to lines of data.
 fn data_mark(table: &BlockTable, block: &Block, base: u32, dialect: &Dialect<'_>) -> Option<DataMark> {
-    if !dialect.has_data_codes() || !block.flags.contains(BlockFlags::CODE) {
+    if !dialect.has_data_codes() || is_row(block) {
         return None;
     }
     let words = table.words(block);
-    let number = |letter| words.iter().find(|word| word.letter == letter).and_then(Word::number);
-    let kind = |word: &Word| match dialect.control().code_at(word.code)? {
-        code if code.opens_data(number) => Some(DataMarkKind::Opens),
-        _ if dialect.ends_data(word.code) => Some(DataMarkKind::MayEnd),
-        _ => None,
+    let control = dialect.control();
+    // A number that is computed is not known.
+    let number = |letter| words.iter().find(|word| word.letter == letter).map(Word::number);
+    let kind = |word: &Word| match control.code_at(word.code)?.data_opening(number) {
+        DataOpening::Certain => Some(DataMarkKind::Opens),
+        DataOpening::IfEnded => Some(DataMarkKind::MayOpen),
+        DataOpening::Never => dialect.ends_data(word.code).then_some(DataMarkKind::MayEnd),
     };
     let mark = |kind, code| DataMark { kind, code, block: shift(&block.range, base) };
     let found = words.iter().find_map(|word| Some(mark(kind(word)?, word.code)));
-    Some(found.unwrap_or_else(|| mark(DataMarkKind::Command, CodeIx::NONE)))
+    Some(found.unwrap_or_else(|| {
+        let mut codes =
+            words.iter().filter_map(|word| control.code_at(word.code).map(|code| (word.code, code)));
+        let elsewhere = codes.find(|(_, code)| leads_elsewhere(*code)).map_or(CodeIx::NONE, |(ix, _)| ix);
+        mark(DataMarkKind::Command, elsewhere)
+    }))
+}
+
+/// Is it a row where lines of data are open?
+fn is_row(block: &Block) -> bool {
+    !block.flags.intersects(BlockFlags::CODE | BlockFlags::PROGRAM_NUMBER)
+}
+
+/// Does the code call another program, or return to the one that called?
+fn leads_elsewhere(code: Code<'_>) -> bool {
+    let entry = code.entry();
+    entry.ends == Some(Ends::Subprogram)
+        || code.alias().is_some()
+        || entry.words.iter().any(|word| word.kind == WordKind::Program)
+}
+
+/// Takes out what begins in a range; the list is in text order.
+fn drain<T>(list: &mut Vec<T>, range: &Range<u32>, start: impl Fn(&T) -> u32) {
+    let first = list.partition_point(|item| start(item) < range.start);
+    let end = list.partition_point(|item| start(item) < range.end);
+    list.drain(first..end.max(first));
 }
 
 fn whole(value: f64) -> Option<u32> {
@@ -790,11 +880,16 @@ mod tests {
             joined.join(&chunk, at, &dialect);
             at += line.len() as u32;
         }
-        assert_eq!((&whole.data, &whole.labels), (&joined.data, &joined.labels), "{text}");
+        let lists = |of: &FileIndex| (of.data.clone(), of.labels.clone(), of.unpointed.clone());
+        assert_eq!(lists(&whole), lists(&joined), "{text}");
         let open: Vec<_> = whole.data_left_open().collect();
         assert_eq!(open, joined.data_left_open().collect::<Vec<_>>(), "{text}");
-        let rows = whole.data.iter().map(|data| text[data.start as usize..data.end as usize].trim());
-        (rows.collect(), open.len())
+        let mut at = 0;
+        let lines = text.split_inclusive('\n').filter(|line| {
+            at += line.len() as u32;
+            whole.is_data(at - line.len() as u32)
+        });
+        (lines.map(str::trim).collect(), open.len())
     }
 
     #[test]
@@ -804,7 +899,40 @@ mod tests {
         assert_eq!(data_of("G10 L2 P1 X0.\nG0 X1.\nG11\n"), (vec![], 0));
         // A command shows that nothing ended them.
         let two = format!("G10 L50\n{rows}\nG0 X1.\nG0 X2.\nG10 L50\n{rows}\nG11\n");
-        assert_eq!(data_of(&two), (vec![rows], 1));
-        assert_eq!(data_of(&format!("G10 L50\n{rows}\n")), (vec![], 1));
+        assert_eq!(data_of(&two), (vec![rows, rows], 1));
+        // What follows the rows is another program, or nothing.
+        assert_eq!(data_of(&format!("G10 L50\n{rows}\nO2\nN7 X1.\nG11\n")), (vec![rows], 1));
+        assert_eq!(data_of(&format!("G10 L50\n{rows}\nN7 R1\n")), (vec![rows, "N7 R1"], 1));
+    }
+
+    #[test]
+    fn a_code_that_may_open_data_opens_it_if_a_code_ends_it() {
+        let rows = "N1320 P1 R500000\nN7 R1";
+        for opens in ["G10 L#1", "N3 G10 L#500 P1", "G10 L75 P1"] {
+            assert_eq!(
+                data_of(&format!("{opens}\n{rows}\nN9 G11\nN5 G0 X1.\n")),
+                (rows.lines().collect(), 0)
+            );
+            assert_eq!(data_of(&format!("{opens}\n{rows}\nG0 X1.\nG11\n")), (vec![], 0));
+            assert_eq!(data_of(&format!("{opens}\n{rows}\n")), (vec![], 0));
+        }
+        assert_eq!(data_of(&format!("G10 L2 P1 X0.\n{rows}\nG11\n")), (vec![], 0));
+        assert_eq!(data_of(&format!("G10 P1 R1.\n{rows}\nG11\n")), (vec![], 0));
+    }
+
+    #[test]
+    fn numbers_of_rows_are_neither_labels_nor_without_a_point() {
+        let labels = |text: &str| {
+            let control = gcheck_controls::load("fanuc-mill").unwrap();
+            let dialect = Dialect::new(&control);
+            let mut whole = FileIndex::default();
+            whole.add(&crate::lower(text, &dialect), 0, text.len() as u32, &dialect);
+            let numbers: Vec<_> = whole.labels.iter().map(|label| label.number).collect();
+            (numbers, whole.unpointed.len())
+        };
+        assert_eq!(labels("N1 G10 L50\nN2 R1\nN3 G11\nN4 G0 X1\n"), (vec![1, 3, 4], 1));
+        assert_eq!(labels("N1 G10 L50\nN2 R1\nN3 G0 X1.\n"), (vec![1, 3], 0));
+        assert_eq!(labels("N1 G10 L75\nN2 R1\nN3 G11\n"), (vec![1, 3], 0));
+        assert_eq!(labels("N1 G10 L75\nN2 R1\nN3 G0 X1.\n"), (vec![1, 2, 3], 1));
     }
 }

@@ -29,8 +29,8 @@ pub use control_flow_graph::{
 pub use evidence::{EVIDENCE_BYTES, collect_evidence, evidence_of_file};
 pub use expression::{BinaryOp, Expr, ExprIx, Function, Op};
 pub use file_index::{
-    Call, CallKind, EndMark, FileIndex, Jump, Label, Loop, NeverGiven, OWord, ProgramNumber, TapeMarks,
-    code_region,
+    Call, CallKind, DataLeftOpen, EndMark, FileIndex, Jump, Label, Loop, NeverGiven, OWord, ProgramNumber,
+    TapeMarks, code_region,
 };
 pub use headings::{Heading, Headings, is_comment_alone, is_name};
 pub use line_length::{counted_characters, places_that_count};

@@ -15,7 +15,7 @@ use gcheck_syntax::cuts;
 use crate::block::{Block, BlockFlags, BlockIx, BlockTable, Value};
 use crate::control_flow_graph::ControlFlowGraph;
 use crate::expression::ExprIx;
-use crate::file_index::code_region;
+use crate::file_index::{FileIndex, code_region};
 use crate::lower::{Dialect, lower, skim};
 
 /// Bytes of text whose tables are kept.
@@ -258,6 +258,15 @@ impl<'a> Loaded<'a> {
             }
             Text::Shared(texts) => texts.get(chunk as usize).map_or("", |text| text),
         }
+    }
+
+    /// Collects the facts of the whole file.
+    pub fn file_index(&self, dialect: &Dialect<'_>) -> FileIndex {
+        let mut file_index = FileIndex::default();
+        for (chunk, range) in (0..).zip(&self.chunks) {
+            file_index.add(&self.table(chunk, dialect), range.start, self.region_end, dialect);
+        }
+        file_index
     }
 
     /// Numbers of the blocks that have any of these flags, in text order. Chunks without such a block are passed over.

@@ -162,6 +162,7 @@ impl<W: Write> Canonical<W> {
             }),
             // The interface has nothing for them and the interpreter says nothing.
             Event::Modal(_)
+            | Event::DataRow(_)
             | Event::ExactStop
             | Event::Smoothing(_)
             | Event::ContourControl { .. }

@@ -174,11 +174,14 @@ impl<'f, A: Iterator<Item = Placed>, B: Iterator<Item = Placed>> Comparison<'f, 
                 let is_early = |placed: &&Placed| placed.0 < section;
                 let [early_a, early_b] =
                     [&before_a, &before_b].map(|stands| acts(stands.iter().filter(is_early)));
-                stands::compare(&mut found, &early_a, &early_b);
+                stands::compare(&mut found, &early_a, &early_b, false);
                 found
             });
             if !before_a.is_empty() || !before_b.is_empty() {
-                stands::compare(self.found, &acts(&before_a), &acts(&before_b));
+                let both_go_on = self.a.stands_next() && self.b.stands_next();
+                let left = stands::compare(self.found, &acts(&before_a), &acts(&before_b), both_go_on);
+                self.a.put_back(&mut before_a, left[0]);
+                self.b.put_back(&mut before_b, left[1]);
                 if self.a.stands_next() || self.b.stands_next() {
                     continue;
                 }

@@ -114,6 +114,8 @@ pub enum Stand {
     WaitInput(u32),
     /// A command of the shop's own: number, `P` and `Q`.
     UserCommand(u16, [f64; 2]),
+    /// A row of data: the letters of its words, each with its number (NaN unknown).
+    Row(Shared<[(char, f64)]>),
     /// The program ends.
     End,
 }
@@ -345,6 +347,9 @@ fn stand(event: &Event) -> Option<Stand> {
         Event::Output { index, value, .. } => Stand::Output { index: *index, value: *value },
         Event::WaitInput { index, .. } => Stand::WaitInput(*index),
         Event::UserCommand { number, p, q } => Stand::UserCommand(*number, [*p, *q]),
+        Event::DataRow(words) => {
+            Stand::Row(words.iter().map(|(letter, number)| (char::from(letter.ascii()), *number)).collect())
+        }
         Event::End => Stand::End,
         _ => return None,
     })

@@ -4,9 +4,11 @@
 //!
 //! The axes stay where they are, so the position in work coordinates changes by what the offsets change.
 
+use std::rc::Rc;
+
 use gcheck_controls::{CodeIx, Effect, Letter, LetterSet};
 use gcheck_geometry::Mm;
-use gcheck_program::Word;
+use gcheck_program::{BlockTable, Place, Value, Word};
 
 use super::{Count, Executor, Step};
 use crate::assumption::Assumption;
@@ -466,9 +468,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             .is_some_and(|code| code.opens_data(|letter| self.words.number(letter)))
     }
 
-    /// Are the words of the block a row of data? A block with a code is not: it ends the data, as `G11` does, or shows that
-    /// nothing ended them.
-    pub(super) fn reads_as_data(words: &[Word], state: &mut State<D>) -> bool {
+    /// May the words of the block be a row of data? A block with a code is not: it ends the data, as `G11` does, or it is a
+    /// command that the control stops for, and what it means to do is done all the same.
+    pub(super) fn may_read_as_data(words: &[Word], state: &mut State<D>) -> bool {
         if state.data_entry == Truth::False {
             return false;
         }
@@ -476,7 +478,30 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if has_code {
             state.data_entry = Truth::False;
         }
-        !has_code && state.reads_data()
+        !has_code
+    }
+
+    /// The words of a row of data with their numbers. A word whose value is a fault is one of an unknown value: the control
+    /// looks at rows in its own way.
+    pub(super) fn row(
+        &mut self,
+        place: &Place,
+        table: &BlockTable,
+        words: &[Word],
+        state: &State<D>,
+    ) -> Rc<[(Letter, f64)]> {
+        let mut number = |word: &Word| match word.value {
+            Value::Number(number) => Some(number),
+            Value::Missing => Some(f64::NAN),
+            Value::Expr(expr) => {
+                let value =
+                    self.value_of(place, table, table.expr(expr), state).unwrap_or_else(|_| D::unknown());
+                // An empty variable takes the word out.
+                let is_there = D::is_vacant(&value) != Truth::True;
+                is_there.then(|| D::known(&value).unwrap_or(f64::NAN))
+            }
+        };
+        words.iter().filter_map(|word| Some((word.letter, number(word)?))).collect()
     }
 
     /// What a strict control asks of `G10` before its block acts: a form that exists, and the number that the form needs.

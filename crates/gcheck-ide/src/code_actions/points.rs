@@ -86,6 +86,7 @@ fn words(snapshot: &Snapshot) -> Vec<Pointless> {
             if !block.flags.contains(BlockFlags::UNPOINTED)
                 || block.flags.contains(BlockFlags::ERROR)
                 || chunk.base + block.range.start >= end
+                || snapshot.file_index().is_data(chunk.base + block.range.start)
             {
                 continue;
             }

@@ -104,6 +104,14 @@ impl<I: Iterator<Item = Placed>> Cursor<I> {
         stands
     }
 
+    /// Leaves the last ones of what was read to be read again.
+    pub(super) fn put_back(&mut self, read: &mut Vec<Placed>, count: usize) {
+        let first = read.len().saturating_sub(count);
+        for placed in read.drain(first..).rev() {
+            self.back.push_front(placed);
+        }
+    }
+
     /// Ends the move at hand.
     pub(super) fn finish(&mut self) {
         if let Some(piece) = self.piece.take() {

@@ -9,22 +9,35 @@ use super::same::{known_differ, rate_differs};
 use crate::trail::{Act, Doing, Stand};
 
 /// Matches what both sides do between the same two moves, in order, and adds what has no counterpart or another value.
-pub(super) fn compare(found: &mut Differences, a: &[&Act], b: &[&Act]) {
+///
+/// Where both sides go on before the next move, what comes after the last pair is left, because its counterpart may follow: the
+/// answer is how much that is.
+pub(super) fn compare(found: &mut Differences, a: &[&Act], b: &[&Act], both_go_on: bool) -> [usize; 2] {
+    let counts = [a.len(), b.len()];
     let (a, b) = (&without_shuttle(a), &without_shuttle(b));
     let pairs = pairs(a, b);
+    let is_whole = counts == [a.len(), b.len()];
+    let ends = match pairs.last() {
+        Some((last_a, last_b)) if both_go_on && is_whole => (last_a + 1, last_b + 1),
+        _ => (a.len(), b.len()),
+    };
     let (mut next_a, mut next_b) = (0, 0);
-    for (at_a, at_b) in pairs.into_iter().chain([(a.len(), b.len())]) {
+    for (at_a, at_b) in pairs.into_iter().chain([ends]) {
         for act in a.get(next_a..at_a).unwrap_or_default() {
             one_sided(found, act, true);
         }
         for act in b.get(next_b..at_b).unwrap_or_default() {
             one_sided(found, act, false);
         }
+        if (at_a, at_b) == ends {
+            break;
+        }
         if let (Some(of_a), Some(of_b)) = (a.get(at_a), b.get(at_b)) {
             matched(found, of_a, of_b);
         }
         (next_a, next_b) = (at_a + 1, at_b + 1);
     }
+    [a.len() - ends.0, b.len() - ends.1]
 }
 
 impl Act {
@@ -89,8 +102,20 @@ fn is_alike(a: &Act, b: &Act) -> bool {
         (Some(Stand::Output { index: a, .. }), Some(Stand::Output { index: b, .. })) => a == b,
         (Some(Stand::UserCommand(a, ..)), Some(Stand::UserCommand(b, ..))) => a == b,
         (Some(Stand::Chuck(a)), Some(Stand::Chuck(b))) => a == b,
+        // `N1320`: which parameter it is.
+        (Some(Stand::Row(a)), Some(Stand::Row(b))) => is_alike_word(a.first(), b.first()),
         (Some(a), Some(b)) => std::mem::discriminant(a) == std::mem::discriminant(b),
         _ => false,
+    }
+}
+
+/// The same word, for all that is known?
+fn is_alike_word(a: Option<&(char, f64)>, b: Option<&(char, f64)>) -> bool {
+    match (a, b) {
+        (Some((letter, a)), Some((other, b))) => {
+            letter == other && (a.total_cmp(b).is_eq() || a.is_nan() && b.is_nan())
+        }
+        _ => a.is_none() && b.is_none(),
     }
 }
 
@@ -108,12 +133,26 @@ fn matched(found: &mut Differences, a: &Act, b: &Act) {
         (Stand::UserCommand(_, words_a), Stand::UserCommand(_, words_b)) => {
             words_a.iter().zip(words_b).any(|(a, b)| rate_differs(*a, *b))
         }
+        (Stand::Row(a), Stand::Row(b)) => {
+            let differ = |((letter, a), (other, b)): (&(char, f64), &(char, f64))| {
+                // Exactly: one more or less is another parameter.
+                letter != other || !(a.is_nan() || b.is_nan()) && (a - b).abs() > 1e-9
+            };
+            a.len() != b.len() || in_order(a).iter().zip(&in_order(b)).any(|(a, b)| differ((a, b)))
+        }
         _ => of_a != of_b,
     };
     if differs {
         let values = [of_a, of_b].map(|stand| Some(Value::Stand(stand.clone())));
         found.add_once(aspect(of_a), (Some(place(a)), Some(place(b))), values);
     }
+}
+
+/// The words of a row, by their letters.
+fn in_order(words: &[(char, f64)]) -> Vec<(char, f64)> {
+    let mut words = words.to_vec();
+    words.sort_by_key(|(letter, _)| *letter);
+    words
 }
 
 fn one_sided(found: &mut Differences, act: &Act, is_first: bool) {
@@ -143,6 +182,7 @@ fn aspect(stand: &Stand) -> Aspect {
         | Stand::Wrap(_)
         | Stand::Output { .. }
         | Stand::WaitInput(_)
-        | Stand::UserCommand(..) => Aspect::Other,
+        | Stand::UserCommand(..)
+        | Stand::Row(_) => Aspect::Other,
     }
 }

@@ -210,6 +210,54 @@ fn dwells_and_stops_are_matched_with_each_other() {
 }
 
 #[test]
+fn rows_of_data_are_matched_with_each_other() {
+    let table = |rows: &str| format!("G10 L50\n{rows}\nG11\nG1 X10.");
+    expect![[r#"
+        other commands differ, 3 times
+          - a.nc:9  row of data N1320 P1 R500000   | N1320 P1 R500000
+          + b.nc:9  row of data N1320 P1 R600000   | N1320 P1 R600000
+          - a.nc:10  row of data N1321 P1 R7   | N1321 P1 R7
+          + b.nc  nothing
+          - a.nc  nothing
+          + b.nc:11  row of data N1323 P1 R2   | N1323 P1 R2
+        a.nc and b.nc move along the same path, within 0.001 mm, with differences
+    "#]]
+    .assert_eq(&different(
+        &table("N1320 P1 R500000\nN1321 P1 R7\nN1322 P1 R1"),
+        &table("N1320 P1 R600000\nN1322 P1 R1.0\nN1323 P1 R2"),
+    ));
+    // The hand of the writer, the order of words, the numbers of commands, and the unit around them do not matter.
+    same(
+        "N5 G10 L50\nN1320 P1 R500000\nN6 G11\nG1 X10.",
+        "G10 L50 (LIMITS)\nN1320 R500000. P1\nG11\nG1 X10.",
+    );
+    same(
+        "#1=1320\nWHILE [#1 LT 1322] DO1\nG10 L50\nN#1 P1 R[#1*2]\nG11\n#1=#1+1\nEND1\nG1 X10.",
+        &table("N1320 P1 R2640\nG11\nG10 L50\nN1321 P1 R2642"),
+    );
+    // What is not known is not compared, and the verdict names it.
+    let run = diff(&program(&table("N1320 P1 R#500")), &program(&table("N1320 P1 R5")), "");
+    expect![[r#"
+        a.nc and b.nc make the machine do the same as far as known, within 0.001 mm
+        not compared: R#500 (a.nc:9)
+    "#]]
+    .assert_eq(&run.stdout);
+}
+
+#[test]
+fn a_row_more_at_the_head_of_a_long_table_is_one_difference() {
+    let rows = |from: usize| (from..3000).map(|n| format!("N{n} R1")).collect::<Vec<_>>().join("\n");
+    let table = |rows: &str| format!("G10 L50\n{rows}\nG11\nG1 X10.");
+    expect![[r#"
+        other commands differ, once
+          - a.nc:9  row of data N1 R1   | N1 R1
+          + b.nc  nothing
+        a.nc and b.nc move along the same path, within 0.001 mm, with differences
+    "#]]
+    .assert_eq(&different(&table(&rows(1)), &table(&rows(2))));
+}
+
+#[test]
 fn rapid_in_place_of_feed_is_no_small_thing() {
     let text = different("G1 X10.", "G0 X10.");
     assert!(text.contains("the path is the same but driven differently, once"), "{text}");

@@ -470,6 +470,114 @@ fn renumbering_is_proved_too() {
     );
 }
 
+/// A program that writes parameters and tool lives before it cuts.
+const DATA: &str = "\
+%
+O1
+G21 G17 G90 G94 G54 G40 G80
+G10 L3
+P1 L20
+T5 H5 D5
+G11
+T1 M6
+S4000 M3
+G0 X0. Y0.
+G43 H1 Z50.
+G10 L52
+N1320 P1 R500000
+N1321 X5 Y6 Z7 F3 S4
+G11
+G1 Z-5. F100.
+X10.
+G0 Z50.
+M30
+%
+";
+
+#[test]
+fn rows_of_data_stay() {
+    let changes = [
+        "inch",
+        "mm",
+        "absolute",
+        "incremental",
+        "translate --x 10",
+        "translate --z 1",
+        "mirror X",
+        "rotate 90",
+        "scale-feeds 80%",
+        "scale-speeds 80%",
+        "safe-start",
+        "renumber 10:10",
+        "expand-cycle",
+        "fold-cycle",
+    ];
+    let in_inches = DATA.replace("G21", "G20").replace("F100.", "F10.");
+    for program in [DATA, &in_inches] {
+        let rows: Vec<&str> =
+            program.lines().filter(|line| line.starts_with("N13") || line.contains("H5")).collect();
+        for change in changes {
+            let (run, text) = edit(program, "fanuc-mill", change);
+            assert_eq!(run.code, 0, "{change}: {}", run.stderr);
+            let after: Vec<&str> = text.lines().filter(|line| rows.contains(line)).collect();
+            assert_eq!(after, rows, "{change}: {text}");
+        }
+    }
+    // Nothing ends them, or no run comes to them.
+    let open = DATA.replacen("G11\nG1 Z-5.", "G1 Z-5.", 1);
+    let unreached = DATA.replacen("M30\n", "M30\nO2\nG10 L52\nN1320 P1 R7\nN1321 X5\nG11\nM99\n", 1);
+    let rows =
+        |text: &str| text.lines().filter(|line| line.starts_with("N13")).collect::<Vec<_>>().join("\n");
+    for (program, change) in [(&open, "inch"), (&open, "translate --x 10"), (&unreached, "translate --x 10")]
+    {
+        let (run, text) = edit(program, "fanuc-mill", change);
+        assert_eq!(run.code, 0, "{change}: {}", run.stderr);
+        assert_ne!(text, *program, "{change}");
+        assert_eq!(rows(&text), rows(program), "{change}");
+    }
+}
+
+#[test]
+fn a_block_that_may_be_a_row_of_data_is_not_changed() {
+    refuses(
+        &DATA.replace("L52\nN1320 P1 R500000\n", "L75\nN1 T1 R5.\n"),
+        "fanuc-mill",
+        "inch",
+        &expect![[r#"
+            error: part.nc:13:1: cannot write the program in inches: this block may be a row of data, which has to stay as it is
+               |
+            13 | N1 T1 R5.
+               | ^^^^^^^^^
+              help: select lines without it
+            part.nc: nothing is changed
+        "#]],
+    );
+}
+
+#[test]
+fn rows_of_a_loop_keep_their_numbers() {
+    changes(
+        "O1\nG21 G17 G90 G94 G54\n#1=1320\nWHILE [#1 LT 1323] DO1\nN5 G10 L50\nN#1 P1 R[#1*2]\nN7 G11\n#1=#1+1\nEND1\nG0 X1.\nM30\n",
+        "fanuc-mill",
+        "unroll-loop",
+        &expect![[r#"
+             4 G10 L50
+             5 N1320 P1 R2640
+             6 G11
+             7 G10 L50
+             8 N1321 P1 R2642
+             9 G11
+            10 G10 L50
+            11 N1322 P1 R2644
+            12 G11
+            13 G0 X1.
+            14 M30
+            ! part.nc: changed for fanuc-mill: every move is as before, within 0.001 mm (1 move compared)
+            exit 0
+        "#]],
+    );
+}
+
 #[test]
 fn dry_runs_write_nothing() {
     let shop = Shop::with(&[("part.nc", PART)]);
@@ -1282,6 +1390,24 @@ fn holes_that_no_cycle_makes_in_this_way_stay() {
         part.nc: nothing is changed
     "#]],
     );
+}
+
+#[test]
+fn a_hole_with_too_many_pecks_stays_whole() {
+    let program = |pecks: usize| {
+        let mut text = "O1\nG21 G17 G90 G94 G54\nG0 X0. Y0. Z25.\nZ2.\nG1 Z-1. F100.\n".to_owned();
+        for peck in 1..pecks {
+            let depth = 1 + 3 * peck;
+            let _ = writeln!(text, "G0 Z-{}.\nG1 Z-{depth}.", depth - 4);
+        }
+        text + "G0 Z2.\nG0 X10.\nM30\n"
+    };
+    let (run, text) = edit(&program(500), "fanuc-mill", "fold-cycle");
+    assert!(text.contains("G73 X0. Y0. Z-1498. R2. Q3."), "{text} {}", run.stderr);
+    for pecks in [512, 513, 514, 700, 1030] {
+        let (run, text) = edit(&program(pecks), "fanuc-mill", "fold-cycle");
+        assert_eq!(text, program(pecks), "{}", run.stderr);
+    }
 }
 
 #[test]

@@ -304,8 +304,9 @@ fn commands(words: &[Word], values: &[(Word, AbstractValue)], session: &Session<
             let _ = write!(name, " L{kind}");
             reads = reads.without(LetterSet::of("L"));
         }
-        let mut own: Vec<&Word> =
-            words.iter().filter(|word| !CODES.contains(word.letter) && reads.contains(word.letter)).collect();
+        // `N` of a code that has it for its rows of data is the number of its block.
+        let other = reads.without(CODES).without(UNCOMPARED);
+        let mut own: Vec<&Word> = words.iter().filter(|word| other.contains(word.letter)).collect();
         own.sort_by_key(|word| word.letter.index());
         let text = own.into_iter().map(|word| match said(word, values) {
             Said::Number(number) => Some(format!("{}{number} ", word.letter)),

@@ -393,6 +393,12 @@ impl Sides<'_> {
             Stand::Output { index, value } => format!("output {index} set to {value}"),
             Stand::WaitInput(index) => format!("waits for input {index}"),
             Stand::UserCommand(number, [p, q]) => format!("M{number} P{} Q{}", seconds(*p), seconds(*q)),
+            Stand::Row(words) => {
+                let word = |(letter, number): &(char, f64)| {
+                    if number.is_nan() { format!("{letter}?") } else { format!("{letter}{number}") }
+                };
+                format!("row of data {}", words.iter().map(word).collect::<Vec<_>>().join(" "))
+            }
             Stand::End => "program end".to_owned(),
         }
     }
