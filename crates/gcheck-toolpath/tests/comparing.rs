@@ -217,9 +217,12 @@ fn a_wait_after_the_last_cut_counts_where_one_program_ends_there() {
             stop 1"#]],
         ),
         // Posts write optional stops between tools only.
-        ("M1", expect![[r#"
+        (
+            "M1",
+            expect![[r#"
             section-removed T4@4 lines 37-47 -
-            stop 1"#]]),
+            stop 1"#]],
+        ),
     ] {
         let old = after_cut(&old, block);
         expected.assert_eq(&told(&by_tools(&old, &new)));

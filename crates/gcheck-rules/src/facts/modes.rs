@@ -4,7 +4,7 @@
 
 use crate::PathCx;
 use crate::{Finding, RuleMeta};
-use gcheck_controls::{CodeIx, Effect};
+use gcheck_controls::{Code, CodeIx, CodeNumber, Effect};
 use gcheck_engine::{Fact, Role};
 
 use crate::facts::boundary::{Boundary, boundary_range};
@@ -113,4 +113,9 @@ pub(crate) fn ignores_distance_mode(cx: &PathCx<'_>) -> bool {
                 | Effect::ToolChange
         )
     })
+}
+
+/// Do the control's data say that a code does not allow another one while it is active?
+pub(crate) fn forbids(code: Code<'_>, other: Code<'_>) -> bool {
+    code.entry().forbids.iter().any(|item| CodeNumber::parse(item) == Some(other.number()))
 }

@@ -223,6 +223,7 @@ pub(crate) mod modal {
     pub(crate) mod incremental_left_on;
     pub(crate) mod maybe_incremental_left_on;
     pub(crate) mod modal_change_in_skipped_block;
+    pub(crate) mod refused_by_mode;
     pub(crate) mod refused_in_plane;
     pub(crate) mod restart_with_changed_mode;
     pub(crate) mod safe_start_missing;
@@ -694,6 +695,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &modal::incremental_left_on::RULE,
     &modal::maybe_incremental_left_on::RULE,
     &modal::modal_change_in_skipped_block::RULE,
+    &modal::refused_by_mode::RULE,
     &modal::refused_in_plane::RULE,
     &modal::restart_with_changed_mode::RULE,
     &modal::safe_start_missing::RULE,

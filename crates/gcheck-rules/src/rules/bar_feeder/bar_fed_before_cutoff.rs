@@ -216,9 +216,14 @@ mod tests {
     #[test]
     fn to_the_centre_it_is_off_before_the_end_of_what_was_turned() {
         check_rule(&RULE, "haas-lathe", &program("", "G1 X-0.02 F0.0025\n"), &expect![[""]]);
-        check_rule(&RULE, "haas-lathe", &program("", "G1 X0.5 F0.0025\n"), &expect![[r#"
+        check_rule(
+            &RULE,
+            "haas-lathe",
+            &program("", "G1 X0.5 F0.0025\n"),
+            &expect![[r#"
             14 | G105 J0.9
                | ^^^^^^^^^ warning[bar-fed-before-cutoff] the bar is fed with the turned part still on it
-        "#]]);
+        "#]],
+        );
     }
 }

@@ -193,10 +193,15 @@ mod tests {
             )
         };
         let program = |offset: u8| format!("G20 G90\n{}{}M30\n", pocket(3, offset), pocket(7, 7));
-        check_rule(&RULE, "haas-mill", &program(7), &expect![[r#"
+        check_rule(
+            &RULE,
+            "haas-mill",
+            &program(7),
+            &expect![[r#"
             5 | G13 Z-.25 I.35 D7 F18.
               |                ^^ warning[diameter-offset-of-another-tool] tool 3 cuts with diameter offset 7 (`D7`, `T3`)
-        "#]]);
+        "#]],
+        );
         check_rule(&RULE, "haas-mill", &program(3), &expect![[""]]);
     }
 

@@ -147,10 +147,15 @@ mod tests {
         }
         // The second pass: only the third one shows that the first did not run dry.
         let second = program("X19.2").replace("X19.4", "X1.94");
-        check_rule(&RULE, "fanuc-lathe", &second, &expect![[r#"
+        check_rule(
+            &RULE,
+            "fanuc-lathe",
+            &second,
+            &expect![[r#"
             5 | X1.94
               | ^^^^^ warning[thread-pass-too-deep] the pass is deeper than its thread is high
-        "#]]);
+        "#]],
+        );
         // A first pass may run dry, of a second thread as well.
         let two = "G21 G99 T0101\nG97 S500 M3\nG0 X20. Z5.\nG32 Z-20. F1.5\nG0 X30.\nZ5.\nX19.6\nG32 Z-20.\nG0 X60.\nZ-30.\nX43.\nG32 Z-50. F1.5\nG0 X60.\nZ-30.\nX39.6\nG32 Z-50.\nG0 X60.\nM30\n";
         check_rule(&RULE, "fanuc-lathe", two, &expect![[""]]);

@@ -1,9 +1,10 @@
 //! Two modes that both follow the tilt of table or head.
 
-use gcheck_controls::{Code, CodeNumber, Effect};
+use gcheck_controls::Effect;
 use gcheck_engine::{At, Fact, Role};
 
 use crate::declare::declare_rule;
+use crate::facts::modes::forbids;
 use crate::{PathCx, PathRule, Report, Run, Severity, Uses, Watch, limit};
 use crate::{Remembers, remembers};
 
@@ -100,9 +101,4 @@ impl PathRule for TiltModesConflict {
             report.add(cx.resting_on(finding, Fact::Mode(role), &format!("`{other}`")));
         }
     }
-}
-
-/// Do the data of a code exclude another one?
-fn forbids(code: Code<'_>, other: Code<'_>) -> bool {
-    code.entry().forbids.iter().any(|item| CodeNumber::parse(item) == Some(other.number()))
 }

@@ -305,25 +305,28 @@ impl IncrementalLeftOn {
     }
 }
 
-/// Does the program move X or Y by increments between the block that set them and this one? Then that is how it is written,
-/// except where the block says where to go: it chooses a work offset, or names X and Y.
+/// Does the program move by increments between the block that set them and this one? Then that is how it is written.
+///
+/// A block that says where to go, by a work offset or by X and Y together, is taken for one in positions until an earlier one has
+/// moved X and Y together by increments.
 fn works_in_increments(cx: &PathCx<'_>) -> bool {
     const MOST: u32 = 500;
-    let names = |letter| cx.origin().letters.contains(Letter::of(letter));
-    if cx.code_of_role(Role::WorkOffset).is_some() || names('X') && names('Y') {
-        return false;
-    }
     let here = cx.origin().at;
     let Some(set) = cx.definitions().set_by(Fact::Mode(Role::Distance)).filter(|at| at.file == here.file)
     else {
         return false;
     };
+    let has_both = |letters: LetterSet| ['X', 'Y'].into_iter().all(|axis| letters.contains(Letter::of(axis)));
+    let says_where = cx.code_of_role(Role::WorkOffset).is_some() || has_both(cx.origin().letters);
     let last = here.block.min(set.block.saturating_add(MOST));
     (set.block..last).any(|block| {
         let at = At { block, ..here };
         let is_elsewhere = |word: &gcheck_program::Word| cx.model.effect(word.code).goes_to_machine_place();
-        let names = cx.place_of(at).is_some_and(|p| p.block().letters.intersects(LetterSet::of("XY")));
-        names && cx.find_word(at, is_elsewhere).is_none()
+        let moves = cx.place_of(at).is_some_and(|place| {
+            let letters = place.block().letters;
+            if says_where { has_both(letters) } else { letters.intersects(LetterSet::of("XY")) }
+        });
+        moves && cx.find_word(at, is_elsewhere).is_none()
     })
 }
 

@@ -1,17 +1,19 @@
 //! A code that a mode which is on refuses.
 
-use gcheck_controls::{Code, CodeIx, CodeNumber, Effect};
+use gcheck_controls::{CodeIx, Effect};
 use gcheck_engine::{Fact, Role};
 
 use crate::declare::declare_rule;
 use crate::facts::five_axis::{is_along_tool, is_along_vectors};
+use crate::facts::modes::forbids;
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch, limit};
 
 declare_rule! {
-    /// A code is in a block while a mode is on that does not allow it: a reference return in a canned cycle, a rapid move under polar
-    /// coordinate interpolation, a round pocket under cutter compensation.
+    /// A code is in a block while a mode is on that does not allow it: a check of the reference position in a canned cycle, a rapid
+    /// move under polar coordinate interpolation, a round pocket under cutter compensation.
     ///
-    /// What is refused under five-axis modes, by probing, in a plane and by limits of reading ahead has rules of its own.
+    /// What is refused under five-axis modes, by probing, in a plane and by limits of reading ahead has rules of its own, and
+    /// `cycle-left-on` reports reference returns in a cycle.
     ///
     /// ## Why it matters
     /// The control stops with an alarm at the block, with the tool at the part.
@@ -33,7 +35,7 @@ declare_rule! {
     /// G90 G54 G0 X0. Y0. S900 M3
     /// G43 H1 Z50.
     /// G81 Z-5. R2. F100.
-    /// G91 G28 Z0.
+    /// G27 Z0.
     /// M30
     /// ```
     /// ## Not reported
@@ -43,7 +45,7 @@ declare_rule! {
     /// G43 H1 Z50.
     /// G81 Z-5. R2. F100.
     /// G80
-    /// G91 G28 Z0.
+    /// G27 Z0.
     /// M30
     /// ```
     rule "refused-by-mode" in "modal" {
@@ -92,7 +94,7 @@ fn judge(cx: &PathCx<'_>, role: Role, mode: CodeIx, refused: CodeIx, report: &mu
     } else {
         return;
     };
-    if has_own_rule(cx, of_mode.effect(), refused) {
+    if has_own_rule(cx, role, of_mode.effect(), refused) {
         return;
     }
     let (name, other) = (of_mode.number(), code.number());
@@ -108,12 +110,7 @@ fn judge(cx: &PathCx<'_>, role: Role, mode: CodeIx, refused: CodeIx, report: &mu
     report.add(cx.resting_on(finding, Fact::Mode(role), &format!("`{name}`")));
 }
 
-/// Do the control's data say that a code refuses another one?
-fn forbids(code: Code<'_>, other: Code<'_>) -> bool {
-    code.entry().forbids.iter().any(|item| CodeNumber::parse(item) == Some(other.number()))
-}
-
-fn has_own_rule(cx: &PathCx<'_>, mode: Effect, refused: CodeIx) -> bool {
+fn has_own_rule(cx: &PathCx<'_>, role: Role, mode: Effect, refused: CodeIx) -> bool {
     let effect = cx.model.effect(refused);
     let limits_reading = cx
         .model
@@ -126,6 +123,7 @@ fn has_own_rule(cx: &PathCx<'_>, mode: Effect, refused: CodeIx) -> bool {
         || is_along_vectors(mode)
         || effect.is_probing_move()
         || effect == Effect::ProbeLength
+        || role == Role::Cycle && matches!(effect, Effect::ReturnReference(_))
         || Role::of(effect) == Some(Role::Plane)
         || limits_reading
 }
@@ -145,31 +143,27 @@ mod tests {
 
     #[test]
     fn codes_under_polar_coordinate_interpolation() {
-        check_rule(
-            &RULE,
-            "fanuc-lathe",
-            &on_the_face("G28 U0."),
-            &expect![[r#""#]],
-        );
+        check_rule(&RULE, "fanuc-lathe", &on_the_face("G28 U0."), &expect![[r#""#]]);
         check_rule(&RULE, "fanuc-lathe", &on_the_face("G1 C20."), &expect![[""]]);
         check_rule(&RULE, "fanuc-lathe", &on_the_face("G13.1 G0 X60."), &expect![[""]]);
     }
 
     #[test]
-    fn a_reference_return_in_a_cycle() {
+    fn a_check_of_the_reference_position_in_a_cycle() {
         let program = |end: &str| format!("G90 G54 G0 X0. Y0.\nG81 Z-5. R2. F100.\n{end}\nM30\n");
-        check_rule(&RULE, "fanuc-mill", &program("G28 Z10."), &expect![[""]]);
-        for end in ["G80\nG28 Z10.", "G80 G28 Z10.", "G0 Z50.\nG28 Z10."] {
+        check_rule(&RULE, "fanuc-mill", &program("G27 Z10."), &expect![[""]]);
+        // Of a return another rule tells.
+        for end in ["G80\nG27 Z10.", "G80 G27 Z10.", "G0 Z50.\nG27 Z10.", "G28 Z10."] {
             check_rule(&RULE, "fanuc-mill", &program(end), &expect![[""]]);
         }
-        // This control returns.
-        check_rule(&RULE, "haas-mill", &program("G28 Z10."), &expect![[""]]);
     }
 
     #[test]
     fn a_round_pocket_under_compensation() {
         let program = |end: &str| {
-            format!("G20 G90 G54 G0 X0. Y0. S900 M3\nG43 H1 Z0.1\nG41 D1 G1 X0.5 F20.\nX1.\n{end}G13 I0.3 Z-0.4 D1 F15.\nG40 X0.\nM30\n")
+            format!(
+                "G20 G90 G54 G0 X0. Y0. S900 M3\nG43 H1 Z0.1\nG41 D1 G1 X0.5 F20.\nX1.\n{end}G13 I0.3 Z-0.4 D1 F15.\nG40 X0.\nM30\n"
+            )
         };
         check_rule(&RULE, "haas-mill", &program(""), &expect![[""]]);
         check_rule(&RULE, "haas-mill", &program("G40 X0.\n"), &expect![[""]]);

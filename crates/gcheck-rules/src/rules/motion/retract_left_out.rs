@@ -265,10 +265,15 @@ mod tests {
         check_rule(&RULE, "fanuc-mill", &program("G53 G0 Z0.\n"), &expect![[""]]);
         // A little higher than the clearance of the others.
         let low = program("G0 Z50.\n").replace("Z50.\nG1", "Z5.\nG1");
-        check_rule(&RULE, "fanuc-mill", &low, &expect![[r#"
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            &low,
+            &expect![[r#"
             12 | T3 M6
                |    ^^ warning[retract-left-out] the tool is changed without the retract that the others have
-        "#]]);
+        "#]],
+        );
         let in_one_block = program("G91 G28 Z0. M6 T3\n").replace("T3 M6\n", "");
         check_rule(&RULE, "fanuc-mill", &in_one_block, &expect![[""]]);
         // The tool change of this control goes home by itself.

@@ -88,10 +88,15 @@ mod tests {
     #[test]
     fn one_axis_is_switched_off_and_the_other_stays() {
         let program = |off: &str| format!("G51.1 X0.\nG51.1 Y0.\nG1 X10. F100.\n{off}\nG1 X0.\nM30\n");
-        check_rule(&RULE, "fanuc-mill", &program("G50.1 X0."), &expect![[r#"
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            &program("G50.1 X0."),
+            &expect![[r#"
             6 | M30
               | ^^^ warning[mirror-left-on] the mirror image is still on at the end of the program (`G51.1`)
-        "#]]);
+        "#]],
+        );
         check_rule(&RULE, "fanuc-mill", &program("G50.1 X0. Y0."), &expect![[""]]);
     }
 

@@ -161,19 +161,29 @@ mod tests {
     fn full_turns_turn_nothing() {
         let program = |angle: &str| format!("G21 G90\nG10 L2 P2 R{angle}\nG55 G0 X20 Y0\nG1 X35 F500\nM2\n");
         check_rule(&RULE, "linuxcnc", &program("360"), &expect![[""]]);
-        check_rule(&RULE, "linuxcnc", &program("-315"), &expect![[r#"
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            &program("-315"),
+            &expect![[r#"
             2 | G10 L2 P2 R-315
               | ^^^^^^^^^^^^^^^ warning[offset-rotation-left] work offset P2 stays rotated by -315 degrees
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]
     fn offset_zero_is_the_active_one() {
         let program = "G21 G90\nG55\nG10 L2 P0 R30\nG0 X20 Y0\nG1 X35 F500\nM2\n";
-        check_rule(&RULE, "linuxcnc", program, &expect![[r#"
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            program,
+            &expect![[r#"
             3 | G10 L2 P0 R30
               | ^^^^^^^^^^^^^ warning[offset-rotation-left] work offset P2 stays rotated by 30 degrees
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]
