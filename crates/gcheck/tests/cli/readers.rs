@@ -275,7 +275,11 @@ fn junit_fits_the_schema() {
         ));
         assert_eq!(run.code, code, "{run}");
         let Some(output) = valid("out.xml") else {
-            return skip("junit_fits_the_schema", "xmllint", "`cargo xtask test` installs it (libxml2-utils)");
+            return skip(
+                "junit_fits_the_schema",
+                "xmllint",
+                "`cargo xtask test` installs it (libxml2-utils)",
+            );
         };
         let said = String::from_utf8_lossy(&output.stderr).into_owned();
         assert!(output.status.success(), "{paths}: {said}\n{}", shop.read("out.xml"));
