@@ -11,18 +11,18 @@ use std::path::PathBuf;
 use std::process::{Command, Stdio};
 
 use gcheck_testkit::corpus::{self, CorpusProgram};
+use gcheck_testkit::skips::skip;
 use rayon::prelude::*;
 use serde_json::Value;
 
 /// Seconds; the longest program that ends takes a fraction of this.
 const LIMIT: &str = "10";
 
-#[expect(clippy::print_stderr, reason = "a test that is skipped must say so where people look")]
 fn interpreter() -> Option<PathBuf> {
     let folders = env::var_os("PATH").unwrap_or_default();
     let found = env::split_paths(&folders).map(|folder| folder.join("rs274")).find(|file| file.is_file());
     if found.is_none() {
-        eprintln!("skipped: rs274 is not installed (Debian: linuxcnc-uspace)");
+        skip("shipped programs", "rs274", "`cargo xtask test` installs it (Debian: linuxcnc-uspace)");
     }
     found
 }

@@ -6,6 +6,8 @@
 use std::path::{Path, PathBuf};
 use std::{env, fs};
 
+use crate::skips::skip;
+
 /// One program of the corpus.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct CorpusProgram {
@@ -42,10 +44,9 @@ pub fn folder() -> Option<PathBuf> {
 /// The programs of the corpus (not its expected outputs and tool tables), in the order of the index.
 ///
 /// `None`, with a line on standard error that says so, where there is no corpus.
-#[expect(clippy::print_stderr, reason = "a test that is skipped must say so where people look")]
 pub fn programs() -> Option<Vec<CorpusProgram>> {
     let Some(folder) = folder() else {
-        eprintln!("skipped: no real-program corpus here (GCHECK_CORPUS)");
+        skip("a test of real programs", "corpus", "GCHECK_CORPUS names its folder");
         return None;
     };
     let index = fs::read_to_string(folder.join("index.tsv")).ok()?;

@@ -7,3 +7,4 @@ pub mod corpus;
 pub mod inputs;
 pub mod language_client;
 pub mod pieces;
+pub mod skips;

@@ -115,7 +115,11 @@ pub enum Command {
     /// List the controls
     Controls(ListOptions),
     /// Write a `gcheck.toml` with comments into this folder
-    Init,
+    Init {
+        /// Also write `gcheck.schema.json`, and the line by which editors (Even Better TOML, taplo) complete and check keys
+        #[arg(long)]
+        schema: bool,
+    },
     /// The machine in `gcheck.toml`
     #[command(subcommand)]
     Machine(MachineCommand),

@@ -8,7 +8,7 @@ use std::sync::{Arc, Mutex};
 
 use ignore::WalkBuilder;
 
-use crate::config::{Configs, PathPattern};
+use crate::config::{Configs, FILE_NAMES, PathPattern};
 use crate::{Problem, paths, reading};
 
 /// Extensions of part programs, lower case.
@@ -97,7 +97,7 @@ pub(crate) fn is_program_name(path: &Path) -> bool {
     }
 }
 
-/// Looks at each path: a file is taken whatever its name, a folder is walked.
+/// Looks at each path: a file is taken whatever its name, unless it is a configuration; a folder is walked.
 pub(crate) fn find(given: &[PathBuf], configs: &mut Configs) -> Found {
     let mut found = Found::default();
     let mut seen = BTreeSet::new();
@@ -105,9 +105,9 @@ pub(crate) fn find(given: &[PathBuf], configs: &mut Configs) -> Found {
         if path.is_dir() {
             walk(path, configs, &mut found, &mut seen);
         } else if path.exists() {
-            add(path.clone(), &mut found, &mut seen);
+            add_named(path.clone(), configs, &mut found, &mut seen);
         } else if is_pattern(path) {
-            fit(path, &mut found, &mut seen);
+            fit(path, configs, &mut found, &mut seen);
         } else {
             found.problems.push(Problem::with_file(path, "no such file or folder"));
         }
@@ -185,7 +185,7 @@ fn bad_ignore_file(folder: &Path) -> Option<Problem> {
 }
 
 /// Takes the files that fit a pattern, whatever their names, as a shell would.
-fn fit(pattern: &Path, found: &mut Found, seen: &mut BTreeSet<PathBuf>) {
+fn fit(pattern: &Path, configs: &mut Configs, found: &mut Found, seen: &mut BTreeSet<PathBuf>) {
     let is_plain = |part: &Component<'_>| !is_pattern(Path::new(part));
     let base: PathBuf = pattern.components().take_while(is_plain).collect();
     let rest: PathBuf = pattern.components().skip_while(is_plain).collect();
@@ -219,7 +219,17 @@ fn fit(pattern: &Path, found: &mut Found, seen: &mut BTreeSet<PathBuf>) {
     fitting.sort();
     for path in fitting {
         let path = path.strip_prefix(".").map_or_else(|_| path.clone(), Path::to_owned);
+        add_named(path, configs, found, seen);
+    }
+}
+
+/// Takes a file that the user names. `*` of a shell and lists of changed files also name the configuration: it is read as what
+/// it is, and a mistake in it is a problem.
+fn add_named(path: PathBuf, configs: &mut Configs, found: &mut Found, seen: &mut BTreeSet<PathBuf>) {
+    if !path.file_name().is_some_and(|name| FILE_NAMES.iter().any(|known| name == *known)) {
         add(path, found, seen);
+    } else if let Err(problem) = configs.of_file(&path) {
+        found.problems.push(problem);
     }
 }
 

@@ -99,7 +99,7 @@ fn run(arguments: &Arguments) -> Result<u8, Problem> {
         Command::Rules(options) => commands::rules::run(options),
         Command::Codes(options) => commands::codes::run(&arguments.global, options),
         Command::Controls(options) => commands::controls::run(options),
-        Command::Init => commands::init::run(&arguments.global),
+        Command::Init { schema } => commands::init::run(&arguments.global, *schema),
         Command::Machine(MachineCommand::Import(options)) => {
             commands::machine::import(&arguments.global, options)
         }

@@ -12,6 +12,7 @@ mod bench;
 #[cfg(feature = "product")]
 mod binary;
 mod blind;
+mod browser_target;
 mod competitors;
 #[cfg(feature = "product")]
 mod corpus;

@@ -17,10 +17,10 @@ use flate2::write::GzEncoder;
 use serde::Serialize;
 use wasm_bindgen_cli_support::Bindgen;
 
+use crate::browser_target::{self, NAME as TARGET};
 use crate::workspace;
 
 const PACKAGE: &str = "gcheck-playground";
-const TARGET: &str = "wasm32-unknown-unknown";
 /// Of the module and of its script.
 const NAME: &str = "gcheck";
 /// Of `Cargo.toml`; its folder in `target` must not be the one that the page goes to.
@@ -57,7 +57,10 @@ pub(crate) fn run(arguments: &[String]) -> anyhow::Result<ExitCode> {
         [option, folder] if option == "--out" => env::current_dir()?.join(folder),
         _ => bail!("usage: cargo xtask playground [--out FOLDER]"),
     };
-    ensure!(has_target()?, "Rust cannot build for {TARGET}; `rustup target add {TARGET}` installs that");
+    ensure!(
+        browser_target::is_installed()?,
+        "Rust cannot build for {TARGET}; `rustup target add {TARGET}` installs that"
+    );
     let module = build(&target_folder)?;
     fs::create_dir_all(&out).with_context(|| out.display().to_string())?;
     let mut bindgen = Bindgen::new();
@@ -79,18 +82,6 @@ pub(crate) fn run(arguments: &[String]) -> anyhow::Result<ExitCode> {
     println!("{}", out.join("index.html").display());
     ensure!(packed <= MOST, "the packed module has more than {MOST} bytes");
     Ok(ExitCode::SUCCESS)
-}
-
-/// Can this Rust build modules?
-fn has_target() -> anyhow::Result<bool> {
-    let rustc = env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
-    let output = Command::new(rustc)
-        .current_dir(workspace::root())
-        .args(["--print", "target-libdir", "--target", TARGET])
-        .output()
-        .context("rustc does not start")?;
-    let folder = String::from_utf8_lossy(&output.stdout).trim().to_owned();
-    Ok(output.status.success() && Path::new(&folder).is_dir())
 }
 
 /// Builds the module as the linker leaves it.

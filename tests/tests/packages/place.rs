@@ -10,6 +10,7 @@ use std::process::Command;
 use std::sync::OnceLock;
 
 use gcheck_packages::{Build, Names, Package, Papers, SHELLS, Target};
+use gcheck_testkit::skips::skip;
 use tempfile::TempDir;
 
 /// The version of the packages, which is that of the binary.
@@ -149,7 +150,7 @@ impl Place {
         let folders = std::env::var_os("PATH").unwrap_or_default();
         let has = std::env::split_paths(&folders).any(|folder| folder.join(program).is_file());
         if !has {
-            eprintln!("passed over: {program} is not installed");
+            skip("a test of packages", program, "install it");
         }
         has
     }
@@ -160,7 +161,7 @@ impl Place {
             && self.run("python3", &["-m", "venv", "--without-pip", "venv"]).0 == 0
             && self.run("python3", &["-m", "pip", "--python", "venv/bin/python", "--version"]).0 == 0;
         if !has {
-            eprintln!("passed over: python3 has no pip from 22.3 on, or no virtual environments");
+            skip("a test of the wheel", "pip from 22.3 on with virtual environments", "install python3-venv");
         }
         has
     }

@@ -14,6 +14,7 @@ use std::process::Command;
 
 use flate2::Compression;
 use flate2::write::GzEncoder;
+use gcheck_testkit::skips::skip;
 use serde_json::{Value, json};
 
 /// What the module is built for.
@@ -22,6 +23,9 @@ const TARGET: &str = "wasm32-unknown-unknown";
 const MOST_BYTES: usize = 3_000_000;
 /// Milliseconds for the findings of 1,000 lines.
 const MOST_MILLISECONDS: f64 = 200.0;
+/// The picture that the page about the playground shows, and its size: that of the window in `look.mjs`.
+const PICTURE: &str = "docs/pictures/playground.png";
+const WINDOW: [u32; 2] = [1360, 860];
 /// Where a browser may be.
 const BROWSERS: [&str; 4] = [
     "/usr/bin/chromium",
@@ -69,6 +73,20 @@ fn packed(file: &Path) -> usize {
     packer.finish().expect("memory can be written").len()
 }
 
+/// Width and height in the first chunk of a PNG.
+fn size(png: &[u8]) -> [u32; 2] {
+    assert!(png.starts_with(b"\x89PNG\r\n\x1a\n"), "not a PNG");
+    [16, 20].map(|at| u32::from_be_bytes(png[at..at + 4].try_into().expect("four bytes")))
+}
+
+/// The test below takes it: `UPDATE_EXPECT=1` puts what it took there.
+#[test]
+fn the_page_about_the_playground_shows_it() {
+    let page = fs::read_to_string(root().join("docs/playground.md")).expect("the page is there");
+    assert!(page.contains(PICTURE.strip_prefix("docs/").unwrap_or_default()), "the page shows {PICTURE}");
+    assert_eq!(size(&fs::read(root().join(PICTURE)).expect("the picture is there")), WINDOW);
+}
+
 #[test]
 fn a_program_is_checked_in_a_browser() {
     let tools = root().join(".test-tools");
@@ -81,8 +99,7 @@ fn a_program_is_checked_in_a_browser() {
         None
     };
     if let Some(why) = why {
-        eprintln!("skipped: the playground, {why}");
-        return;
+        return skip("a_program_is_checked_in_a_browser", &why, "`cargo xtask test` installs it");
     }
     let folder = built();
     let bytes = packed(&folder.join("gcheck_bg.wasm"));
@@ -98,6 +115,11 @@ fn a_program_is_checked_in_a_browser() {
         .expect("node starts");
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let seen: Value = serde_json::from_slice(&output.stdout).expect("the script prints JSON");
+    let taken = fs::read(pictures.join("light.png")).expect("the script takes it");
+    assert_eq!(size(&taken), WINDOW);
+    if env::var_os("UPDATE_EXPECT").is_some() {
+        fs::write(root().join(PICTURE), taken).expect("the picture can be written");
+    }
     let text = |key: &str| seen[key].as_str().unwrap_or_else(|| panic!("{key}: {seen:#}")).to_owned();
     let has = |key: &str, part: &str| assert!(seen[key].to_string().contains(part), "{key}: {seen:#}");
 

@@ -7,14 +7,18 @@ use std::path::{Path, PathBuf};
 
 use crate::args::Global;
 use crate::config::{Configs, FILE_NAMES, validate_control};
-use crate::{Problem, detection, discovery, output, reading};
+use crate::{Problem, config, detection, discovery, output, reading};
+
+/// The schema beside the configuration: editors read it from there, of the version that wrote it and without a network.
+const SCHEMA_FILE: &str = "gcheck.schema.json";
 
 /// Programs that are looked at to find the control of the folder, at most.
 const LOOKED_AT: usize = 200;
 
-/// Writes the file; refuses to write over one.
-pub(crate) fn run(global: &Global) -> Result<u8, Problem> {
-    if let Some(existing) = FILE_NAMES.iter().map(Path::new).find(|path| path.symlink_metadata().is_ok()) {
+/// Writes the file, and the schema that it names if `with_schema`; refuses to write over one.
+pub(crate) fn run(global: &Global, with_schema: bool) -> Result<u8, Problem> {
+    let names = FILE_NAMES.iter().chain(with_schema.then_some(&SCHEMA_FILE));
+    if let Some(existing) = names.map(Path::new).find(|path| path.symlink_metadata().is_ok()) {
         return Err(Problem::with_file(existing, "is here already; it was left as it is"));
     }
     let (line, remark, control) = match &global.control {
@@ -30,9 +34,17 @@ pub(crate) fn run(global: &Global) -> Result<u8, Problem> {
     };
     let names = gcheck_controls::names().join(", ");
     let setting = setting_line(control.as_deref());
-    let text = TEMPLATE.replace("{control}", &line).replace("{setting}", &setting).replace("{names}", &names);
+    let schema = if with_schema { format!("#:schema ./{SCHEMA_FILE}\n") } else { String::new() };
+    let text = TEMPLATE
+        .replace("{schema}", &schema)
+        .replace("{control}", &line)
+        .replace("{setting}", &setting)
+        .replace("{names}", &names);
     let path = Path::new(FILE_NAMES.first().copied().unwrap_or_default());
     output::to_file(path, |out| out.write_all(text.as_bytes()))?;
+    if with_schema {
+        output::to_file(Path::new(SCHEMA_FILE), |out| out.write_all(config::schema().as_bytes()))?;
+    }
     output::print(&format!("wrote {}: {remark}\nnext: `gcheck check`\n", path.display()))
 }
 
@@ -106,8 +118,8 @@ fn control_line(counts: &BTreeMap<String, usize>) -> String {
     )
 }
 
-const TEMPLATE: &str = r#"# Configuration of gcheck for the programs in this folder and below.
-# `gcheck schema` prints every key; `gcheck check --show-settings` what is in force for a program.
+const TEMPLATE: &str = r#"{schema}# Configuration of gcheck for the programs in this folder and below.
+# `gcheck schema` prints every key (`gcheck init --schema` has editors read it); `gcheck check --show-settings` what is in force for a program.
 
 # The control that runs the programs: {names}.
 {control}

@@ -6,6 +6,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use gcheck_testkit::skips::skip;
 use serde_json::Value;
 
 use crate::shop::{BAD, GOOD, Run, Shop};
@@ -167,6 +168,20 @@ fn scripts_of_workflows_are_shell_without_foreign_text_in_them() {
     }
 }
 
+/// A tool that `.ci/run` demands in CI is installed before it, in a version that is named.
+#[test]
+fn ci_installs_the_checker_of_advisories() {
+    let workflow = yaml(".github/workflows/ci.yml");
+    let steps = workflow["jobs"]["test"]["steps"].as_array().unwrap();
+    let at = |wanted: &dyn Fn(&Value) -> bool| steps.iter().position(wanted).unwrap();
+    let installed = at(&|step| {
+        let tool = step["with"]["tool"].as_str().unwrap_or_default();
+        tool.strip_prefix("cargo-deny@")
+            .is_some_and(|version| version.split('.').count() == 3 && !version.is_empty())
+    });
+    assert!(installed < at(&|step| step["run"] == ".ci/run"));
+}
+
 /// Options and formats in the recipes of docs/ci.md are those of the program.
 #[test]
 fn recipes_name_options_that_exist() {
@@ -249,24 +264,180 @@ fn recipes_for_hooks_and_linters_find_what_is_wrong() {
     }
 }
 
+/// A shop whose program has a finding of every severity, and its lines as the recipe for nvim-lint gets them.
 #[cfg(unix)]
-#[test]
-fn recipes_for_editors_without_the_server_print_findings_a_line() {
-    let shop = Shop::with(&[("gcheck.toml", "control = \"haas-mill\"\n"), ("bad.nc", BAD)]);
+fn one_of_each_severity() -> (Shop, Run) {
+    let configuration = "control = \"haas-mill\"\n\
+                         [rules]\n\
+                         lasting-word-never-given = \"info\"\n\
+                         missing-decimal-point = \"hint\"\n";
+    let program = "%\nO0001 (EACH)\nG999\nG43 Z5.\nG0 X15\nG1 Y3. F200.\nM30\n%\n";
+    let shop = Shop::with(&[("gcheck.toml", configuration), ("bad.nc", program)]);
     let lua =
         blocks("docs/editors.md", "lua").into_iter().find(|block| block.contains("linters.gcheck")).unwrap();
     let arguments = lua.split("args = {").nth(1).unwrap().split('}').next().unwrap().replace(['"', ','], " ");
-    let efm: Value = serde_saphyr::from_str(&blocks("docs/editors.md", "yaml")[0]).unwrap();
-    let efm = efm["tools"]["gcheck"]["lint-command"].as_str().unwrap().replace("${INPUT}", "bad.nc");
-    let by_name = shell(&shop, &format!("gcheck {arguments} bad.nc"), b"");
-    let by_text = shell(&shop, &efm, BAD.as_bytes());
+    let run = shell(&shop, &format!("gcheck {arguments} bad.nc"), b"");
+    (shop, run)
+}
+
+/// The recipe for efm-langserver, and its tool.
+#[cfg(unix)]
+fn efm_recipe() -> (String, Value) {
+    let text =
+        blocks("docs/editors.md", "yaml").into_iter().find(|block| block.contains("lint-formats")).unwrap();
+    let recipe: Value = serde_saphyr::from_str(&text).unwrap();
+    (text, recipe["tools"]["gcheck"].clone())
+}
+
+/// The fields of a line by a format of efm-langserver: `%f`, `%l`, `%c`, `%t`, `%m`; `%*[^…]` is a run of other characters,
+/// whose list ends with the first `]`. What else is in the format is a regular expression there.
+#[cfg(unix)]
+fn fields(format: &str, line: &str) -> Option<BTreeMap<char, String>> {
+    let Some(first) = format.chars().next() else { return line.is_empty().then(BTreeMap::new) };
+    let (length, field, accepts): (usize, Option<char>, Box<dyn Fn(char) -> bool>) =
+        match format.strip_prefix('%') {
+            Some(rest) if rest.starts_with("*[^") => {
+                let (others, _) = rest[3..].split_once(']').unwrap();
+                assert!(!others.is_empty(), "an empty list in {format}");
+                let others = others.to_owned();
+                (others.len() + 5, None, Box::new(move |c| !others.contains(c)))
+            }
+            Some(rest) => match rest.chars().next().unwrap() {
+                digits @ ('l' | 'c') => (2, Some(digits), Box::new(|c: char| c.is_ascii_digit())),
+                any @ ('f' | 't' | 'm') => (2, Some(any), Box::new(|_| true)),
+                other => panic!("unknown field `%{other}`"),
+            },
+            None => {
+                assert!(!"[](){}*+?.|^$\\".contains(first), "`{first}` is not itself in {format}");
+                let rest = line.strip_prefix(first)?;
+                return fields(&format[first.len_utf8()..], rest);
+            }
+        };
+    let most = if field == Some('t') { 1 } else { usize::MAX };
+    let ends = line.char_indices().take_while(|(_, c)| accepts(*c)).take(most);
+    let ends = ends.map(|(at, c)| at + c.len_utf8());
+    for end in ends.collect::<Vec<_>>() {
+        if let Some(mut found) = fields(&format[length..], &line[end..]) {
+            found.extend(field.map(|name| (name, line[..end].to_owned())));
+            return Some(found);
+        }
+    }
+    None
+}
+
+#[cfg(unix)]
+#[test]
+fn recipes_for_editors_without_the_server_print_findings_a_line() {
+    let (shop, by_name) = one_of_each_severity();
+    let (_, tool) = efm_recipe();
+    let command = tool["lint-command"].as_str().unwrap().replace("${INPUT}", "bad.nc");
+    let by_text = shell(&shop, &command, shop.read("bad.nc").as_bytes());
     assert_eq!(by_name.stdout, by_text.stdout);
     let lines: Vec<[&str; 6]> = by_name.stdout.lines().filter_map(taken_apart).collect();
     assert_eq!(lines.len(), by_name.stdout.lines().count(), "{by_name}");
-    assert!(
-        lines.iter().any(|line| line[0] == "bad.nc" && line[3] == "error" && line[4] == "unknown-code"),
-        "{lines:?}"
-    );
+    let severities: Vec<&str> = lines.iter().map(|line| line[3]).collect();
+    for severity in ["error", "warning", "info", "hint"] {
+        assert!(severities.contains(&severity), "no {severity}: {by_name}");
+    }
+    let formats = tool["lint-formats"].as_array().unwrap();
+    for (line, [file, row, column, severity, _, message]) in by_name.stdout.lines().zip(lines) {
+        let read = formats.iter().find_map(|format| fields(format.as_str().unwrap(), line));
+        let read = read.unwrap_or_else(|| panic!("no format reads `{line}`"));
+        assert_eq!(
+            [&read[&'f'], &read[&'l'], &read[&'c'], &read[&'t'], &read[&'m']],
+            [file, row, column, &severity[..1], message],
+            "{line}"
+        );
+    }
+}
+
+/// Reads messages of the language server until one with a member.
+#[cfg(unix)]
+fn message_with(input: &mut impl std::io::BufRead, method: &str) -> Value {
+    loop {
+        let mut length = 0;
+        loop {
+            let mut header = String::new();
+            assert!(input.read_line(&mut header).unwrap() > 0, "the server ended before {method}");
+            match header.trim_end().split_once(": ") {
+                Some(("Content-Length", number)) => length = number.parse().unwrap(),
+                Some(_) => {}
+                None => break,
+            }
+        }
+        let mut body = vec![0; length];
+        input.read_exact(&mut body).unwrap();
+        let message: Value = serde_json::from_slice(&body).unwrap();
+        if message["method"] == method {
+            return message;
+        }
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn efm_publishes_every_finding_with_its_severity() {
+    use std::io::Write as _;
+
+    let (shop, run) = one_of_each_severity();
+    let (recipe, tool) = efm_recipe();
+    shop.file("config.yaml", recipe);
+    let mut command = Command::new("efm-langserver");
+    // It writes what it does on standard error.
+    command.args(["-q", "-c", "config.yaml"]).current_dir(shop.path("")).stderr(std::process::Stdio::null());
+    let bin = Path::new(env!("CARGO_BIN_EXE_gcheck")).parent().unwrap().to_string_lossy().into_owned();
+    command.env("PATH", format!("{bin}:{}", std::env::var("PATH").unwrap()));
+    command.stdin(std::process::Stdio::piped()).stdout(std::process::Stdio::piped());
+    let Ok(mut server) = command.spawn() else {
+        return skip("efm_publishes_every_finding", "efm-langserver", "`cargo xtask test` installs it");
+    };
+    let (mut input, output) = (server.stdin.take().unwrap(), server.stdout.take().unwrap());
+    let mut send = |message: Value| {
+        let body = message.to_string();
+        write!(input, "Content-Length: {}\r\n\r\n{body}", body.len()).unwrap();
+    };
+    let uri = |name: &str| format!("file://{}", shop.path(name).display());
+    let root = format!("file://{}", shop.path("").display());
+    let initialize =
+        serde_json::json!({ "processId": null, "rootUri": root.trim_end_matches('/'), "capabilities": {} });
+    send(serde_json::json!({ "jsonrpc": "2.0", "id": 1, "method": "initialize", "params": initialize }));
+    send(serde_json::json!({ "jsonrpc": "2.0", "method": "initialized", "params": {} }));
+    let document = serde_json::json!({
+        "uri": uri("bad.nc"), "languageId": "gcode", "version": 1, "text": shop.read("bad.nc")
+    });
+    let opened = serde_json::json!({ "textDocument": document });
+    send(serde_json::json!({ "jsonrpc": "2.0", "method": "textDocument/didOpen", "params": opened }));
+    let mut output = std::io::BufReader::new(output);
+    let published = message_with(&mut output, "textDocument/publishDiagnostics");
+    let diagnostics = published["params"]["diagnostics"].as_array().unwrap();
+    let said: Vec<String> = diagnostics
+        .iter()
+        .map(|one| {
+            let severity = match one["severity"].as_u64().unwrap() {
+                1 => "error",
+                2 => "warning",
+                3 => "info",
+                _ => "hint",
+            };
+            let start = &one["range"]["start"];
+            let at = |key: &str| start[key].as_u64().unwrap() + 1;
+            let source = tool["lint-source"].as_str();
+            assert_eq!(one["source"].as_str(), source);
+            format!("{}:{}: {severity} {}", at("line"), at("character"), one["message"].as_str().unwrap())
+        })
+        .collect();
+    let expected: Vec<String> = run
+        .stdout
+        .lines()
+        .map(|line| {
+            let [_, row, column, severity, _, message] = taken_apart(line).unwrap();
+            format!("{row}:{column}: {severity} {message}")
+        })
+        .collect();
+    // Its input ends, so it ends.
+    drop(input);
+    assert_eq!(said, expected);
+    server.wait().unwrap();
 }
 
 /// Settings of editors and containers are JSON, and what they start and install exists.
@@ -344,7 +515,7 @@ fn the_book_builds_without_a_warning() {
     let mut command = Command::new(mdbook);
     command.arg("build").arg(root().join("docs")).arg("--dest-dir").arg(shop.path("book"));
     let Ok(output) = command.output() else {
-        eprintln!("skipped: the_book_builds_without_a_warning (no mdbook; `cargo xtask test` installs it)");
+        skip("the_book_builds_without_a_warning", "mdbook", "`cargo xtask test` installs it");
         return;
     };
     let said =

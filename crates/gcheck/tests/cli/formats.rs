@@ -4,6 +4,7 @@ use std::path::Path;
 use std::process::Command;
 
 use expect_test::expect;
+use gcheck_testkit::skips::skip;
 use serde_json::Value;
 
 use crate::shop::{Shop, WARNED};
@@ -183,7 +184,7 @@ fn sarif_is_valid() {
     let validator = "node_modules/@microsoft/sarif-multitool-linux/Sarif.Multitool";
     let validator = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../.test-tools").join(validator);
     if !validator.exists() {
-        eprintln!("skipped: sarif_is_valid (no {}; `cargo xtask test` installs it)", validator.display());
+        skip("sarif_is_valid", "SARIF validator", "`cargo xtask test` installs it");
         return;
     }
     let shop = shop();

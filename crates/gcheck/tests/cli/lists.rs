@@ -1,5 +1,7 @@
 //! The commands that tell about gcheck itself: `explain`, `rules`, `codes`, `controls`, `init`, `schema`, `completions`.
 
+use std::fs;
+
 use expect_test::{Expect, expect};
 use serde_json::Value;
 
@@ -260,6 +262,22 @@ fn init_writes_a_configuration_that_is_valid() {
     let run = shop.gcheck("check --output-format json");
     assert_eq!(run.code, 0, "{run}");
     assert_eq!(run.json()["files"][0]["control"]["source"], "configuration");
+}
+
+/// Editors read the first line: `#:schema`, and a path from the folder of the file.
+#[test]
+fn init_names_the_schema_beside_it() {
+    let shop = Shop::new();
+    assert_eq!(shop.gcheck("init --schema --control haas-mill").code, 0);
+    assert_eq!(shop.names(), ["gcheck.schema.json", "gcheck.toml"]);
+    let text = shop.read("gcheck.toml");
+    let named = text.lines().next().unwrap().strip_prefix("#:schema ./").unwrap();
+    assert_eq!(shop.read(named), shop.gcheck("schema").stdout);
+    // What was there is left as it is.
+    fs::remove_file(shop.path("gcheck.toml")).unwrap();
+    let again = shop.gcheck("init --schema");
+    assert_eq!(again.stderr, "error: gcheck.schema.json: is here already; it was left as it is\n");
+    assert_eq!(shop.names(), ["gcheck.schema.json"]);
 }
 
 /// One line for all would be wrong for many of them.

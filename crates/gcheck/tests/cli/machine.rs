@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 
 use expect_test::{Expect, expect};
+use gcheck_testkit::skips::skip;
 
 use crate::shop::{GOOD, Shop};
 
@@ -1799,7 +1800,7 @@ fn a_pipe_is_refused_before_it_is_opened() {
     let shop = Shop::with(&[("dump.txt", SETTINGS)]);
     let made = std::process::Command::new("mkfifo").arg(shop.path("pipe.ini")).status();
     if !made.is_ok_and(|status| status.success()) {
-        return eprintln!("skipped: a_pipe_is_refused_before_it_is_opened (no mkfifo)");
+        return skip("a_pipe_is_refused_before_it_is_opened", "mkfifo", "it is one of the coreutils");
     }
     expect![[r#"
         ! error: pipe.ini: cannot read: it is a pipe, a device or a folder, not a file

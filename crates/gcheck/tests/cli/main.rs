@@ -8,7 +8,6 @@
     clippy::indexing_slicing,
     reason = "a test that meets the unexpected is to fail"
 )]
-#![expect(clippy::print_stderr, reason = "a test that is skipped says so")]
 
 mod bad_input;
 mod baseline;
@@ -32,6 +31,7 @@ mod machine_files;
 mod output;
 mod plot;
 mod presets;
+mod rare_infos;
 mod readers;
 mod resources;
 mod run;

@@ -5,6 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use gcheck_testkit::skips::skip;
 use serde_json::Value;
 
 use crate::shop::Shop;
@@ -238,10 +239,7 @@ fn run_script(script: &str, page: &Path) -> Option<Value> {
     let tools = crate_folder.join("../../.test-tools");
     let browser = BROWSERS.iter().map(Path::new).find(|path| path.exists());
     let (Some(browser), true) = (browser, tools.join("node_modules/playwright-core").exists()) else {
-        eprintln!(
-            "skipped: {script} (no Chromium, or no playwright-core in {}; `cargo xtask test` installs both)",
-            tools.display()
-        );
+        skip(script, "Chromium or playwright-core", "`cargo xtask test` installs both");
         return None;
     };
     // Pictures of the last run stay for people to look at.

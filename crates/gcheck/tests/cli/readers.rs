@@ -1,10 +1,12 @@
 //! Formats that other programs read, read as they do: strictly, by what their documentation and schemas ask for.
 //!
-//! SARIF has a validator of its own (see `formats`). The others have none that could be had everywhere, so each has a reader
-//! here that refuses what it does not know.
+//! SARIF has a validator of its own (see `formats`), and `xmllint` holds JUnit against a schema (`junit.xsd`). GitLab publishes no
+//! schema, and the others have no validator that could be had everywhere, so each has a reader here that refuses what it
+//! does not know.
 
 use std::collections::BTreeSet;
 
+use gcheck_testkit::skips::skip;
 use quick_xml::Reader;
 use quick_xml::events::{BytesStart, Event};
 use serde_json::{Map, Value};
@@ -255,6 +257,38 @@ fn junit() {
     let with_findings: BTreeSet<&str> = findings.iter().map(|finding| text(&finding["file"])).collect();
     let programs = root.children.len();
     assert_eq!(tests, findings.len() + programs - with_findings.len(), "and the programs without findings");
+}
+
+/// Findings that fail, findings that do not, a program without any, a file that is missing; and nothing at all.
+#[test]
+fn junit_fits_the_schema() {
+    let shop = shop();
+    shop.file("empty/notes.txt", "");
+    let schema = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/cli/junit.xsd");
+    let valid = |report: &str| {
+        let mut command = std::process::Command::new("xmllint");
+        command.args(["--noout", "--schema"]).arg(&schema).arg(shop.path(report)).output().ok()
+    };
+    for (paths, code) in [(". gone.nc", 2), (".", 1), ("empty", 0)] {
+        let run = shop.gcheck(&format!(
+            "check {paths} --control haas-mill --extend-select all --output-format junit -o out.xml"
+        ));
+        assert_eq!(run.code, code, "{run}");
+        let Some(output) = valid("out.xml") else {
+            return skip(
+                "junit_fits_the_schema",
+                "xmllint",
+                "`cargo xtask test` installs it (libxml2-utils)",
+            );
+        };
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(output.status.success(), "{paths}: {said}\n{}", shop.read("out.xml"));
+    }
+    // The schema can refuse: `file` is known at the suite alone.
+    let wrong = "<testsuites><testsuite name=\"a\" tests=\"1\" failures=\"0\" errors=\"0\">\
+                 <testcase name=\"b\" file=\"a\"/></testsuite></testsuites>";
+    shop.file("wrong.xml", wrong);
+    assert!(!valid("wrong.xml").unwrap().status.success());
 }
 
 /// A workflow command, as the runner reads it: `::name key=value,…::message`.

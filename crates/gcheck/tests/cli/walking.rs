@@ -78,6 +78,28 @@ fn a_named_file_is_always_read() {
 
 #[cfg(unix)]
 #[test]
+fn a_configuration_among_the_named_files_is_not_a_program() {
+    let shop = Shop::with(&[("gcheck.toml", "control = \"haas-mill\"\n"), ("a.nc", GOOD), ("b.nc", BAD)]);
+    shop.file(".gcheck.toml", "control = \"haas-mill\"\n");
+    shop.file("changed.txt", "a.nc\ngcheck.toml\n");
+    // As a shell expands `*`, as gcheck does, and as a list of changed files has it.
+    check_files(&shop, "a.nc b.nc gcheck.toml .gcheck.toml", &["a.nc", "b.nc"]);
+    check_files(&shop, "[abg.]*[cl]", &["a.nc", "b.nc"]);
+    check_files(&shop, "--files-from changed.txt", &["a.nc"]);
+    assert_eq!(shop.gcheck("check a.nc gcheck.toml").code, 0);
+    let alone = shop.gcheck("check gcheck.toml");
+    assert_eq!((alone.code, alone.stdout.as_str()), (0, "no programs found\n"), "{alone}");
+    // Named alone it is checked as what it is.
+    shop.file("gcheck.toml", "contrl = 1\n");
+    let wrong = shop.gcheck("check gcheck.toml");
+    assert_eq!(wrong.code, 2, "{wrong}");
+    assert_eq!(wrong.stderr.matches("unknown key `contrl`").count(), 1, "{wrong}");
+    shop.file("sub/gcheck.toml", "contrl = 1\n");
+    shop.file("gcheck.toml", "");
+    assert_eq!(shop.gcheck("check a.nc sub/gcheck.toml").code, 2);
+}
+
+#[test]
 fn links_are_no_trap() {
     use std::os::unix::fs::symlink;
 

@@ -12,8 +12,17 @@ use gcheck_syntax::SourceText;
 /// What the name of the example's file is.
 const NAME: &str = "part.nc";
 
+/// A finding, and what it says to do.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Rendered {
+    /// As `gcheck check` prints it.
+    pub(super) text: String,
+    /// Its help, then what its fixes do.
+    pub(super) remedies: Vec<String>,
+}
+
 /// The rule's first finding in the example; `None` where there is none, as in a rule that needs more than one file.
-pub(super) fn finding(rule: &RuleEntry, example: &DocExample) -> Option<String> {
+pub(super) fn finding(rule: &RuleEntry, example: &DocExample) -> Option<Rendered> {
     let control = gcheck_controls::load(&example.control).ok()?;
     let dialect = Dialect::new(&control);
     let machine = MachineFacts::default();
@@ -32,10 +41,12 @@ pub(super) fn finding(rule: &RuleEntry, example: &DocExample) -> Option<String> 
     let execution = Execution::default();
     let job = Job { source: &source, environment, selection: &selection, suppressions: true, execution };
     let found = check(&job).findings.into_iter().find(|found| std::ptr::eq(found.rule, rule.meta))?;
+    let fixes = found.fixes.iter().map(|fix| fix.title.clone());
+    let remedies = found.help.iter().cloned().chain(fixes).collect();
     let choice =
         ControlChoice { name: example.control.clone(), source: ControlSource::Option, because: None };
     let report = Report::new(vec![FileReport::new(NAME.to_owned(), source, choice, vec![found])]);
     let mut out = Vec::new();
     gcheck_report::write(&report, Format::Full, Colour::Plain, &mut out).ok()?;
-    Some(String::from_utf8_lossy(&out).trim_end().to_owned())
+    Some(Rendered { text: String::from_utf8_lossy(&out).trim_end().to_owned(), remedies })
 }

@@ -54,12 +54,43 @@ fn page(entry: &RuleEntry) -> String {
     text.push('\n');
     let examples = rule.examples();
     let mut examples = examples.iter();
+    let mut remedies: Vec<String> = Vec::new();
     let rendered = || {
         let example = examples.next().filter(|example| example.reported)?;
-        rendered::finding(entry, example)
+        let finding = rendered::finding(entry, example)?;
+        remedies.extend(finding.remedies);
+        Some(finding.text)
     };
     text.push_str(&with_plainsides(&rule.docs(), rendered));
+    text.push_str(&fixed(rule, &remedies));
     text.push_str(&switched_off(rule));
+    text
+}
+
+/// What to do, as the findings of the examples say it; each once.
+fn fixed(rule: &RuleMeta, remedies: &[String]) -> String {
+    let mut lines: Vec<String> = Vec::new();
+    for remedy in remedies {
+        let mut letters = remedy.chars();
+        let first = letters.next().map(|letter| letter.to_ascii_uppercase());
+        let line: String = first.into_iter().chain(letters).collect();
+        let line = format!("* {}.", line.trim_end_matches('.'));
+        if !lines.contains(&line) {
+            lines.push(line);
+        }
+    }
+    if lines.is_empty() {
+        return String::new();
+    }
+    let mut text = String::from("\n## How to fix it\n\nThe findings above say:\n\n");
+    text.push_str(&lines.join("\n"));
+    text.push('\n');
+    match rule.fixability.option() {
+        "" => {}
+        option => {
+            let _ = writeln!(text, "\n`{option}` writes the fix into the program.");
+        }
+    }
     text
 }
 
@@ -203,6 +234,27 @@ mod tests {
             "## Reported\n\nOn `a-mill`:\n\n```nc\nG4\n```\n\n```text\nerror[a]: b\n  1 | G4\n```\n\n## Not reported\n\nOn `a-mill`:\n\n\
              ```nc\nG4 P1.\n```\n"
         );
+    }
+
+    #[test]
+    fn remedies_are_said_once_as_sentences() {
+        let rule = gcheck_rules::RULES.iter().find(|rule| rule.meta.fixability.option().is_empty()).unwrap();
+        let remedies = ["`M5` first".to_owned(), "write `F`".to_owned(), "write `F`".to_owned()];
+        assert_eq!(
+            super::fixed(rule.meta, &remedies),
+            "\n## How to fix it\n\nThe findings above say:\n\n* `M5` first.\n* Write `F`.\n"
+        );
+        assert_eq!(super::fixed(rule.meta, &[]), "");
+    }
+
+    /// Findings that need a machine or other files have no example that is rendered here.
+    #[test]
+    fn a_page_with_help_in_a_finding_says_how_to_fix_it() {
+        for rule in gcheck_rules::RULES {
+            let page = super::page(rule);
+            let has_help = page.contains("= help: ");
+            assert!(!has_help || page.contains("\n## How to fix it\n"), "{}", rule.meta.id);
+        }
     }
 
     #[test]

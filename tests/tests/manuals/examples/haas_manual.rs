@@ -5,6 +5,8 @@
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
+use gcheck_testkit::skips::skip;
+
 use super::example::{Expected, Tally};
 use crate::proof::on;
 
@@ -51,11 +53,10 @@ pub(super) enum Part {
 }
 
 /// Checks and runs every example; without the manual it says so and skips.
-#[expect(clippy::print_stderr, reason = "a test that is skipped must say so where people look")]
 pub(super) fn every_example(examples: &[Example], title: &str) {
     let manual = match Manual::read() {
         Ok(manual) => manual,
-        Err(why) => return eprintln!("skipped: {why}"),
+        Err(why) => return skip(title, "manuals", &why),
     };
     let mut tally = Tally::default();
     for example in examples {

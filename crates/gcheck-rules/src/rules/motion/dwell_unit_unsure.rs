@@ -9,21 +9,26 @@ use crate::{PathCx, PathRule, Report, Run, Watch};
 use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// Some controls read the time of this dwell in seconds and others in milliseconds, and the control was guessed,
-    /// not configured.
+    /// Some controls read the time of this dwell in seconds and others in milliseconds, both times are usual ones, and the
+    /// control was guessed, not configured.
     ///
     /// ## Why it matters
-    /// `G4 P500` is half a second on one control and more than eight minutes on another. All reported times depend on
-    /// the guess. The rule reports once per program.
+    /// `G4 P100` is a tenth of a second on one control and more than a minute and a half on another. All reported times
+    /// depend on the guess. The rule reports once per program.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill,guessed
-    /// G4 P500
+    /// G4 P100
     /// M30
     /// ```
     /// ## Not reported
     /// The control is configured.
     /// ```nc,quiet,haas-mill
+    /// G4 P100
+    /// M30
+    /// ```
+    /// Half a second: nobody waits the eight minutes of the other reading.
+    /// ```nc,quiet,haas-mill,guessed
     /// G4 P500
     /// M30
     /// ```
@@ -57,10 +62,11 @@ impl PathRule for DwellUnitUnsure {
         let Event::Dwell(time) = event else { return };
         // Other rules report very long and very short dwells; the shortest one only keeps the control from reading
         // ahead.
-        if self.is_told || time.0 >= LONG || time.0 < SHORT {
+        let is_usual = |seconds: &f64| (SHORT..LONG).contains(seconds);
+        if self.is_told || !is_usual(&time.0) {
             return;
         }
-        let Some(other) = other_reading(cx, time.0) else { return };
+        let Some(other) = other_reading(cx, time.0).filter(is_usual) else { return };
         self.is_told = true;
         let p = Letter::of('P');
         let (here, there) = (duration(time.0), duration(other));
@@ -98,21 +104,21 @@ mod tests {
         check_rule_in(
             &RULE,
             "generic-mill",
-            "G4 X1.5\nG4 P800\nG4 P900\nM30\n",
+            "G4 X1.5\nG4 P800\nG4 P200\nG4 P100\nM30\n",
             &guessed(),
             &expect![[r#"
-                2 | G4 P800
-                  |    ^^^^ info[dwell-unit-unsure] dwell of 0.8 seconds, on other controls of 13 minutes
+                3 | G4 P200
+                  |    ^^^^ info[dwell-unit-unsure] dwell of 0.2 seconds, on other controls of 3.3 minutes
             "#]],
         );
         check_rule_in(
             &RULE,
             "linuxcnc",
-            "G4 P5\nM2\n",
+            "G4 P50\nM2\n",
             &guessed(),
             &expect![[r#"
-            1 | G4 P5
-              |    ^^ info[dwell-unit-unsure] dwell of 5 seconds, on other controls of 5 milliseconds
+            1 | G4 P50
+              |    ^^^ info[dwell-unit-unsure] dwell of 50 seconds, on other controls of 50 milliseconds
         "#]],
         );
     }
@@ -124,16 +130,25 @@ mod tests {
     }
 
     #[test]
+    fn a_time_that_is_usual_in_one_unit_only_is_not_unsure() {
+        for (control, program) in
+            [("linuxcnc", "G4 P5\nM2\n"), ("haas-mill", "G4 P500\nM30\n"), ("grbl", "G4 P2\nM30\n")]
+        {
+            check_rule_in(&RULE, control, program, &guessed(), &expect![[""]]);
+        }
+    }
+
+    #[test]
     fn a_computed_time_is_not_judged() {
-        check_rule_in(&RULE, "haas-mill", "#1=500\nG4 P#1\nM30\n", &guessed(), &expect![[""]]);
+        check_rule_in(&RULE, "haas-mill", "#1=100\nG4 P#1\nM30\n", &guessed(), &expect![[""]]);
     }
 
     #[test]
     fn words_name_both_times() {
-        let found = findings(&only(&RULE), "haas-mill", "G4 P500\nM30\n", &guessed());
+        let found = findings(&only(&RULE), "haas-mill", "G4 P100\nM30\n", &guessed());
         expect![[r#"
-            dwell of 0.5 seconds, on other controls of 8.3 minutes
-              here: 0.5 seconds on Haas mill (classic control and NGC)
+            dwell of 0.1 seconds, on other controls of 100 seconds
+              here: 0.1 seconds on Haas mill (classic control and NGC)
               note: the control was guessed from the program: some controls read `P` in milliseconds, others in seconds
               help: name the control: `--control`, `control` in gcheck.toml, or a comment `(gcheck: control=…)`
         "#]].assert_eq(&found.iter().map(words).collect::<String>());
