@@ -112,7 +112,7 @@ impl Maker<'_, '_> {
         codes.flat_map(|code| &code.entry().words).find(|word| Letter::parse(&word.letter) == Some(letter))
     }
 
-    /// The number of the code itself computed, and one that is no code.
+    /// The number of the code itself computed, and one that is not a code.
     fn computed_code(&self, cases: &mut Vec<Case>) {
         let number = self.code.number();
         let Some(letter) = Letter::new(number.letter()) else { return };

@@ -108,7 +108,7 @@ impl OffsetRotationLeft {
         }
         for (number, at) in self.written.iter().filter(|(number, _)| self.used.contains(number)) {
             let angle = cx.state().tables().offset(*number).rotation;
-            // Full turns turn nothing, and of an unknown angle nothing can be said.
+            // Full turns turn nothing, and an unknown angle may be one.
             let off = angle - 360.0 * (angle / 360.0).round();
             if off.is_nan() || off.abs() < 1e-6 {
                 continue;

@@ -81,26 +81,10 @@ impl PathRule for ProbeTurned {
 /// `MEASURE AFTER PROBE`.
 fn is_probe(comment: &ToolComment) -> bool {
     const PROBES: [&str; 4] = ["PROBE", "TOUCHPROBE", "TASTER", "MESSTASTER"];
-    // What belongs to the name: its kind, its maker, its stylus, what posts list of every tool.
-    const BESIDE: [&str; 18] = [
-        "TOUCH",
-        "SPINDLE",
-        "RENISHAW",
-        "HAAS",
-        "WIPS",
-        "BLUM",
-        "HEIDENHAIN",
-        "MARPOSS",
-        "3D",
-        "WORK",
-        "BALL",
-        "RUBY",
-        "STYLUS",
-        "TIP",
-        "MM",
-        "D",
-        "CR",
-        "ZMIN",
+    // What belongs to the name: its kind, its stylus, what posts list of every tool.
+    const BESIDE: [&str; 14] = [
+        "TOUCH", "SPINDLE", "RENISHAW", "WIPS", "3D", "WORK", "BALL", "RUBY", "STYLUS", "TIP", "MM", "D",
+        "CR", "ZMIN",
     ];
     let begins = |names: &[&str], word: &str| names.iter().any(|name| word.starts_with(name));
     let is_type =
@@ -146,7 +130,6 @@ mod tests {
         for comment in [
             "RENISHAW OMP40",
             "OMP40",
-            "HAAS PROBE",
             "WIPS PROBE",
             "6MM PROBE",
             "PROBE 6MM BALL",
