@@ -289,30 +289,33 @@ fn efm_recipe() -> (String, Value) {
     (text, recipe["tools"]["gcheck"].clone())
 }
 
+/// The characters that a field takes.
+#[cfg(unix)]
+type Accepts = Box<dyn Fn(char) -> bool>;
+
 /// The fields of a line by a format of efm-langserver: `%f`, `%l`, `%c`, `%t`, `%m`; `%*[^…]` is a run of other characters,
 /// whose list ends with the first `]`. What else is in the format is a regular expression there.
 #[cfg(unix)]
 fn fields(format: &str, line: &str) -> Option<BTreeMap<char, String>> {
     let Some(first) = format.chars().next() else { return line.is_empty().then(BTreeMap::new) };
-    let (length, field, accepts): (usize, Option<char>, Box<dyn Fn(char) -> bool>) =
-        match format.strip_prefix('%') {
-            Some(rest) if rest.starts_with("*[^") => {
-                let (others, _) = rest[3..].split_once(']').unwrap();
-                assert!(!others.is_empty(), "an empty list in {format}");
-                let others = others.to_owned();
-                (others.len() + 5, None, Box::new(move |c| !others.contains(c)))
-            }
-            Some(rest) => match rest.chars().next().unwrap() {
-                digits @ ('l' | 'c') => (2, Some(digits), Box::new(|c: char| c.is_ascii_digit())),
-                any @ ('f' | 't' | 'm') => (2, Some(any), Box::new(|_| true)),
-                other => panic!("unknown field `%{other}`"),
-            },
-            None => {
-                assert!(!"[](){}*+?.|^$\\".contains(first), "`{first}` is not itself in {format}");
-                let rest = line.strip_prefix(first)?;
-                return fields(&format[first.len_utf8()..], rest);
-            }
-        };
+    let (length, field, accepts): (usize, Option<char>, Accepts) = match format.strip_prefix('%') {
+        Some(rest) if rest.starts_with("*[^") => {
+            let (others, _) = rest[3..].split_once(']').unwrap();
+            assert!(!others.is_empty(), "an empty list in {format}");
+            let others = others.to_owned();
+            (others.len() + 5, None, Box::new(move |c| !others.contains(c)))
+        }
+        Some(rest) => match rest.chars().next().unwrap() {
+            digits @ ('l' | 'c') => (2, Some(digits), Box::new(|c: char| c.is_ascii_digit())),
+            any @ ('f' | 't' | 'm') => (2, Some(any), Box::new(|_| true)),
+            other => panic!("unknown field `%{other}`"),
+        },
+        None => {
+            assert!(!"[](){}*+?.|^$\\".contains(first), "`{first}` is not itself in {format}");
+            let rest = line.strip_prefix(first)?;
+            return fields(&format[first.len_utf8()..], rest);
+        }
+    };
     let most = if field == Some('t') { 1 } else { usize::MAX };
     let ends = line.char_indices().take_while(|(_, c)| accepts(*c)).take(most);
     let ends = ends.map(|(at, c)| at + c.len_utf8());

@@ -85,8 +85,8 @@ fn ignore_files_that_never_end_leave_out_their_folder_alone() {
                     _ => fs::write(path, "a".repeat(2 << 20)).unwrap(),
                 }
             });
-            let place = format!("error: theirs/{name}: cannot read this ignore file:");
-            assert!(said.starts_with(&place), "{kind}: {said}");
+            let place = format!("/theirs/{name}: cannot read this ignore file:");
+            assert!(said.contains(&place), "{kind}: {said}");
         }
     }
 }

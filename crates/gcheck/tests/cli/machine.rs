@@ -1224,13 +1224,48 @@ fn settings_that_are_cut_short_write_nothing() {
 fn an_ini_file_without_limits_is_not_cut_short() {
     // All is left to the control.
     let bare = "[TRAJ]\nCOORDINATES = X Z\nLINEAR_UNITS = mm\n[KINS]\nKINEMATICS = trivkins coordinates=XZ\n[JOINT_0]\nTYPE = LINEAR\n[JOINT_1]\nTYPE = LINEAR\n";
-    check("mill.ini", bare, "", &expect![[""]]);
+    check(
+        "mill.ini",
+        bare,
+        "",
+        &expect![[r#"
+        wrote gcheck.toml: 1 value
+        next: `gcheck check --show-settings`
+        ! mill.ini:7: not used: [JOINT_0] TYPE, [JOINT_1] TYPE (line 9): `gcheck.toml` has no key for it
+        exit 0
+        # Configuration of gcheck for the programs in this folder and below.
+
+        [machine]
+        axes = ["X", "Z"]  # from mill.ini, [TRAJ] COORDINATES
+    "#]],
+    );
     // An axis in the middle is left out on purpose.
     let limits = "MIN_LIMIT = 0\nMAX_LIMIT = 100\nMAX_VELOCITY = 50\nMAX_ACCELERATION = 400\n";
     let without = format!(
         "[TRAJ]\nCOORDINATES = X Y Z\nLINEAR_UNITS = mm\n[KINS]\nKINEMATICS = trivkins\n[AXIS_X]\n{limits}[AXIS_Z]\n{limits}"
     );
-    check("lathe.ini", &without, "", &expect![[""]]);
+    check(
+        "lathe.ini",
+        &without,
+        "",
+        &expect![[r#"
+        wrote gcheck.toml: 8 values
+        next: `gcheck check --show-settings`
+        ! lathe.ini:2: not used: axis Y: the axis has no section with limits
+        exit 0
+        # Configuration of gcheck for the programs in this folder and below.
+
+        [machine]
+        units = "mm"  # from lathe.ini
+        axes = ["X", "Y", "Z"]  # from lathe.ini, [TRAJ] COORDINATES
+        travel.X = [0.0, 100.0]  # from lathe.ini, [AXIS_X] MIN_LIMIT and MAX_LIMIT
+        travel.Z = [0.0, 100.0]  # from lathe.ini, [AXIS_Z] MIN_LIMIT and MAX_LIMIT
+        rapid.X = 3000.0  # from lathe.ini, [AXIS_X] MAX_VELOCITY * 60
+        rapid.Z = 3000.0  # from lathe.ini, [AXIS_Z] MAX_VELOCITY * 60
+        acceleration.X = 400.0  # from lathe.ini, [AXIS_X] MAX_ACCELERATION
+        acceleration.Z = 400.0  # from lathe.ini, [AXIS_Z] MAX_ACCELERATION
+    "#]],
+    );
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! Formats that other programs read, read as they do: strictly, by what their documentation and schemas ask for.
 //!
-//! SARIF has a validator of its own (see `formats`), and `xmllint` holds JUnit against a schema (`junit.xsd`). GitLab publishes no
+//! SARIF has a validator of its own (see `formats`), and `xmllint` holds `JUnit` against a schema (`junit.xsd`). `GitLab` publishes no
 //! schema, and the others have no validator that could be had everywhere, so each has a reader here that refuses what it
 //! does not know.
 

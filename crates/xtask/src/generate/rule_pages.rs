@@ -250,7 +250,7 @@ mod tests {
     /// Findings that need a machine or other files have no example that is rendered here.
     #[test]
     fn a_page_with_help_in_a_finding_says_how_to_fix_it() {
-        for rule in gcheck_rules::RULES {
+        for rule in gcheck_rules::RULES.iter() {
             let page = super::page(rule);
             let has_help = page.contains("= help: ");
             assert!(!has_help || page.contains("\n## How to fix it\n"), "{}", rule.meta.id);
