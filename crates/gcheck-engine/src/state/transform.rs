@@ -5,6 +5,7 @@
 use gcheck_geometry::{Degrees, Frame, Mm, Plane};
 
 use crate::lattice::{Joinable, Lattice, Perhaps, lattice, merged};
+use crate::position::Axis;
 
 lattice! {
     /// Transformations between programmed and work coordinates, in the order in which they act. Off by default.
@@ -119,9 +120,10 @@ impl Transform {
         Self { rotation: Perhaps::No, ..self }
     }
 
-    /// Is an axis mirrored for certain?
-    pub(crate) fn is_mirrored(&self) -> bool {
-        self.mirrors.iter().any(|mirror| matches!(mirror, Perhaps::Yes(_)))
+    /// Is an axis mirrored for certain, these left out?
+    pub(crate) fn is_mirrored_without(&self, is_out: impl Fn(Axis) -> bool) -> bool {
+        let mut axes = [Axis::X, Axis::Y, Axis::Z].into_iter().zip(&self.mirrors);
+        axes.any(|(axis, mirror)| !is_out(axis) && matches!(mirror, Perhaps::Yes(_)))
     }
 
     /// The mirrors, by axis X, Y, Z.

@@ -141,10 +141,19 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 }
                 state.set_mode(role, ix);
             }
+            // Switched off for one axis, it stays on for the others.
+            Role::Mirror if self.leaves_a_mirror(ix, state) => return,
             _ if lasts => state.set_mode(role, ix),
             _ => {}
         }
         self.emit(state, Event::Modal(ix));
+    }
+
+    /// Does the code switch the mirror off for axes that the block names, while another one is mirrored for certain?
+    fn leaves_a_mirror(&self, ix: CodeIx, state: &State<D>) -> bool {
+        self.model.effect(ix) == Effect::MirrorOff
+            && self.names_axes("XYZ")
+            && state.transform.is_mirrored_without(|axis| self.words.has(axis.letter()))
     }
 
     fn end_cycle(&mut self, state: &mut State<D>) {
@@ -215,10 +224,6 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 self.transform_code(effect, state)?;
                 if effect == E::RotationOff {
                     self.end_tilted_plane(ix, state);
-                }
-                // Switched off for one axis, it stays on for the others.
-                if effect == E::MirrorOff && state.transform.is_mirrored() {
-                    state.set_mode(Role::Mirror, self.model.code_with(E::MirrorOn));
                 }
             }
             E::CylinderMapping => self.cylinder(ix, state)?,

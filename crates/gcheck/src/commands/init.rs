@@ -45,7 +45,8 @@ pub(crate) fn run(global: &Global, with_schema: bool) -> Result<u8, Problem> {
     if with_schema {
         output::to_file(Path::new(SCHEMA_FILE), |out| out.write_all(config::schema().as_bytes()))?;
     }
-    output::print(&format!("wrote {}: {remark}\nnext: `gcheck check`\n", path.display()))
+    let beside = if with_schema { format!(" and {SCHEMA_FILE}") } else { String::new() };
+    output::print(&format!("wrote {}{beside}: {remark}\nnext: `gcheck check`\n", path.display()))
 }
 
 /// The controls that programs of the folder show of themselves, with how many do.

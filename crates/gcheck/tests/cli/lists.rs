@@ -268,7 +268,9 @@ fn init_writes_a_configuration_that_is_valid() {
 #[test]
 fn init_names_the_schema_beside_it() {
     let shop = Shop::new();
-    assert_eq!(shop.gcheck("init --schema --control haas-mill").code, 0);
+    let run = shop.gcheck("init --schema --control haas-mill");
+    assert_eq!(run.code, 0, "{run}");
+    assert!(run.stdout.starts_with("wrote gcheck.toml and gcheck.schema.json:"), "{run}");
     assert_eq!(shop.names(), ["gcheck.schema.json", "gcheck.toml"]);
     let text = shop.read("gcheck.toml");
     let named = text.lines().next().unwrap().strip_prefix("#:schema ./").unwrap();

@@ -219,7 +219,7 @@ fn thread(cx: &PathCx<'_>, changed: Option<At>) -> Option<(Thread, bool)> {
         let changed = changed.filter(|_| cx.has_effect(|effect| effect == Effect::RigidTap))?;
         Some(Some(thread_of_tool(cx, changed, Wanted::Tap)?))
     };
-    match named(here).or(of_operation).or_else(of_tool).or_else(of_tap) {
+    match named(here).or(of_operation).or_else(of_tap).or_else(of_tool) {
         Some(thread) => thread.map(|thread| (thread, false)),
         None => title()?.map(|thread| (thread, true)),
     }

@@ -166,8 +166,8 @@ impl AlarmReached {
 
 fn raises(number: i64, text: Option<String>) -> String {
     match text {
-        Some(text) => format!("`#3000={number}`: {text}"),
-        None => format!("`#3000={number}`"),
+        Some(text) => format!("its own alarm {number}: {text}"),
+        None => format!("its own alarm {number}"),
     }
 }
 

@@ -98,6 +98,8 @@ mod tests {
         "#]],
         );
         check_rule(&RULE, "fanuc-mill", &program("G50.1 X0. Y0."), &expect![[""]]);
+        let found = findings(&only(&RULE), "fanuc-mill", &program("G50.1 X0."), &World::default());
+        assert_eq!(found[0].labels[0].range.start, 10, "switched on in the second block: {found:#?}");
     }
 
     /// What switched another axis off does not switch this one off.

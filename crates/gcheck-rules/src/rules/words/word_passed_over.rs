@@ -253,9 +253,17 @@ mod tests {
 
     #[test]
     fn words_of_the_motion_in_effect_need_a_move() {
-        let program = |block: &str| format!("G21 G90 G54 G0 X0. Y0.\nG1 X10. F100.\n{block}\nX20.\nM30\n");
-        check_rule(&RULE, "fanuc-mill", &program("G55 ,R2."), &expect![[""]]);
-        check_rule(&RULE, "fanuc-mill", &program("G55 X5. ,R2."), &expect![[""]]);
+        let program = |block: &str| format!("G21 G54 G0 X50. Z5.\nG1 X40. F.1\n{block}\nX30.\nM30\n");
+        check_rule(
+            &RULE,
+            "fanuc-lathe",
+            &program("G55 R2."),
+            &expect![[r#"
+                3 | G55 R2.
+                  |     ^^^ info[word-passed-over] nothing reads `R` in this block
+            "#]],
+        );
+        check_rule(&RULE, "fanuc-lathe", &program("G55 X35. R2."), &expect![[""]]);
     }
 
     #[test]
