@@ -241,7 +241,15 @@ mod tests {
         let program = |lead: &str| {
             format!("G21 G90 G94\nT3 M6 (M6 TAP)\nG0 X0 Y0\nG43 H3 Z5\nS300 M3\nG33.1 Z-12 K{lead}\nM2\n")
         };
-        check_rule(&RULE, "linuxcnc", &program("1.25"), &expect![[""]]);
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            &program("1.25"),
+            &expect![[r#"
+            6 | G33.1 Z-12 K1.25
+              |            ^^^^^ warning[thread-lead-off-pitch] the thread is cut with a lead of 1.25 mm, and its pitch is 1 mm
+        "#]],
+        );
         check_rule(&RULE, "linuxcnc", &program("1"), &expect![[""]]);
     }
 
