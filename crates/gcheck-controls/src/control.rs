@@ -137,14 +137,6 @@ impl<'c> Code<'c> {
         &self.facts.entry
     }
 
-    /// Are the blocks after one with this code lines of data, as the number that the block gives an address decides?
-    pub fn opens_data(self, number: impl FnOnce(Letter) -> Option<f64>) -> bool {
-        self.facts.entry.opens_data.as_ref().is_some_and(|opens| {
-            let letter = Letter::parse(&opens.letter);
-            letter.and_then(number).is_some_and(|number| opens.values.contains(&number))
-        })
-    }
-
     /// May the blocks after one with this code be lines of data? `value` is that of an address in the block: `None` without a
     /// word, `Some(None)` where the number is computed.
     pub fn data_opening(self, value: impl FnOnce(Letter) -> Option<Option<f64>>) -> DataOpening {
@@ -289,7 +281,7 @@ impl Control {
         &self.code_list
     }
 
-    /// May a number that is no code of the control be an M code of the machine's builder?
+    /// May a number that is not a code of the control be an M code of the machine's builder?
     pub fn may_be_of_builder(&self, letter: Letter, value: f64) -> bool {
         letter == Letter::of('M')
             && self.code_list().builder_m_codes

@@ -5,7 +5,7 @@
 use gcheck_controls::{CodeIx, Effect};
 use gcheck_engine::{Concrete, ConcreteValue, FeedMode, Model, Role, State, Transform, Units};
 use gcheck_geometry::Plane;
-use gcheck_program::{Block, BlockFlags};
+use gcheck_program::Block;
 
 /// The modes in effect for the words of a block.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -48,8 +48,7 @@ impl Facts {
             feed_mode: state.feed_mode(model),
             surface: state.effect(Role::SpindleMode, model) == Some(Effect::SurfaceSpeed),
             tool: tool(state),
-            // A code ends the data.
-            is_row: state.reads_data() && !block.flags.contains(BlockFlags::CODE),
+            is_row: state.reads_as_row(block.flags),
         }
     }
 

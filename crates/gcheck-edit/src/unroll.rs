@@ -194,7 +194,7 @@ impl<'c> Loops<'c> {
         }
         let block = place.range();
         let words = place.table.words(place.block());
-        let is_row = state.reads_data() && !place.block().flags.contains(BlockFlags::CODE);
+        let is_row = state.reads_as_row(place.block().flags);
         let (mut out, mut from) = (String::new(), block.start);
         for word in words {
             let range = Sheet::range(place, word);

@@ -35,6 +35,7 @@ mod variables;
 
 use gcheck_controls::{CodeIx, Effect};
 use gcheck_geometry::{Mm, Plane};
+use gcheck_program::BlockFlags;
 
 pub use bar::Bar;
 pub(crate) use bar::BarCommand;
@@ -187,6 +188,11 @@ impl<D: Domain> State<D> {
     /// Are blocks lines of data here, not commands?
     pub fn reads_data(&self) -> bool {
         self.data_entry == Truth::True
+    }
+
+    /// Is a block with these flags a row of data? A code ends the data.
+    pub fn reads_as_row(&self, flags: BlockFlags) -> bool {
+        self.reads_data() && !flags.contains(BlockFlags::CODE)
     }
 
     /// How many values of programs and variables it holds: what a copy or a comparison costs.

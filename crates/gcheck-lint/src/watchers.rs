@@ -462,8 +462,8 @@ impl FlowObserver for Watchers<'_, '_> {
     fn before(&mut self, cx: &FlowCx<'_>) {
         self.current = None;
         self.letters = None;
-        let is_data = cx.state.reads_data() && !cx.origin.flags.contains(BlockFlags::CODE);
-        if cx.origin.at.file == 0 && is_read(cx.origin) && !is_data {
+        let is_row = cx.state.reads_as_row(cx.origin.flags);
+        if cx.origin.at.file == 0 && is_read(cx.origin) && !is_row {
             let evaluated = Evaluated::default();
             self.current = self.read_block(cx.origin.at);
             self.read_computed_codes(cx, &evaluated);

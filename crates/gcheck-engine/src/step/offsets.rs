@@ -6,7 +6,7 @@
 
 use std::rc::Rc;
 
-use gcheck_controls::{CodeIx, Effect, Letter, LetterSet};
+use gcheck_controls::{CodeIx, DataOpening, Effect, Letter, LetterSet};
 use gcheck_geometry::Mm;
 use gcheck_program::{BlockTable, Place, Value, Word};
 
@@ -462,10 +462,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     /// Does the block open lines of data by this code?
     fn opens_data(&self, ix: CodeIx) -> bool {
-        self.model
-            .control()
-            .code_at(ix)
-            .is_some_and(|code| code.opens_data(|letter| self.words.number(letter)))
+        let number = |letter| self.words.number(letter).map(Some);
+        let code = self.model.control().code_at(ix);
+        code.is_some_and(|code| code.data_opening(number) == DataOpening::Certain)
     }
 
     /// May the words of the block be a row of data? A block with a code is not: it ends the data, as `G11` does, or it is a

@@ -2,7 +2,7 @@
 //!
 //! Knows: its effects, the plane in which it acts. Must not know: any rule, how the path is offset.
 
-use gcheck_controls::{Effect, Letter};
+use gcheck_controls::{CodeIx, Effect, Letter};
 use gcheck_engine::{Axis, Event, Role};
 
 use crate::facts::boundary::{Boundary, boundary_range};
@@ -77,4 +77,10 @@ pub(crate) fn stays_in_plane(cx: &PathCx<'_>, event: &Event) -> bool {
 /// May cutter compensation be on, so that events come a block late?
 pub(crate) fn may_be_on(cx: &PathCx<'_>) -> bool {
     !matches!(cx.state().effect(Role::Compensation, cx.model), Some(Effect::CompensationOff | Effect::None))
+}
+
+/// Does the code limit how far the control reads ahead, which it refuses under compensation?
+pub(crate) fn limits_reading_ahead(cx: &PathCx<'_>, code: CodeIx) -> bool {
+    let refuses = cx.model.semantics().compensation.refuses.as_ref();
+    refuses.is_some_and(|refuses| refuses.read_ahead_limits.contains(&cx.name_of(code)))
 }

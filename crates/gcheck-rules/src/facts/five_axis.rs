@@ -2,10 +2,10 @@
 //!
 //! Knows: which effects they are, what they exclude. Must not know: any rule.
 
-use gcheck_controls::{Code, CodeIx, CodeNumber, Effect};
+use gcheck_controls::{Code, CodeIx, Effect};
 use gcheck_engine::{At, Fact, Role};
 
-use crate::facts::modes::{ActiveMode, in_effect};
+use crate::facts::modes::{ActiveMode, forbids, in_effect};
 use crate::facts::probing::is_touch;
 use crate::{Finding, PathCx, RuleMeta, Severity, limit};
 
@@ -102,7 +102,7 @@ pub(crate) fn clashes(cx: &PathCx<'_>) -> Vec<Clash> {
         let mut add = |code: CodeIx, is_certain: bool| {
             let Some(other) = cx.control().code_at(code) else { return };
             let is_assumed = is_along_tool(entry.effect()) && is_along_vectors(other.effect());
-            if is_assumed || forbids(entry, other) {
+            if is_assumed || excludes(entry, other) {
                 found.push(Clash { role, mode, code, is_certain, is_assumed });
             }
         };
@@ -151,15 +151,9 @@ fn changed_over(cx: &PathCx<'_>) -> Option<Clash> {
     })
 }
 
-/// Does the data of a mode exclude a code? What ends a cycle is none.
-fn forbids(mode: Code<'_>, other: Code<'_>) -> bool {
-    other.effect() != Effect::CycleCancel
-        && mode.entry().forbids.iter().any(|item| match item.strip_prefix('@') {
-            Some(group) => other.group().id == group,
-            None => CodeNumber::parse(item) == Some(other.number()),
-        })
-        // Increments have a rule of their own.
-        && other.effect() != Effect::Incremental
+/// Does the data of a mode exclude a code? What ends a cycle is none, and increments have a rule of their own.
+fn excludes(mode: Code<'_>, other: Code<'_>) -> bool {
+    !matches!(other.effect(), Effect::CycleCancel | Effect::Incremental) && forbids(mode, other)
 }
 
 /// A finding about a clash; `may` comes before "under".

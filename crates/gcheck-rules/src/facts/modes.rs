@@ -117,5 +117,8 @@ pub(crate) fn ignores_distance_mode(cx: &PathCx<'_>) -> bool {
 
 /// Do the control's data say that a code does not allow another one while it is active?
 pub(crate) fn forbids(code: Code<'_>, other: Code<'_>) -> bool {
-    code.entry().forbids.iter().any(|item| CodeNumber::parse(item) == Some(other.number()))
+    code.entry().forbids.iter().any(|item| match item.strip_prefix('@') {
+        Some(group) => other.group().id == group,
+        None => CodeNumber::parse(item) == Some(other.number()),
+    })
 }

@@ -4,6 +4,7 @@ use gcheck_controls::{CompensationRefusals, Effect};
 use gcheck_engine::{Abstract, At, CompensationFault, Domain, Fact, Fault, Role};
 
 use crate::declare::declare_rule;
+use crate::facts::compensation::limits_reading_ahead;
 use crate::{PathCx, PathRule, Remembers, Report, Run, Watch, limit, remembers};
 
 declare_rule! {
@@ -67,7 +68,7 @@ impl PathRule for RefusedUnderCompensation {
         let was_on = cx.state().effect(Role::Compensation, cx.model).is_some_and(is_on);
         let begins = cx.has_effect(is_on);
         let ends = cx.has_effect(|effect| effect == Effect::CompensationOff);
-        let limits = cx.codes().iter().any(|code| refusals.read_ahead_limits.contains(&cx.name_of(*code)));
+        let limits = cx.codes().iter().any(|code| limits_reading_ahead(cx, *code));
         let refused = if limits && was_on && !ends {
             Some(READ_AHEAD)
         } else if begins && self.limited.is_some() {

@@ -95,7 +95,7 @@ impl PathRule for AlarmReached {
         else {
             return;
         };
-        let label = raises(number, text_of(cx));
+        let label = alarm_in_words(number, text_of(cx));
         self.found.get_or_insert(
             Finding::new(&META, call, "the program called here always stops with its own alarm (`#3000`)")
                 .label(label)
@@ -127,9 +127,10 @@ impl PathRule for AlarmReached {
             (Some((word, text)), _) => {
                 (format!("the program always stops at its own `({word}, …)`"), format!("stops with: {text}"))
             }
-            (None, text) => {
-                ("the program always ends with its own alarm (`#3000`)".to_owned(), raises(number, text))
-            }
+            (None, text) => (
+                "the program always ends with its own alarm (`#3000`)".to_owned(),
+                alarm_in_words(number, text),
+            ),
         };
         let mut finding = cx
             .finding(&META, cx.range(), message)
@@ -164,7 +165,7 @@ impl AlarmReached {
     }
 }
 
-fn raises(number: i64, text: Option<String>) -> String {
+fn alarm_in_words(number: i64, text: Option<String>) -> String {
     match text {
         Some(text) => format!("its own alarm {number}: {text}"),
         None => format!("its own alarm {number}"),

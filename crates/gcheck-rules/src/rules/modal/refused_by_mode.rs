@@ -4,6 +4,7 @@ use gcheck_controls::{CodeIx, Effect};
 use gcheck_engine::{At, Event, Fact, Role};
 
 use crate::declare::declare_rule;
+use crate::facts::compensation::limits_reading_ahead;
 use crate::facts::five_axis::{is_along_tool, is_along_vectors};
 use crate::facts::modes::forbids;
 use crate::{Finding, PathCx, PathRule, Remembers, Report, Run, Uses, Watch, limit, remembers};
@@ -140,19 +141,12 @@ fn judge(cx: &PathCx<'_>, role: Role, mode: CodeIx, refused: CodeIx) -> Option<F
 
 fn has_own_rule(cx: &PathCx<'_>, mode: Effect, refused: CodeIx) -> bool {
     let effect = cx.model.effect(refused);
-    let limits_reading = cx
-        .model
-        .semantics()
-        .compensation
-        .refuses
-        .as_ref()
-        .is_some_and(|refusals| refusals.read_ahead_limits.contains(&cx.name_of(refused)));
     is_along_tool(mode)
         || is_along_vectors(mode)
         || effect.is_probing_move()
         || effect == Effect::ProbeLength
         || Role::of(effect) == Some(Role::Plane)
-        || limits_reading
+        || limits_reading_ahead(cx, refused)
 }
 
 #[cfg(test)]

@@ -334,11 +334,16 @@ impl RapidBetweenCuts {
     /// Does a move at this depth go where nothing was cut so deep?
     fn is_new(&self, cx: &PathCx<'_>, cuts: &Cuts, from: [f64; 2], to: [f64; 2], z: f64) -> bool {
         let (x, y) = (to[0] - from[0], to[1] - from[1]);
+        let is_long = x.hypot(y) >= SHORT;
+        if self.found.len() > MOST || !is_long {
+            return false;
+        }
+        let clears = clears(cx);
         let is_cut = |part: f64| {
             let at = [from[0] + part * x, from[1] + part * y];
-            cuts.reach(cuts.len(), at, z, clears(cx))
+            cuts.reach(cuts.len(), at, z, clears)
         };
-        self.found.len() <= MOST && x.hypot(y) >= SHORT && ![0.25, 0.5, 0.75].into_iter().all(is_cut)
+        ![0.25, 0.5, 0.75].into_iter().all(is_cut)
     }
 
     fn feed(
