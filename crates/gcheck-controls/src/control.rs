@@ -281,11 +281,13 @@ impl Control {
         &self.code_list
     }
 
-    /// May a number that is not a code of the control be an M code of the machine's builder?
+    /// May a number that is not a code of the control be an M code of the machine's builder? Builders' codes have up to eight
+    /// digits.
     pub fn may_be_of_builder(&self, letter: Letter, value: f64) -> bool {
+        let is_whole = (0.0..1e8).contains(&value) && value.fract() == 0.0;
         letter == Letter::of('M')
             && self.code_list().builder_m_codes
-            && CodeNumber::from_value(letter.ascii(), value).is_some()
+            && (is_whole || CodeNumber::from_value(letter.ascii(), value).is_some())
     }
 
     /// What becomes of contradictions and repetitions in a block.
@@ -443,6 +445,7 @@ impl Control {
                 requires: Vec::new(),
                 recommends: Vec::new(),
                 forbids: Vec::new(),
+                forbids_confidence: None,
                 conflicts: Vec::new(),
                 conflicts_when_later: false,
                 refused_after: Vec::new(),

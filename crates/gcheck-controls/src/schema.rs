@@ -570,6 +570,9 @@ pub struct CodeEntry {
     /// Codes, or groups as `@canned-cycle`, that must not be commanded or active while this code is active.
     #[serde(default)]
     pub forbids: Vec<String>,
+    /// How sure that is; `None`: as sure as the rest of the entry.
+    #[serde(default)]
+    pub forbids_confidence: Option<Confidence>,
     /// Codes, or groups as `@motion`, that must not be in the same block.
     #[serde(default)]
     pub conflicts: Vec<String>,

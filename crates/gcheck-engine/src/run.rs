@@ -74,11 +74,12 @@ pub const MOST_ALARMS: usize = 1_000;
 /// The observer is asked so often, in blocks, whether it wants to see more.
 const ASKED_EVERY: u64 = 4096;
 
-/// So many strokes of cycles cost a run as much fuel as a block: one block may give many.
-const STROKES_A_BLOCK: u64 = 16;
+/// Events that a block may give for nothing: moves, strokes, switches. Each one beyond them costs a run as much fuel as a block:
+/// repeats and cycles give very many.
+const FREE_EVENTS: u64 = 16;
 
-/// Executes a program until it ends, faults, has executed `fuel` blocks (or strokes of cycles that cost as much), or the observer wants no more. With
-/// [`Options::past_alarms`] a fault does not end it: the observer is told ([`Observer::fault`]), and the run goes on.
+/// Executes a program until it ends, faults, has executed `fuel` blocks (or given events that cost as much), or the observer
+/// wants no more. With [`Options::past_alarms`] a fault does not end it: the observer is told ([`Observer::fault`]), and the run goes on.
 pub fn run<O: Observer<Concrete>>(
     program: &Program<'_>,
     model: &Model<'_>,
@@ -94,6 +95,7 @@ pub fn run<O: Observer<Concrete>>(
     let mut state = start_state::<Concrete>(model, machine, &mut executor.assumptions);
     let mut at = At { file: 0, block: 0 };
     let mut blocks = 0;
+    let mut surplus = 0;
     let mut feeds = 0;
     let mut ask_at = ASKED_EVERY;
     // What the start rests on belongs to no block.
@@ -110,17 +112,19 @@ pub fn run<O: Observer<Concrete>>(
             ask_at = blocks + ASKED_EVERY;
         }
         if let Some(moves) = executor.plain_moves(at, &state) {
-            let most = fuel.saturating_sub(executor.strokes_given / STROKES_A_BLOCK);
+            let most = fuel.saturating_sub(surplus);
             while blocks < most.min(ask_at) && executor.plain_move(&moves, at, &mut state) {
                 blocks += 1;
                 at = at.next();
             }
         }
-        if blocks + executor.strokes_given / STROKES_A_BLOCK >= fuel {
+        if blocks + surplus >= fuel {
             break Stopped::OutOfFuel;
         }
         blocks += 1;
+        let given = executor.events;
         let outcome = executor.step(at, &mut state);
+        surplus += (executor.events - given).saturating_sub(FREE_EVENTS);
         if options.past_alarms
             && let Some(fault) = executor.refused_in_passing.take()
         {

@@ -190,9 +190,28 @@ impl<D: Domain> State<D> {
         self.data_entry == Truth::True
     }
 
-    /// Is a block with these flags a row of data? A code ends the data.
+    /// Is a block with these flags a row of data? A code ends the data, and a macro statement is executed.
     pub fn reads_as_row(&self, flags: BlockFlags) -> bool {
-        self.reads_data() && !flags.contains(BlockFlags::CODE)
+        self.reads_data() && !flags.intersects(BlockFlags::CODE | BlockFlags::STATEMENT)
+    }
+
+    /// Takes back what [`Self::forget`] took away, as far as the program had set it: what still is as at the start may be what
+    /// the program that is not here is called for. Motion and positions stay unknown, since it may move.
+    pub(crate) fn keep_what_was_set(&mut self, before: &Self, start: &Self) {
+        self.modes.keep_what_was_set(&before.modes, &start.modes);
+        self.tool.keep_what_was_set(&before.tool, &start.tool);
+        if !before.spindle.same(&start.spindle) {
+            self.spindle = before.spindle.clone();
+        }
+        if !before.feed.word.same(&start.feed.word) {
+            self.feed = before.feed.clone();
+        }
+        if !before.coolant.same(&start.coolant) {
+            self.coolant = before.coolant.clone();
+        }
+        if !before.offsets.work.same(&start.offsets.work) {
+            self.offsets.work = before.offsets.work;
+        }
     }
 
     /// How many values of programs and variables it holds: what a copy or a comparison costs.

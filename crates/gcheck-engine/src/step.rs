@@ -65,11 +65,15 @@ pub struct Options {
     /// What nobody can know is taken as it most likely is, for people who look at a path: a program that is not here leaves
     /// everything as it was, and a probe touches at its target.
     pub assumes: bool,
+    /// A program that is not here leaves what this one has set as it was: modes, the tool with its offsets, the spindle, the
+    /// coolant, the feed. Where the axes are, and what variables hold, stays unknown after it.
+    pub keeps_what_was_set: bool,
 }
 
 impl Options {
     /// Nothing is skipped.
-    pub const NONE: Self = Self { skip: 0, optional_stop: false, past_alarms: false, assumes: false };
+    pub const NONE: Self =
+        Self { skip: 0, optional_stop: false, past_alarms: false, assumes: false, keeps_what_was_set: false };
     /// A path to be looked at: past alarms, with assumptions for what nobody can know.
     pub const PICTURE: Self = Self { past_alarms: true, assumes: true, ..Self::NONE };
     /// Every `/` block is skipped.
@@ -154,6 +158,10 @@ pub(crate) struct Executor<'a, 'p, D: Domain, O: Observer<D>> {
     rest_is_lost: bool,
     /// Subroutines passed over, and whether another is defined inside.
     nested: FxHashMap<At, bool>,
+    /// Blocks that may open lines of data, and whether a later one ends them.
+    rows_end: FxHashMap<At, bool>,
+    /// The state at the start of the main program, once it was asked for.
+    start: Option<Box<State<D>>>,
     /// By file, subroutine and label: the O-word block that opened a structure first. Of a subroutine's own label no
     /// subroutine is told.
     #[expect(
@@ -177,8 +185,10 @@ pub(crate) struct Executor<'a, 'p, D: Domain, O: Observer<D>> {
     writable: FxHashMap<u32, bool>,
     /// Bar feeds so far.
     pub(crate) bar_feeds: u64,
+    /// Events that were given out so far, those that compensation holds back among them.
+    pub(crate) events: u64,
     /// Strokes of cycles that were given out so far.
-    pub(crate) strokes_given: u64,
+    strokes_given: u64,
     /// Those that were given out before the block under way.
     strokes_before: u64,
 }
@@ -251,6 +261,8 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
             passes_exactly: false,
             rest_is_lost: false,
             nested: FxHashMap::default(),
+            rows_end: FxHashMap::default(),
+            start: None,
             labels_defined: FxHashMap::default(),
             o_labels: FxHashMap::default(),
             created: Vec::new(),
@@ -260,6 +272,7 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
             looks_ahead: false,
             writable: FxHashMap::default(),
             bar_feeds: 0,
+            events: 0,
             strokes_given: 0,
             strokes_before: 0,
         }
@@ -390,7 +403,7 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
     ) -> Step<Outcome<D>> {
         let words = self.words_to_come(table, block);
         let mut acts = !words.is_empty();
-        if acts && Self::may_read_as_data(words, state) {
+        if acts && Self::reads_row_or_ends_data(words, state) {
             let row = self.row(place, table, words, state);
             self.emit(state, Event::DataRow(row));
             acts = !state.reads_data();
@@ -489,6 +502,7 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
 
     #[inline]
     fn emit(&mut self, state: &mut State<D>, event: Event) {
+        self.events += 1;
         let at_once = matches!(
             event,
             Event::SelectTool(_)

@@ -259,4 +259,22 @@ fn rows_of_data_are_not_executed() {
         feed x5 y2 z3
         at x5 y2 z3"#]],
     );
+    // A number that is not listed opens rows where a later block ends them, and is a command where none does.
+    let unlisted = |opener: &str, end: &str| format!("G0 X1. Y2. Z3.\n#1=75\n{opener}\nP1 X5.\n{end}\nX4.");
+    let passed = expect![[r#"
+        rapid x1 y2 z3
+        rapid x4 y2 z3
+        at x4 y2 z3"#]];
+    for opener in ["G10 L75", "G10 L#1"] {
+        check("fanuc-mill", &unlisted(opener, "G11"), &passed);
+    }
+    check(
+        "fanuc-mill",
+        &unlisted("G10 L75", "G90"),
+        &expect![[r#"
+        rapid x1 y2 z3
+        rapid x5 y2 z3
+        rapid x4 y2 z3
+        at x4 y2 z3"#]],
+    );
 }

@@ -308,6 +308,10 @@ fn check_paths(
             Some((branch, _)) => flow_branch(&program, &model, machine, task, branch, &mut follower),
             None => flow(&program, &model, machine, task, &mut follower),
         };
+        // An analysis that gave up has not seen all that there is.
+        if !result.is_incomplete() {
+            watchers.followed();
+        }
         left = left.saturating_sub(result.work.saturating_sub(begins));
         if left == 0 {
             partitions.leave_rest();
@@ -316,6 +320,15 @@ fn check_paths(
     }
     if partitions.left_some_out() {
         assumptions.insert(Assumption::PathsJoined);
+    }
+    if let Some(case) = Case::of_missing_programs(&first.assumptions) {
+        watchers.restart(Scope::OneWay);
+        out.borrow_mut().case = Some(case);
+        let options = Options { skip: *skip, keeps_what_was_set: true, ..Options::NONE };
+        let result = flow(&program, &model, machine, Task { options, ..all_paths }, &mut watchers);
+        if !result.is_incomplete() {
+            watchers.followed();
+        }
     }
     (assumptions, out_of_fuel)
 }

@@ -37,6 +37,8 @@ pub(crate) struct BlockOfValues {
     pub(crate) block: Block,
     /// All its words; those that have no certain value are as written, those of empty variables are left out.
     pub(crate) words: Vec<Word>,
+    /// Those that were left out.
+    pub(crate) left_out: Vec<Word>,
     /// It has other codes or addresses than the block as it is written.
     pub(crate) has_others: bool,
 }
@@ -50,12 +52,13 @@ impl BlockOfValues {
         dialect: &Dialect<'_>,
     ) -> Option<Self> {
         let written = place.table.words(place.block());
-        let mut words = Vec::with_capacity(written.len());
+        let (mut words, mut left_out) = (Vec::with_capacity(written.len()), Vec::new());
         let (mut any, mut has_others) = (false, false);
         for word in written {
             // The control ignores the address beside an empty variable.
             if is_empty(word, values) {
                 (any, has_others) = (true, true);
+                left_out.push(*word);
             } else if let Some(value) = certain(word, values, model) {
                 any = true;
                 has_others |= is_code(word);
@@ -64,7 +67,7 @@ impl BlockOfValues {
                 words.push(*word);
             }
         }
-        any.then(|| Self { block: dialect.with_words(place.block(), &words), words, has_others })
+        any.then(|| Self { block: dialect.with_words(place.block(), &words), words, left_out, has_others })
     }
 
     /// The words that hold a computed number.

@@ -13,7 +13,7 @@ use std::ops::Range;
 use std::rc::Rc;
 
 use gcheck_diagnostics::{Certainty, Finding, Severity};
-use gcheck_engine::{At, Branch, Choice, FlowObserver, Parting, Program};
+use gcheck_engine::{Assumption, At, Branch, Choice, FlowObserver, Parting, Program};
 use gcheck_program::{BinaryOp, BlockTable, ExprIx, Op, Place, StatementKind};
 
 use crate::collector::Collector;
@@ -195,17 +195,46 @@ fn stem(id: &'static str) -> &'static str {
     id.strip_prefix("maybe-").unwrap_or(id)
 }
 
-/// The ways that an analysis took, in words.
+/// What an analysis took for granted that another may not, in words.
 #[derive(Debug)]
 pub(crate) struct Case {
     /// Where each condition is, if it is in the file; when that way is taken.
     conditions: Vec<(Option<Range<u32>>, String)>,
+    /// What nobody knows.
+    note: Option<String>,
 }
 
 impl Case {
     /// The case of some choices.
     pub(crate) fn new(choices: &[Choice], program: &Program<'_>, environment: Environment<'_>) -> Self {
-        Self { conditions: choices.iter().map(|choice| condition(*choice, program, environment)).collect() }
+        Self {
+            conditions: choices.iter().map(|choice| condition(*choice, program, environment)).collect(),
+            note: None,
+        }
+    }
+
+    /// The case that programs which are not here leave what the file sets as it was; `None` if it calls no such program.
+    pub(crate) fn of_missing_programs<'p>(
+        assumptions: impl IntoIterator<Item = &'p Assumption>,
+    ) -> Option<Self> {
+        let name = |assumption: &'p Assumption| match assumption {
+            Assumption::MissingProgram(number) => Some(format!("program {number}")),
+            Assumption::MissingSubroutine(name) => Some(format!("the subroutine `{name}`")),
+            _ => None,
+        };
+        let missing: Vec<String> = assumptions.into_iter().filter_map(name).collect();
+        let (leave, note) = match missing.as_slice() {
+            [] => return None,
+            [only] => (
+                format!("{only} leaves it so"),
+                format!("{only} was not found: what it changes is not known"),
+            ),
+            [first, others @ ..] => (
+                "the programs that are not here leave it so".to_owned(),
+                format!("{first} and {} more were not found: what they change is not known", others.len()),
+            ),
+        };
+        Some(Self { conditions: vec![(None, leave)], note: Some(note) })
     }
 
     /// The finding as one that holds in this case only, with the severity that the user gave its rule; `None` when that is not
@@ -232,15 +261,27 @@ impl Case {
         finding.certainty = Certainty::Maybe;
         // What helps on one path may harm on another.
         finding.fixes.clear();
+        finding.message = format!("{}, when {}", finding.message, self.in_words());
+        Some((overridden, self.mark(finding)))
+    }
+
+    fn in_words(&self) -> String {
         let cases: Vec<&str> = self.conditions.iter().map(|(_, case)| case.as_str()).collect();
-        finding.message = format!("{}, when {}", finding.message, cases.join(" and "));
+        cases.join(" and ")
+    }
+
+    /// Marks the conditions.
+    fn mark(&self, mut finding: Finding) -> Finding {
+        if let Some(note) = &self.note {
+            return finding.note(note.clone());
+        }
         for (range, case) in &self.conditions {
             finding = match range {
                 Some(range) => finding.also(range.clone(), format!("when {case}")),
                 None => finding.note(format!("the condition is in another file: {case}")),
             };
         }
-        Some((overridden, finding))
+        finding
     }
 }
 

@@ -6,7 +6,7 @@
 use std::ops::Range;
 
 use gcheck_diagnostics::Finding;
-use gcheck_program::BlockFlags;
+use gcheck_program::{BlockFlags, Word};
 
 use crate::evaluated::BlockOfValues;
 use crate::{BlockCx, PathCx, PathRule, Remembers, Report};
@@ -52,7 +52,12 @@ impl PathRule for WithValues {
         } else {
             Vec::new()
         };
-        for finding in found.into_iter().filter(|finding| !shown.contains(&finding.range)) {
+        for mut finding in found.into_iter().filter(|finding| !shown.contains(&finding.range)) {
+            let missed = known.left_out.iter().find(|word| self.is_cause(word, &finding, &computed));
+            if let Some(word) = missed {
+                finding.help =
+                    Some(format!("give the variable of `{}` a value before this block", computed.text(word)));
+            }
             report.add(cx.with_calls(name_values(finding, &computed, known)));
         }
     }
@@ -63,6 +68,19 @@ impl WithValues {
         let mut found = Vec::new();
         (self.check)(cx, &mut Report::new(&mut |finding| found.push(finding)));
         found
+    }
+
+    /// Is it because a word counts for nothing, its variable being empty, that there is this finding?
+    fn is_cause(&self, left_out: &Word, finding: &Finding, cx: &BlockCx<'_>) -> bool {
+        // Any number would do: what is asked is whether the word is there.
+        let words: Vec<Word> =
+            cx.words.iter().copied().chain([left_out.with_value(1.0, left_out.code)]).collect();
+        let block = cx.environment.dialect.with_words(cx.block, &words);
+        let with = BlockCx { block: &block, words: &words, ..*cx };
+        !self
+            .findings(&with)
+            .iter()
+            .any(|other| other.range == finding.range && other.message == finding.message)
     }
 }
 
@@ -76,6 +94,10 @@ fn name_values(mut finding: Finding, cx: &BlockCx<'_>, known: &BlockOfValues) ->
             None => value.to_string(),
         };
         finding = finding.note(format!("`{}` is {is} here", cx.text(word)));
+    }
+    for word in known.left_out.iter().take(MOST_NAMED) {
+        finding = finding
+            .note(format!("the variable of `{}` is empty here, so the word does not count", cx.text(word)));
     }
     finding
 }

@@ -38,7 +38,7 @@ pub(crate) enum Scope {
     All,
     /// Runs that skip blocks with `/`; another analysis executes them.
     Skipping,
-    /// Runs that take one way of a condition.
+    /// Runs of one case: they take one way of a condition, or a program that is not here leaves what the file sets.
     OneWay,
 }
 

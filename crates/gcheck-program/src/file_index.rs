@@ -215,6 +215,17 @@ impl DataMark {
     }
 }
 
+/// Lines of data that nothing has ended so far.
+#[derive(Debug, Clone, PartialEq, Eq)]
+struct OpenData {
+    /// The block that opens them.
+    opened: DataMark,
+    /// The rows between it and the last macro statement.
+    rows: Vec<Range<u32>>,
+    /// Bytes of the file: where the rows after that begin.
+    from: u32,
+}
+
 /// What a block is to lines of data.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum DataMarkKind {
@@ -224,6 +235,8 @@ enum DataMarkKind {
     MayOpen,
     /// Its code may end them: `G11`.
     MayEnd,
+    /// It is a macro statement, which is executed among rows.
+    Statement,
     /// It has another code, which shows that the block is a command, or begins a program.
     Command,
 }
@@ -285,10 +298,12 @@ pub struct FileIndex {
     /// Lines of data from the block that opens them to the next command, in text order: rows of a table. See
     /// [`FileIndex::is_data`].
     data: Vec<Range<u32>>,
+    /// Those among them after a code that may open data: `G10 L75`.
+    likely_data: Vec<Range<u32>>,
     /// Blocks that matter to lines of data, for a file that this chunk is joined to.
     data_marks: Vec<DataMark>,
     /// The block that opened lines of data, if no command has come after it.
-    data_opened: Option<DataMark>,
+    data_opened: Option<OpenData>,
     /// Codes that opened lines of data which a command follows before any end.
     data_left_open: Vec<DataLeftOpen>,
     /// Levels of block delete that are used: bit 0 for a plain `/`.
@@ -399,7 +414,7 @@ impl FileIndex {
                 if let Some(mark) = data_mark(table, block, base, dialect)
                     && (may_be_data || mark.kind != DataMarkKind::Command)
                 {
-                    may_be_data = mark.kind.may_open();
+                    may_be_data = mark.kind.may_open() || mark.kind == DataMarkKind::Statement;
                     self.take_data_mark(&mark, dialect);
                     self.data_marks.push(mark);
                 }
@@ -415,7 +430,8 @@ impl FileIndex {
         let mut file_index = Self::default();
         file_index.add(table, 0, end, dialect);
         file_index.seen = Default::default();
-        (file_index.data, file_index.data_opened) = (Vec::new(), None);
+        (file_index.data, file_index.likely_data) = (Vec::new(), Vec::new());
+        file_index.data_opened = None;
         file_index.data_left_open = Vec::new();
         file_index
     }
@@ -423,8 +439,15 @@ impl FileIndex {
     /// Opens lines of data, or ends those that are open.
     fn take_data_mark(&mut self, mark: &DataMark, dialect: &Dialect<'_>) {
         let code = |mark: &DataMark| dialect.control().code_at(mark.code);
-        if let Some(opened) = self.data_opened.take() {
-            let data = opened.block.end..mark.block.start;
+        if mark.kind == DataMarkKind::Statement {
+            if let Some(open) = &mut self.data_opened {
+                open.rows.push(open.from..mark.block.start);
+                open.from = mark.block.end;
+            }
+            return;
+        }
+        if let Some(OpenData { opened, mut rows, from }) = self.data_opened.take() {
+            rows.push(from..mark.block.start);
             let is_ended = mark.kind == DataMarkKind::MayEnd
                 && code(mark).zip(code(&opened)).is_some_and(|(end, opener)| end.ends_data_of(opener));
             if opened.kind == DataMarkKind::Opens {
@@ -435,31 +458,34 @@ impl FileIndex {
                     let DataMark { code, block, .. } = opened;
                     self.data_left_open.push(DataLeftOpen { code, block, leads_elsewhere });
                 }
-                self.data.push(data);
+                self.data.extend(rows);
             } else if is_ended {
                 // Only now are they known for rows, when they have been counted as blocks.
-                drain(&mut self.labels, &data, |label| label.range.start);
-                drain(&mut self.unpointed, &data, |block| block.start);
-                drain(&mut self.long_numbers, &data, |block| block.start);
-                self.data.push(data);
+                for data in &rows {
+                    drain(&mut self.labels, data, |label| label.range.start);
+                    drain(&mut self.unpointed, data, |block| block.start);
+                    drain(&mut self.long_numbers, data, |block| block.start);
+                }
+                self.likely_data.extend(rows.iter().cloned());
+                self.data.extend(rows);
             }
         }
         if mark.kind.may_open() {
-            self.data_opened = Some(mark.clone());
+            let from = mark.block.end;
+            self.data_opened = Some(OpenData { opened: mark.clone(), rows: Vec::new(), from });
         }
     }
 
     /// Are blocks without a code rows, as far as the file goes so far?
     fn is_data_open(&self) -> bool {
-        self.data_opened.as_ref().is_some_and(|opened| opened.kind == DataMarkKind::Opens)
+        self.data_opened.as_ref().is_some_and(|open| open.opened.kind == DataMarkKind::Opens)
     }
 
     /// The codes that open lines of data which nothing ends before the next command, in text order.
     pub fn data_left_open(&self) -> impl Iterator<Item = DataLeftOpen> {
-        let is_open = |mark: &&DataMark| mark.kind == DataMarkKind::Opens;
-        let last = self.data_opened.as_ref().filter(is_open).map(|mark| DataLeftOpen {
-            code: mark.code,
-            block: mark.block.clone(),
+        let last = self.data_opened.as_ref().filter(|_| self.is_data_open()).map(|open| DataLeftOpen {
+            code: open.opened.code,
+            block: open.opened.block.clone(),
             leads_elsewhere: None,
         });
         self.data_left_open.iter().cloned().chain(last)
@@ -473,20 +499,30 @@ impl FileIndex {
     /// Is the place in lines of data? They are rows of a table, not commands, and their `N` are not labels. So are the lines
     /// after a code that may open data, if another code ends these.
     pub fn is_data(&self, at: u32) -> bool {
-        let after = self.data.partition_point(|data| data.end <= at);
-        let in_open = |opened: &DataMark| opened.kind == DataMarkKind::Opens && opened.block.end <= at;
-        self.data.get(after).is_some_and(|data| data.contains(&at))
-            || self.data_opened.as_ref().is_some_and(in_open)
+        let open = self.data_opened.as_ref().filter(|_| self.is_data_open());
+        is_in(&self.data, at) || open.is_some_and(|open| open.from <= at || is_in(&open.rows, at))
+    }
+
+    /// Is the place in lines that are most likely data: the code before them may open some, and another code ends them?
+    pub fn is_likely_data(&self, at: u32) -> bool {
+        is_in(&self.likely_data, at)
     }
 
     /// Adds the next chunk by what it holds; `base` is its offset in the file.
     pub fn join(&mut self, chunk: &Self, base: u32, dialect: &Dialect<'_>) {
         self.is_called = Answer::default();
         let moved = |range: &Range<u32>| shift(range, base);
-        // Up to its first command the chunk is rows, if lines of data are open.
-        let first_command = chunk.data_marks.first().map_or(u32::MAX, |mark| mark.block.start);
+        // Up to its first command the chunk is rows and macro statements, if lines of data are open.
+        let marks = &chunk.data_marks;
+        let first = marks.iter().position(|mark| mark.kind != DataMarkKind::Statement).unwrap_or(marks.len());
+        let (statements, commands) = marks.split_at_checked(first).unwrap_or_default();
+        let first_command = commands.first().map_or(u32::MAX, |mark| mark.block.start);
         let commands_from = if self.is_data_open() { first_command } else { 0 };
-        let is_command = |range: &Range<u32>| range.start >= commands_from;
+        let is_statement = |range: &Range<u32>| {
+            let after = statements.partition_point(|mark| mark.block.end <= range.start);
+            statements.get(after).is_some_and(|mark| mark.block.contains(&range.start))
+        };
+        let is_command = |range: &Range<u32>| range.start >= commands_from || is_statement(range);
         let labels = chunk.labels.iter().filter(|label| is_command(&label.range));
         self.labels.extend(labels.map(|l| Label { range: moved(&l.range), ..*l }));
         self.unpointed.extend(chunk.unpointed.iter().filter(|block| is_command(block)).map(moved));
@@ -731,8 +767,15 @@ impl<'t> References<'t> {
 
 /// What a block with a code, or the head of a program, is to lines of data.
 fn data_mark(table: &BlockTable, block: &Block, base: u32, dialect: &Dialect<'_>) -> Option<DataMark> {
-    if !dialect.has_data_codes() || is_row(block) {
+    if !dialect.has_data_codes() || !block.flags.intersects(NO_ROW) {
         return None;
+    }
+    if is_statement(block) {
+        return Some(DataMark {
+            kind: DataMarkKind::Statement,
+            code: CodeIx::NONE,
+            block: shift(&block.range, base),
+        });
     }
     let words = table.words(block);
     let control = dialect.control();
@@ -753,9 +796,28 @@ fn data_mark(table: &BlockTable, block: &Block, base: u32, dialect: &Dialect<'_>
     }))
 }
 
+/// Is the place in one of the ranges, which are in text order?
+fn is_in(ranges: &[Range<u32>], at: u32) -> bool {
+    let after = ranges.partition_point(|range| range.end <= at);
+    ranges.get(after).is_some_and(|range| range.contains(&at))
+}
+
+/// What a row of data does not have.
+const NO_ROW: BlockFlags = BlockFlags::CODE.union(BlockFlags::PROGRAM_NUMBER).union(BlockFlags::STATEMENT);
+
 /// Is it a row where lines of data are open?
 fn is_row(block: &Block) -> bool {
-    !block.flags.intersects(BlockFlags::CODE | BlockFlags::PROGRAM_NUMBER)
+    !block.flags.intersects(NO_ROW)
+}
+
+/// Is it a macro statement and nothing that shows that rows are over?
+fn is_statement(block: &Block) -> bool {
+    block.flags.intersection(NO_ROW) == BlockFlags::STATEMENT
+}
+
+/// May it be among rows: one of them, or a macro statement?
+pub(crate) fn may_be_among_rows(block: &Block) -> bool {
+    is_row(block) || is_statement(block)
 }
 
 /// Does the code call another program, or return to the one that called?
@@ -903,6 +965,16 @@ mod tests {
         // What follows the rows is another program, or nothing.
         assert_eq!(data_of(&format!("G10 L50\n{rows}\nO2\nN7 X1.\nG11\n")), (vec![rows], 1));
         assert_eq!(data_of(&format!("G10 L50\n{rows}\nN7 R1\n")), (vec![rows, "N7 R1"], 1));
+    }
+
+    #[test]
+    fn macro_statements_among_rows_are_not_rows() {
+        let (first, last) = ("N1320 P1 R#5", "N1321 P1 R7");
+        for opens in ["G10 L50", "G10 L75"] {
+            let text = format!("{opens}\n{first}\nN3 #5=#6\nIF [#5 EQ 1] GOTO 3\n{last}\nG11\n");
+            assert_eq!(data_of(&text), (vec![first, last], 0));
+        }
+        assert_eq!(data_of(&format!("G10 L50\n{first}\n#5=1\n{last}\n")), (vec![first, last], 1));
     }
 
     #[test]

@@ -15,7 +15,7 @@ use gcheck_syntax::cuts;
 use crate::block::{Block, BlockFlags, BlockIx, BlockTable, Value};
 use crate::control_flow_graph::ControlFlowGraph;
 use crate::expression::ExprIx;
-use crate::file_index::{FileIndex, code_region};
+use crate::file_index::{FileIndex, code_region, may_be_among_rows};
 use crate::lower::{Dialect, lower, skim};
 
 /// Bytes of text whose tables are kept.
@@ -284,6 +284,15 @@ impl<'a> Loaded<'a> {
         blocks.filter_map(move |block| {
             let place = self.place(block, dialect)?;
             place.block().flags.intersects(flags).then_some((block, place))
+        })
+    }
+
+    /// Does a code end lines of data below a block, before any block that is a command?
+    pub fn ends_data_below(&self, block: u32, dialect: &Dialect<'_>) -> bool {
+        let below = (block + 1..self.graph.blocks()).map_while(|block| self.place(block, dialect));
+        let mut commands = below.filter(|place| !may_be_among_rows(place.block()));
+        commands.next().is_some_and(|place| {
+            place.table.words(place.block()).iter().any(|word| dialect.ends_data(word.code))
         })
     }
 

@@ -7,6 +7,7 @@ mod edited_is_fresh;
 mod empty_words;
 mod every_rule;
 mod faults;
+mod missing_programs;
 mod one_condition;
 mod past_alarms;
 mod proposed_fixes;

@@ -41,6 +41,8 @@ use crate::{Problem, paths};
 
 /// Names under which a configuration is found, the first one first.
 pub const FILE_NAMES: [&str; 2] = ["gcheck.toml", ".gcheck.toml"];
+/// The schema beside the configuration: editors read it from there, of the version that wrote it and without a network.
+pub const SCHEMA_FILE: &str = "gcheck.schema.json";
 
 /// A configuration with everything it extends; the most basic layer first.
 #[derive(Debug, Default)]

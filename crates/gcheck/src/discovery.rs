@@ -8,7 +8,7 @@ use std::sync::{Arc, Mutex};
 
 use ignore::WalkBuilder;
 
-use crate::config::{Configs, FILE_NAMES, PathPattern};
+use crate::config::{Configs, FILE_NAMES, PathPattern, SCHEMA_FILE};
 use crate::{Problem, paths, reading};
 
 /// Extensions of part programs, lower case.
@@ -177,6 +177,10 @@ fn entries(folder: &Path) -> impl Iterator<Item = Result<ignore::DirEntry, Probl
 /// What is wrong with an ignore file of a folder: others' folders may have one that never ends.
 fn bad_ignore_file(folder: &Path) -> Option<Problem> {
     let refused = |path: PathBuf| {
+        // A folder of that name is never read as one.
+        if path.is_dir() {
+            return None;
+        }
         let reason = reading::irregular(&path, MOST_IGNORE)?;
         let message = format!("cannot read this ignore file: {reason}; its folder is not searched");
         Some(Problem::with_file(&path, message).help("remove it, or name the programs themselves"))
@@ -223,13 +227,17 @@ fn fit(pattern: &Path, configs: &mut Configs, found: &mut Found, seen: &mut BTre
     }
 }
 
-/// Takes a file that the user names. `*` of a shell and lists of changed files also name the configuration: it is read as what
-/// it is, and a mistake in it is a problem.
+/// Takes a file that the user names. `*` of a shell and lists of changed files also name the configuration, which is read as what
+/// it is, so that a mistake in it is a problem, and the schema beside it, which is passed over.
 fn add_named(path: PathBuf, configs: &mut Configs, found: &mut Found, seen: &mut BTreeSet<PathBuf>) {
-    if !path.file_name().is_some_and(|name| FILE_NAMES.iter().any(|known| name == *known)) {
+    let is_one_of =
+        |names: &[&str]| path.file_name().is_some_and(|name| names.iter().any(|known| name == *known));
+    if is_one_of(&FILE_NAMES) {
+        if let Err(problem) = configs.of_file(&path) {
+            found.problems.push(problem);
+        }
+    } else if !is_one_of(&[SCHEMA_FILE]) {
         add(path, found, seen);
-    } else if let Err(problem) = configs.of_file(&path) {
-        found.problems.push(problem);
     }
 }
 

@@ -5,7 +5,7 @@
 use gcheck_controls::CodeIx;
 
 use super::mode_set::ModeSet;
-use crate::lattice::lattice;
+use crate::lattice::{Lattice, lattice};
 use crate::model::Role;
 
 lattice! {
@@ -59,6 +59,22 @@ impl Modes {
             );
             let left = if stays { self.of(role).kept() } else { ModeSet::ANY };
             self.put(role, left);
+        }
+    }
+
+    /// Takes back what [`Self::forget`] took away. The code of motion may be another after any program, and one that is not
+    /// here may be called to choose offsets, or to move along a cylinder.
+    pub(super) fn keep_what_was_set(&mut self, before: &Self, start: &Self) {
+        for role in Role::ALL {
+            let mode = before.of(role);
+            let is_kept = match role {
+                Role::Motion | Role::Polar | Role::Cylinder => false,
+                Role::Length | Role::WorkOffset => !mode.same(start.of(role)),
+                _ => true,
+            };
+            if is_kept {
+                self.put(role, *mode);
+            }
         }
     }
 

@@ -3,7 +3,7 @@
 //! Knows: numbers and the data of the loaded tool. Must not know: the tool table's other entries, codes.
 
 use super::tables::{Tables, ToolData};
-use crate::lattice::{Perhaps, lattice};
+use crate::lattice::{Lattice, Perhaps, lattice};
 use crate::position::Position;
 use crate::value::Domain;
 
@@ -65,6 +65,24 @@ impl<D: Domain> ToolState<D> {
         }
         *loaded = Loaded { data: ToolData::UNKNOWN, entry: Perhaps::Unknown };
         *length = Position::UNKNOWN;
+    }
+
+    /// Takes back what [`Self::forget`] took away, as far as it is not as at the start.
+    pub(super) fn keep_what_was_set(&mut self, before: &Self, start: &Self) {
+        if !before.selected.same(&start.selected) {
+            self.selected = before.selected.clone();
+        }
+        if !before.number.same(&start.number) {
+            self.number = before.number.clone();
+            self.loaded = before.loaded;
+        }
+        if !before.h.same(&start.h) {
+            self.h = before.h.clone();
+            self.length = before.length;
+        }
+        if !before.d.same(&start.d) {
+            self.d = before.d.clone();
+        }
     }
 
     /// The same in another domain.

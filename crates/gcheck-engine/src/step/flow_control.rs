@@ -8,11 +8,12 @@ use gcheck_controls::{CodeIx, Effect, Letter, ReturnTo, Unset};
 use gcheck_program::{BlockFlags, BlockTable, ExprIx, Place, Value, Word};
 
 use super::{Count, Ending, Executor, Flow, Outcome, Step};
-use crate::assumption::{Assumption, Unsettled};
+use crate::assumption::{Assumption, Assumptions, Unsettled};
 use crate::fault::Fault;
 use crate::lattice::{Flat, Lattice, Perhaps};
 use crate::observer::Observer;
 use crate::origin::At;
+use crate::start::start_state;
 use crate::state::{BarCommand, Frame, FrameKind, Kept, Locals, ModalCall, ModalCalls, State};
 use crate::value::{Domain, Truth};
 
@@ -281,11 +282,18 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         self.lose_everything(state)
     }
 
-    /// Something ran that we do not know. Who looks at a path sees the rest of it as if that had changed nothing.
+    /// Something ran that we do not know. The options say what is taken to be left as it was.
     pub(super) fn lose_everything(&mut self, state: &mut State<D>) -> Step {
         // What compensation holds back was commanded before.
         let flushed = self.flush_compensation(state);
-        if !self.options.assumes {
+        if self.options.keeps_what_was_set {
+            let before = state.clone();
+            state.forget();
+            let start = self.start.get_or_insert_with(|| {
+                Box::new(start_state(self.model, self.machine, &mut Assumptions::default()))
+            });
+            state.keep_what_was_set(&before, start);
+        } else if !self.options.assumes {
             state.forget();
         }
         flushed

@@ -17,6 +17,7 @@ use crate::fault::{CompensationFault, Fault};
 use crate::lattice::{Flat, Lattice, Perhaps};
 use crate::machine::WorkOffset;
 use crate::observer::Observer;
+use crate::origin::At;
 use crate::position::{Axis, Position};
 use crate::state::{Offsets, State, ToolData};
 use crate::value::{Domain, Truth};
@@ -461,15 +462,30 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     }
 
     /// Does the block open lines of data by this code?
-    fn opens_data(&self, ix: CodeIx) -> bool {
-        let number = |letter| self.words.number(letter).map(Some);
-        let code = self.model.control().code_at(ix);
-        code.is_some_and(|code| code.data_opening(number) == DataOpening::Certain)
+    fn opens_data(&mut self, ix: CodeIx) -> bool {
+        let number = |letter| self.words.has(letter).then(|| self.words.number(letter));
+        match self.model.control().code_at(ix).map(|code| code.data_opening(number)) {
+            None | Some(DataOpening::Never) => false,
+            Some(DataOpening::IfEnded) => self.ends_rows_below(),
+            Some(DataOpening::Certain) => true,
+        }
     }
 
-    /// May the words of the block be a row of data? A block with a code is not: it ends the data, as `G11` does, or it is a
-    /// command that the control stops for, and what it means to do is done all the same.
-    pub(super) fn may_read_as_data(words: &[Word], state: &mut State<D>) -> bool {
+    /// Is the first code below the block under way one that ends lines of data?
+    fn ends_rows_below(&mut self) -> bool {
+        let At { file, block } = self.origin.at;
+        if let Some(ends) = self.rows_end.get(&self.origin.at) {
+            return *ends;
+        }
+        let dialect = self.program.dialect();
+        let ends = self.file(file).is_some_and(|file| file.loaded.ends_data_below(block, dialect));
+        self.rows_end.insert(self.origin.at, ends);
+        ends
+    }
+
+    /// Ends lines of data at a block with a code: it ends them by right, as `G11` does, or it is a command that the control stops
+    /// for, and what it means to do is done all the same. True: the block may be a row.
+    pub(super) fn reads_row_or_ends_data(words: &[Word], state: &mut State<D>) -> bool {
         if state.data_entry == Truth::False {
             return false;
         }

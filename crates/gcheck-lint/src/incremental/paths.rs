@@ -36,6 +36,8 @@ pub(crate) struct Paths {
     chains: Vec<Chain>,
     /// Ways of the first conditions, each followed by itself.
     partitions: Vec<Chain>,
+    /// Programs that are not here leave what the file sets as it was; `None` where no such program is called.
+    as_if_kept: Option<Chain>,
     /// The rules that had something to watch.
     active: Vec<&'static str>,
     /// What was done is no base for going on: all is analysed again at the next change.
@@ -148,7 +150,7 @@ pub struct Work {
 impl Paths {
     /// Marks what an edit makes stale beside what it changes itself: chunks with blocks of these flags came.
     pub(crate) fn note_flags(&mut self, flags: BlockFlags) {
-        let chains = self.chains.iter_mut().chain(&mut self.partitions);
+        let chains = self.chains.iter_mut().chain(&mut self.partitions).chain(&mut self.as_if_kept);
         for segment in chains.flat_map(|chain| &mut chain.segments) {
             segment.is_stale |= segment.flags.intersects(flags);
         }
@@ -184,13 +186,63 @@ impl Paths {
             let chain = |(index, skip): (usize, &u16)| Chain::new(*skip, scope(index), Vec::new());
             self.chains = switches.iter().enumerate().map(chain).collect();
             self.partitions.clear();
+            self.as_if_kept = None;
         }
         let remembers = watchers.remembers_all();
+        self.follow_chains(inputs, &mut watchers, &found, remembers, collector, work)?;
+        self.unsure |= !remembers && self.chains.iter().any(|chain| chain.segments.len() > 1);
+        let left_some_out = self.update_partitions(inputs, &mut watchers, &found, remembers, work)?;
+        let results: Vec<FlowResult> = self.chains.iter().map(|chain| chain.result(inputs.layout)).collect();
+        let first = results.first().filter(|_| !inputs.options.assumes);
+        let as_if_kept = first.and_then(|first| Case::of_missing_programs(&first.assumptions));
+        if as_if_kept.is_some() {
+            self.update_as_if_kept(inputs, &mut watchers, &found, remembers, work)?;
+        } else {
+            self.as_if_kept = None;
+        }
+        let at_ends_of_cases = self.follow_ends_of_cases(&mut watchers, &found, inputs.layout)?;
+        found.take();
+        watchers.forget_made();
+        let at_ends = self.follow_ends(&mut watchers, inputs.layout)?;
+        if let Some((first, others)) = results.split_first() {
+            watchers.finish(first, others);
+        }
+        drop(watchers);
+        let is_incomplete = results.iter().any(FlowResult::is_incomplete);
+        let positions =
+            if is_incomplete { Positions::default() } else { self.positions(inputs.layout, at_ends) };
+        let mut told = Told::default();
+        collect(inputs.layout, &self.chains, found.into_inner(), &mut |severity, mut finding| {
+            told.note(&finding);
+            positions.name(&mut finding);
+            collector.add(severity, finding);
+        });
+        self.collect_cases(inputs, as_if_kept, at_ends_of_cases, &mut told, collector);
+        let mut assumptions = Assumptions::new();
+        for result in &results {
+            assumptions.extend(result.assumptions.iter().cloned());
+        }
+        if left_some_out {
+            assumptions.insert(Assumption::PathsJoined);
+        }
+        Ok((assumptions, is_incomplete))
+    }
+
+    /// Brings the analyses of all paths up to date, one for each position of the switches.
+    fn follow_chains(
+        &mut self,
+        inputs: &Inputs<'_>,
+        watchers: &mut Watchers<'_, '_>,
+        found: &RefCell<Vec<(Option<Severity>, Finding)>>,
+        remembers: bool,
+        collector: &mut Collector<'_>,
+        work: &mut Work,
+    ) -> Result<(), Broken> {
         for index in 0..self.chains.len() {
             let Some(chain) = self.chains.get_mut(index) else { break };
             loop {
                 let offers = remembers && !self.unsure;
-                let went_back = match advance(chain, inputs, &mut watchers, &found, offers, work) {
+                let went_back = match advance(chain, inputs, watchers, found, offers, work) {
                     Err(Broken::Enough) => {
                         // What holds with one position of block delete only, shows when all were looked at.
                         if let [only] = self.chains.as_slice() {
@@ -217,34 +269,7 @@ impl Paths {
                 return Err(Broken::Useless);
             }
         }
-        self.unsure |= !remembers && self.chains.iter().any(|chain| chain.segments.len() > 1);
-        let left_some_out = self.update_partitions(inputs, &mut watchers, &found, remembers, work)?;
-        let results: Vec<FlowResult> = self.chains.iter().map(|chain| chain.result(inputs.layout)).collect();
-        found.take();
-        watchers.forget_made();
-        let at_ends = self.follow_ends(&mut watchers, inputs.layout)?;
-        if let Some((first, others)) = results.split_first() {
-            watchers.finish(first, others);
-        }
-        drop(watchers);
-        let is_incomplete = results.iter().any(FlowResult::is_incomplete);
-        let positions =
-            if is_incomplete { Positions::default() } else { self.positions(inputs.layout, at_ends) };
-        let mut told = Told::default();
-        collect(inputs.layout, &self.chains, found.into_inner(), &mut |severity, mut finding| {
-            told.note(&finding);
-            positions.name(&mut finding);
-            collector.add(severity, finding);
-        });
-        self.collect_partitions(inputs, &mut told, collector);
-        let mut assumptions = Assumptions::new();
-        for result in &results {
-            assumptions.extend(result.assumptions.iter().cloned());
-        }
-        if left_some_out {
-            assumptions.insert(Assumption::PathsJoined);
-        }
-        Ok((assumptions, is_incomplete))
+        Ok(())
     }
 
     /// Shows the rules the end of each analysis, with what they remember there. What each of them found then, of what the
@@ -271,6 +296,28 @@ impl Paths {
             found.push(if index == 0 { watchers.made().collect() } else { watchers.take_again() });
         }
         Ok(found)
+    }
+
+    /// What the rules find at the ends of the analyses of single cases, in their order.
+    fn follow_ends_of_cases(
+        &self,
+        watchers: &mut Watchers<'_, '_>,
+        found: &RefCell<Vec<(Option<Severity>, Finding)>>,
+        layout: &Layout,
+    ) -> Result<Vec<Vec<(Option<Severity>, Finding)>>, Broken> {
+        let follow = |chain: &Chain| {
+            watchers.restart(Scope::OneWay);
+            watchers.forget_made();
+            found.take();
+            if let Some(end) = chain.end.as_ref().filter(|_| !chain.is_given_up()) {
+                if !end.restore(watchers, layout) {
+                    return Err(Broken::Useless);
+                }
+                watchers.followed();
+            }
+            Ok(found.take())
+        };
+        self.partitions.iter().chain(&self.as_if_kept).map(follow).collect()
     }
 
     /// What holds with one position of block delete only; with what was found at the end of each analysis.
@@ -306,37 +353,56 @@ impl Paths {
         // Its own segments are what it goes on from.
         while let Some(Partition { choices, begins, from: _ }) = partitions.next() {
             let same = known.iter().position(|chain| chain.choices(inputs.layout).as_ref() == Some(&choices));
-            let kept = same.map(|index| known.swap_remove(index)).filter(|chain| !chain.is_used_up);
-            let is_kept = kept.is_some();
-            let mut chain =
-                kept.unwrap_or_else(|| Chain::new(first.skip, Scope::OneWay, named(&choices, inputs.layout)));
+            let kept = same.map(|index| known.swap_remove(index));
+            let chain = || Chain::new(first.skip, Scope::OneWay, named(&choices, inputs.layout));
             let fuel = inputs.fuel.min(begins.saturating_add(left));
             let inputs = Inputs { fuel, enough: u32::MAX, ..*inputs };
-            let went_back = advance(&mut chain, &inputs, watchers, found, offers, work)?;
-            if is_kept && (went_back || chain.is_given_up()) {
-                return Err(Broken::Useless);
-            }
-            if went_back {
-                chain.segments.clear();
-                advance(&mut chain, &inputs, watchers, found, false, work)?;
-            }
+            let chain = follow_apart(kept, chain, &inputs, watchers, found, offers, work)?;
             left = left.saturating_sub(chain.work().saturating_sub(begins));
             if left == 0 {
                 partitions.leave_rest();
             }
             partitions.add(&choices, chain.partings(inputs.layout));
-            chain.is_used_up = went_back || chain.is_given_up();
             self.partitions.push(chain);
         }
         Ok(partitions.left_some_out())
     }
 
-    /// Adds what holds on some paths only.
-    fn collect_partitions(&self, inputs: &Inputs<'_>, told: &mut Told, collector: &mut Collector<'_>) {
-        for chain in &self.partitions {
-            let Some(choices) = chain.choices(inputs.layout) else { continue };
-            let case = Case::new(&choices, inputs.program, inputs.environment);
-            collect(inputs.layout, [chain], Vec::new(), &mut |severity, finding| {
+    /// Follows all paths as if programs that are not here left what the file sets as it was.
+    fn update_as_if_kept(
+        &mut self,
+        inputs: &Inputs<'_>,
+        watchers: &mut Watchers<'_, '_>,
+        found: &RefCell<Vec<(Option<Severity>, Finding)>>,
+        offers: bool,
+        work: &mut Work,
+    ) -> Result<(), Broken> {
+        let Some(first) = self.chains.first() else { return Ok(()) };
+        let kept = self.as_if_kept.take();
+        let chain = || Chain::new(first.skip, Scope::OneWay, Vec::new());
+        let options = Options { keeps_what_was_set: true, ..inputs.options };
+        let inputs = Inputs { options, enough: u32::MAX, ..*inputs };
+        self.as_if_kept = Some(follow_apart(kept, chain, &inputs, watchers, found, offers, work)?);
+        Ok(())
+    }
+
+    /// Adds what holds in one case only; with what was found at the ends.
+    fn collect_cases(
+        &self,
+        inputs: &Inputs<'_>,
+        as_if_kept: Option<Case>,
+        at_ends: Vec<Vec<(Option<Severity>, Finding)>>,
+        told: &mut Told,
+        collector: &mut Collector<'_>,
+    ) {
+        let case = |chain: &Chain| {
+            Some(Case::new(&chain.choices(inputs.layout)?, inputs.program, inputs.environment))
+        };
+        let cases = self.partitions.iter().map(case).chain([as_if_kept]);
+        let chains = self.partitions.iter().chain(&self.as_if_kept).zip(at_ends);
+        for ((chain, at_end), case) in chains.zip(cases) {
+            let Some(case) = case else { continue };
+            collect(inputs.layout, [chain], at_end, &mut |severity, finding| {
                 told.add(&case, (severity, finding), inputs.rules, collector);
             });
         }
@@ -378,6 +444,31 @@ impl Paths {
         }
         true
     }
+}
+
+/// Brings a chain up to date that is followed beside those of all paths: the one that is kept, if it is of use, or a new one.
+fn follow_apart(
+    kept: Option<Chain>,
+    new: impl FnOnce() -> Chain,
+    inputs: &Inputs<'_>,
+    watchers: &mut Watchers<'_, '_>,
+    found: &RefCell<Vec<(Option<Severity>, Finding)>>,
+    offers: bool,
+    work: &mut Work,
+) -> Result<Chain, Broken> {
+    let kept = kept.filter(|chain| !chain.is_used_up);
+    let is_kept = kept.is_some();
+    let mut chain = kept.unwrap_or_else(new);
+    let went_back = advance(&mut chain, inputs, watchers, found, offers, work)?;
+    if is_kept && (went_back || chain.is_given_up()) {
+        return Err(Broken::Useless);
+    }
+    if went_back {
+        chain.segments.clear();
+        advance(&mut chain, inputs, watchers, found, false, work)?;
+    }
+    chain.is_used_up = went_back || chain.is_given_up();
+    Ok(chain)
 }
 
 /// Adds each finding once: a loop comes by many times, and so do calls from several segments.

@@ -178,6 +178,8 @@ fn thread_in(comment: &str, wanted: Wanted) -> Option<(String, f64)> {
         return None;
     }
     let all: Vec<&str> = pieces(&upper).collect();
+    // A size alone stands for its coarse pitch, unless the comment gives the pitch in a word of its own: `M10 TAP P1.25`.
+    let has_own_pitch = all.iter().any(|piece| may_be_pitch(piece));
     for (ix, piece) in all.iter().copied().enumerate() {
         // A size alone names a hole or a bolt as well, and two numbers name holes, drawings and dates: `10-24` is a thread only
         // right beside the word.
@@ -187,6 +189,10 @@ fn thread_in(comment: &str, wanted: Wanted) -> Option<(String, f64)> {
         let is_beside = is_word(ix.checked_sub(1)) || is_word(ix.checked_add(1));
         let is_pitch = piece.contains(['X', '-', '*']) && (is_marked || is_thread);
         let is_written = (is_marked || is_beside) && (wanted == Wanted::Tap || is_pitch);
+        let is_alone = !piece.contains(['X', '-', '*']);
+        if is_alone && has_own_pitch {
+            continue;
+        }
         if let Some(pitch) = metric(piece).or_else(|| inch(piece)).filter(|_| is_written) {
             found.push((piece.to_owned(), pitch));
         }
@@ -199,6 +205,14 @@ fn thread_in(comment: &str, wanted: Wanted) -> Option<(String, f64)> {
         }
         _ => None,
     }
+}
+
+/// `P1.25`, `1.25MM`, `X` before a number, `FINE`: a word that may give the pitch of a thread whose size is another word.
+fn may_be_pitch(piece: &str) -> bool {
+    let number = piece.trim_start_matches(['P', 'X']).trim_end_matches(|c: char| c.is_ascii_alphabetic());
+    let is_number = self::number(number).is_some();
+    matches!(piece, "X" | "FINE" | "MF" | "PITCH" | "EXTRAFINE")
+        || is_number && (number.contains('.') || piece.starts_with('P'))
 }
 
 /// `M6X1`, `M10-1.25`, `M8` with its coarse pitch.
@@ -318,6 +332,12 @@ mod tests {
             ("(10-24 TAP)", Some(25.4 / 24.0)),
             ("(TAP M6 CHANGED 10-24)", Some(1.0)),
             ("(TAP CHANGED 10-24)", None),
+            ("(T5 - M8 TAP)", Some(1.25)),
+            ("(M10 SPIRAL POINT TAP P1.25)", None),
+            ("(M10 TAP 1.25MM)", None),
+            ("(M10 TAP 1.25P)", None),
+            ("(TAP M10 X 1)", None),
+            ("(M6 FINE TAP)", None),
         ] {
             assert_eq!(thread_in(comment, Wanted::Tap).map(|(_, pitch)| pitch), expected, "{comment}");
         }

@@ -37,8 +37,12 @@ impl ToolComment {
     }
 
     /// The one size that it gives, as `10 MM`, `1/4 IN` or `DRILL 3/4`: of a drill or an end mill its diameter. `None` where it
-    /// gives none or several. `D=12.`, as posts list their tools, counts in the units of the program.
+    /// gives none or several, or says that it is the size of something else (`LEAVE .01 IN`). `D=12.`, as posts list their tools,
+    /// counts in the units of the program.
     pub(crate) fn size(&self, units: Option<Units>) -> Option<Mm> {
+        if self.has(&OTHER_SIZES) {
+            return None;
+        }
         let ends = |c: char| c.is_whitespace() || matches!(c, ',' | ':' | ';' | '|' | '=');
         let tokens: Vec<&str> = self.text.split(ends).filter(|token| !token.is_empty()).collect();
         let mut sizes = tokens.iter().enumerate().filter_map(|(at, token)| {
@@ -52,6 +56,42 @@ impl ToolComment {
         sizes.next().filter(|_| sizes.next().is_none())
     }
 }
+
+/// Words beside which a size is not a diameter.
+const OTHER_SIZES: [&str; 32] = [
+    "ALLOW",
+    "ALLOWANCE",
+    "CORNER",
+    "CR",
+    "DEEP",
+    "DEPTH",
+    "DOC",
+    "FOR",
+    "LEAVE",
+    "LEAVES",
+    "LENGTH",
+    "LG",
+    "LOC",
+    "LONG",
+    "OAL",
+    "OFFSET",
+    "OVERSIZE",
+    "PITCH",
+    "R",
+    "RAD",
+    "RADIUS",
+    "REACH",
+    "SHANK",
+    "STEP",
+    "STEPOVER",
+    "STICKOUT",
+    "STOCK",
+    "THICK",
+    "TOL",
+    "TOLERANCE",
+    "WEAR",
+    "WOC",
+];
 
 /// What the comment of the tool in the spindle says.
 pub(crate) fn comment_at_work(cx: &PathCx<'_>) -> Option<Rc<ToolComment>> {

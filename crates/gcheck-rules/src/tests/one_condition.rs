@@ -113,8 +113,9 @@ fn a_mode_of_one_way_changes_what_words_mean() {
         "G91",
         "G1 Z-1. F100.\nG0 Z-50.",
         &expect![[r#"
-        10: warning[maybe-incremental-left-on] the move may be in increments (`G91`)
-    "#]],
+            10: warning[maybe-incremental-left-on] the move may be in increments (`G91`)
+            11: info[rapid-between-cuts] rapid move down into the part and up again, and nothing is cut, when `#500` is not 1
+        "#]],
     );
 }
 

@@ -102,11 +102,16 @@ fn is_alike(a: &Act, b: &Act) -> bool {
         (Some(Stand::Output { index: a, .. }), Some(Stand::Output { index: b, .. })) => a == b,
         (Some(Stand::UserCommand(a, ..)), Some(Stand::UserCommand(b, ..))) => a == b,
         (Some(Stand::Chuck(a)), Some(Stand::Chuck(b))) => a == b,
-        // `N1320`: which parameter it is.
-        (Some(Stand::Row(a)), Some(Stand::Row(b))) => is_alike_word(a.first(), b.first()),
+        (Some(Stand::Row(a)), Some(Stand::Row(b))) => is_alike_word(row_name(a), row_name(b)),
         (Some(a), Some(b)) => std::mem::discriminant(a) == std::mem::discriminant(b),
         _ => false,
     }
+}
+
+/// The word that says which row it is: `N1320` of a parameter, `P` of a group or an offset, `T` of a tool.
+fn row_name(words: &[(char, f64)]) -> Option<&(char, f64)> {
+    let named = ['N', 'P', 'T'].into_iter().find_map(|name| words.iter().find(|(letter, _)| *letter == name));
+    named.or_else(|| words.iter().min_by_key(|(letter, _)| *letter))
 }
 
 /// The same word, for all that is known?

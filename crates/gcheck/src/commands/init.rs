@@ -6,11 +6,8 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use crate::args::Global;
-use crate::config::{Configs, FILE_NAMES, validate_control};
+use crate::config::{Configs, FILE_NAMES, SCHEMA_FILE, validate_control};
 use crate::{Problem, config, detection, discovery, output, reading};
-
-/// The schema beside the configuration: editors read it from there, of the version that wrote it and without a network.
-const SCHEMA_FILE: &str = "gcheck.schema.json";
 
 /// Programs that are looked at to find the control of the folder, at most.
 const LOOKED_AT: usize = 200;

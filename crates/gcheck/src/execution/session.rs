@@ -74,8 +74,7 @@ pub(crate) fn prepare(
         options: Options {
             skip: conditions.block_skip.0,
             optional_stop: conditions.optional_stop == Switch::On,
-            past_alarms: false,
-            assumes: false,
+            ..Options::NONE
         },
         fuel: conditions.fuel,
         search: settings.search,

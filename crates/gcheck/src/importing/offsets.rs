@@ -186,7 +186,7 @@ fn execute(sheet: &mut Sheet<'_>, prepared: &Prepared, session: &Session<'_>) {
         (1..=WORK_OFFSETS).filter_map(|number| Some((number, name_of(session, number)?))).collect();
     let text = prepared.source.text();
     let mut writers = Writers::new(text, names.keys().copied().collect());
-    let options = Options { skip: 0, optional_stop: false, past_alarms: false, assumes: false };
+    let options = Options::NONE;
     let machine = &prepared.equipment.machine;
     let result = gcheck_engine::run(session.program, session.model, machine, options, FUEL, &mut writers);
     let is_end = matches!(result.stopped, Stopped::Ended(ending) if !matches!(ending, Ending::Alarm(_)));

@@ -176,8 +176,9 @@ fn ci_installs_the_checker_of_advisories() {
     let at = |wanted: &dyn Fn(&Value) -> bool| steps.iter().position(wanted).unwrap();
     let installed = at(&|step| {
         let tool = step["with"]["tool"].as_str().unwrap_or_default();
-        tool.strip_prefix("cargo-deny@")
-            .is_some_and(|version| version.split('.').count() == 3 && !version.is_empty())
+        tool.strip_prefix("cargo-deny@").is_some_and(|version| {
+            version.split('.').filter_map(|part| part.parse::<u32>().ok()).count() == 3
+        })
     });
     assert!(installed < at(&|step| step["run"] == ".ci/run"));
 }
@@ -354,7 +355,7 @@ fn recipes_for_editors_without_the_server_print_findings_a_line() {
     }
 }
 
-/// Reads messages of the language server until one with a member.
+/// Reads messages of the language server until one with this method.
 #[cfg(unix)]
 fn message_with(input: &mut impl std::io::BufRead, method: &str) -> Value {
     loop {
@@ -392,7 +393,11 @@ fn efm_publishes_every_finding_with_its_severity() {
     command.env("PATH", format!("{bin}:{}", std::env::var("PATH").unwrap()));
     command.stdin(std::process::Stdio::piped()).stdout(std::process::Stdio::piped());
     let Ok(mut server) = command.spawn() else {
-        return skip("efm_publishes_every_finding", "efm-langserver", "`cargo xtask test` installs it");
+        return skip(
+            "efm_publishes_every_finding_with_its_severity",
+            "efm-langserver",
+            "`cargo xtask test` installs it",
+        );
     };
     let (mut input, output) = (server.stdin.take().unwrap(), server.stdout.take().unwrap());
     let mut send = |message: Value| {

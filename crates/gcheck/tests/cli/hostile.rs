@@ -92,6 +92,14 @@ fn ignore_files_that_never_end_leave_out_their_folder_alone() {
 }
 
 #[test]
+fn a_folder_with_the_name_of_an_ignore_file_is_a_folder() {
+    let shop = Shop::with(&[("a.nc", BAD)]);
+    fs::create_dir_all(shop.path(".ignore")).unwrap();
+    let run = shop.gcheck("check --no-cache --control haas-mill .");
+    assert_eq!((run.code, run.stderr.contains("ignore")), (1, false), "{run}");
+}
+
+#[test]
 fn an_ignore_file_around_the_folder_is_read_as_carefully() {
     let shop = Shop::with(&[("around/inner/a.nc", BAD)]);
     make_pipe(&shop.path("around/.gitignore"));

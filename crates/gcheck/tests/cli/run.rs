@@ -210,7 +210,7 @@ fn an_endless_loop_runs_out_of_fuel() {
             !   |
             ! 1 | o1 while [1]
             !   | ^^^^^^^^^^^^
-            !   note: a loop may never end
+            !   note: a loop may never end, or repeats give very many moves
             !   help: `--fuel BLOCKS` allows more
             exit 1
         "#]],

@@ -89,6 +89,9 @@ fn a_configuration_among_the_named_files_is_not_a_program() {
     assert_eq!(shop.gcheck("check a.nc gcheck.toml").code, 0);
     let alone = shop.gcheck("check gcheck.toml");
     assert_eq!((alone.code, alone.stdout.as_str()), (0, "no programs found\n"), "{alone}");
+    // The schema that `init --schema` writes beside it is not one either.
+    shop.file("gcheck.schema.json", "{\n\"$schema\": 1\n}\n");
+    check_files(&shop, "a.nc gcheck.toml gcheck.schema.json", &["a.nc"]);
     // Named alone it is checked as what it is.
     shop.file("gcheck.toml", "contrl = 1\n");
     let wrong = shop.gcheck("check gcheck.toml");

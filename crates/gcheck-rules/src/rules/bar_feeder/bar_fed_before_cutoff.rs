@@ -93,6 +93,8 @@ struct BarFedBeforeCutoff {
     cut: Option<DeepestCut>,
     /// How deep the hole along the centre is: work coordinate, millimetres.
     hole: f64,
+    /// Where the last cut toward the centre began outside all that was turned: work coordinate, millimetres.
+    groove: Option<f64>,
 }
 
 remembers!(BarFedBeforeCutoff: cut);
@@ -101,6 +103,8 @@ remembers!(BarFedBeforeCutoff: cut);
 struct DeepestCut {
     /// Work coordinate, millimetres; below zero.
     z: f64,
+    /// Its radius, millimetres.
+    x: f64,
     bytes: Range<u32>,
 }
 
@@ -128,18 +132,24 @@ impl PathRule for BarFedBeforeCutoff {
         if travel.kind != TravelKind::Feed || z > -FACE || z.is_nan() {
             return;
         }
-        let deepest = self.cut.as_ref().map_or(0.0, |cut| cut.z);
+        let (deepest, outside) = self.cut.as_ref().map_or((0.0, 0.0), |cut| (cut.z, cut.x));
+        if goes_in(travel) && travel.from.raw(Axis::X) >= outside - SLACK {
+            self.groove = Some(z);
+        }
+        let is_in_groove = self.groove.is_some_and(|groove| (groove - z).abs() < SLACK);
         if is_at_centre(travel) {
             self.hole = self.hole.min(z);
         } else if goes_in(travel)
             && (z <= deepest + SLACK
-                || z <= deepest + BLADE && (z > self.hole && goes_deep(travel) || goes_to_centre(travel)))
+                || z <= deepest + BLADE
+                    && (z > self.hole && goes_deep(travel) || is_in_groove && goes_to_centre(travel)))
         {
-            // Nearer to the chuck than all that was turned, or at most a blade's width before its end: there to the centre, or deep
-            // into a part with a hole.
+            // Nearer to the chuck than all that was turned, or at most a blade's width before its end: there to the centre and not
+            // from inside a bore, or deep into a part with a hole.
             self.cut = None;
         } else if z < deepest && goes_along(travel) {
-            self.cut = Some(DeepestCut { z, bytes: cx.range() });
+            let x = travel.from.raw(Axis::X).max(travel.to.raw(Axis::X));
+            self.cut = Some(DeepestCut { z, x, bytes: cx.range() });
         }
     }
 
@@ -211,6 +221,16 @@ mod tests {
     fn the_blade_that_goes_out_at_feed_turns_nothing() {
         let drill = "T404\nG0 X0. Z0.2\nG1 Z-0.95 F0.006\nG0 Z4.\n";
         check_rule(&RULE, "haas-lathe", &program(drill, "G1 X0.3 F0.0025\nX0.9 F0.05\n"), &expect![[""]]);
+    }
+
+    #[test]
+    fn the_bottom_of_a_bore_is_not_a_cutoff() {
+        let drill = "T404\nG0 X0. Z0.2\nG1 Z-0.85 F0.006\nG0 Z4.\n";
+        let boring = "G0 X0.4\nG1 X-0.01 F0.003\n";
+        check_rule(&RULE, "haas-lathe", &program(drill, boring), &expect![[""]]);
+        // In several strokes from outside it is one.
+        let pecks = "G1 X0.4 F0.0025\nG0 X0.5\nG1 X-0.02 F0.0025\n";
+        check_rule(&RULE, "haas-lathe", &program("", pecks), &expect![[""]]);
     }
 
     #[test]

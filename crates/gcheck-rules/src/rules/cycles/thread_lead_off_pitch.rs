@@ -17,8 +17,9 @@ declare_rule! {
     /// The lead of a thread (`F` of `G32`, `G92` and `G76` on lathes, `K` of `G33` and `G33.1`) is not the pitch of the thread
     /// that a comment names: the comment of the block, of its operation or its tool, or the title of the program.
     ///
-    /// The comment has to give the pitch (`M20X1.5`, `1/2-13`); one nearer to the cut that names a thread in another form (`G3/4`)
-    /// counts before the others, and nothing is reported. The title counts where the program cuts all its threads with one lead.
+    /// The comment has to give the pitch (`M20X1.5`, `1/2-13`); of a tap its size is enough (`M6 TAP`), which stands for the coarse
+    /// pitch unless the comment gives another number. One nearer to the cut that names a thread in another form (`G3/4`) counts
+    /// before the others, and nothing is reported. The title counts where the program cuts all its threads with one lead.
     /// Threads of several starts are not looked at: those whose comment says so (`2 START`, `DOUBLE LEAD`, `TWIN`), and those with
     /// an angle for the start (`Q`) and a lead of some pitches.
     ///

@@ -108,7 +108,7 @@ impl PathRule for AlarmReached {
 
     fn ended(&mut self, cx: &PathCx<'_>, ending: Ending, _: &mut Report<'_>) {
         let Some(number) = self.alarm(cx, ending) else { return };
-        // A loop before it may be what the other paths never leave: that is known only after this is reported.
+        // A loop before it may be what the other paths never leave, which is not known here.
         let start = cx.range().start;
         if cx.file_index.loops.iter().any(|turn| turn.begins && turn.range.start < start) {
             return;
@@ -181,10 +181,12 @@ fn abort_of(cx: &PathCx<'_>, comment: &str) -> Option<(String, String)> {
     Some((name.clone(), text.trim().to_owned()))
 }
 
-/// The comment of the line, which the control shows with the alarm: also of a statement after `THEN`.
+/// The comment of the line, which the control shows with the alarm: the one after the assignment, also of a statement after `THEN`.
 fn text_of(cx: &PathCx<'_>) -> Option<String> {
     let file = cx.program.file(cx.origin().at.file)?;
-    let (_, rest) = file.loaded.line_from(cx.range().start).split_once('(')?;
+    let line = file.loaded.line_from(cx.range().start);
+    let assigned = line.split_once("3000").map_or(line, |(_, assigned)| assigned);
+    let (_, rest) = assigned.split_once('(')?;
     let (text, _) = rest.split_once(')')?;
     let text = text.trim();
     (!text.is_empty()).then(|| text.to_owned())
@@ -195,7 +197,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::testing::{Called, World, check_rule, check_rule_in};
+    use crate::testing::{Called, World, check_rule, check_rule_in, findings, only, words};
 
     #[test]
     fn an_argument_that_a_macro_of_another_file_needs() {
@@ -238,6 +240,17 @@ mod tests {
                   | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^ error[alarm-reached] the program always ends with its own alarm (`#3000`)
             "#]],
         );
+    }
+
+    #[test]
+    fn the_text_is_the_comment_after_the_assignment() {
+        let found = findings(
+            &only(&RULE),
+            "haas-mill",
+            "O1\nN10 (CHECK TOOL) #3000=5 (TOOL BROKEN)\nM30\n",
+            &World::default(),
+        );
+        expect![[""]].assert_eq(&found.iter().map(words).collect::<String>());
     }
 
     #[test]

@@ -7,7 +7,7 @@ use gcheck_engine::{At, Ending, Fact, Role};
 
 use crate::declare::declare_rule;
 use crate::facts::boundary::{Boundary, boundary, boundary_range, ends_at_tape_mark};
-use crate::facts::modes::{ActiveMode, left_on};
+use crate::facts::modes::{ActiveMode, forbids, left_on};
 use crate::{PathCx, PathRule, Report, Run, Severity, Uses, Watch};
 use crate::{Remembers, remembers};
 
@@ -78,7 +78,7 @@ impl PathRule for PolarInterpolationLeftOn {
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
         if let Some(boundary) = boundary(cx) {
             self.judge(cx, boundary.words(), boundary_range(cx, boundary), Some(boundary), report);
-        } else if cx.has_effect(returns) {
+        } else if cx.has_effect(returns) && !self.is_refused(cx) {
             self.judge(cx, "at the return to the reference position", cx.effect_range(returns), None, report);
         }
     }
@@ -92,6 +92,12 @@ impl PathRule for PolarInterpolationLeftOn {
 }
 
 impl PolarInterpolationLeftOn {
+    /// Does the mode refuse the return? `refused-by-mode` says so.
+    fn is_refused(&self, cx: &PathCx<'_>) -> bool {
+        let mode = cx.state().mode(Role::PolarInterpolation).only().and_then(|mode| cx.code_of(mode));
+        mode.is_some_and(|mode| cx.has_code(|code| returns(code.effect()) && forbids(mode, code)))
+    }
+
     fn judge(
         &mut self,
         cx: &PathCx<'_>,
@@ -152,15 +158,7 @@ mod tests {
               | ^^^ warning[polar-interpolation-left-on] polar interpolation is still on at the end of the program (`G12.1`)
         "#]],
         );
-        check_rule(
-            &RULE,
-            "fanuc-lathe",
-            &fanuc("G28 U0.\nG13.1\n"),
-            &expect![[r#"
-            6 | G28 U0.
-              | ^^^ warning[polar-interpolation-left-on] polar interpolation is still on at the return to the reference position (`G12.1`)
-        "#]],
-        );
+        check_rule(&RULE, "fanuc-lathe", &fanuc("G28 U0.\nG13.1\n"), &expect![""]);
         check_rule(&RULE, "fanuc-lathe", &fanuc("G13.1\nG28 U0.\n"), &expect![[""]]);
         let haas = |after: &str| {
             format!("G20 G98 T303\nM154\nM133 P1500\nG0 X2. Z.1 C0.\nG17 G112\nG1 X.5 Y.5 F6.\n{after}M30\n")

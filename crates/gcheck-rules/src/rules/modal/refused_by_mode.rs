@@ -1,7 +1,7 @@
 //! A code that a mode which is on refuses.
 
-use gcheck_controls::{CodeIx, Effect};
-use gcheck_engine::{At, Event, Fact, Role};
+use gcheck_controls::{Code, CodeIx, Effect};
+use gcheck_engine::{Abstract, At, Domain, Event, Fact, Role};
 
 use crate::declare::declare_rule;
 use crate::facts::compensation::limits_reading_ahead;
@@ -58,15 +58,17 @@ declare_rule! {
         since: "0.1.0",
         run: Run::Path {
             watch: Watch::BLOCKS.union(Watch::RAPIDS),
-            make: || Box::new(RefusedByMode { told: None }),
+            make: || Box::new(RefusedByMode::default()),
         },
     }
 }
 
-#[derive(Clone, PartialEq)]
+#[derive(Clone, Default, PartialEq)]
 struct RefusedByMode {
     /// The block that was reported last.
     told: Option<At>,
+    /// The lasting code of motion that was reported for blocks without a code.
+    moved_by: Option<CodeIx>,
 }
 
 remembers!(RefusedByMode: told);
@@ -87,9 +89,14 @@ impl PathRule for RefusedByMode {
         self.judge(cx, report);
     }
 
-    /// Blocks that only move are not shown as blocks.
+    /// Blocks that only move are not shown as blocks. They may move by a code of an earlier block.
     fn rapid(&mut self, cx: &PathCx<'_>, _: &Event, report: &mut Report<'_>) {
         self.judge(cx, report);
+        let Some(lasting) = cx.state().mode(Role::Motion).only() else { return };
+        if self.moved_by != Some(lasting) && cx.codes().is_empty() {
+            self.judge_codes(cx, &[lasting], report);
+            self.moved_by = Some(lasting).filter(|_| self.told == Some(cx.origin().at));
+        }
     }
 }
 
@@ -99,14 +106,22 @@ impl RefusedByMode {
         if self.told == Some(here) {
             return;
         }
+        self.moved_by = self.moved_by.filter(|_| cx.codes().is_empty());
+        self.judge_codes(cx, &cx.codes(), report);
+    }
+
+    fn judge_codes(&mut self, cx: &PathCx<'_>, codes: &[CodeIx], report: &mut Report<'_>) {
         for role in ROLES {
             // Another mode of the block takes its place.
             if cx.code_of_role(role).is_some() {
                 continue;
             }
             let Some(mode) = cx.state().mode(role).only() else { continue };
-            for finding in cx.codes().iter().filter_map(|code| judge(cx, role, mode, *code)) {
-                self.told = Some(here);
+            if role == Role::Compensation && is_ended_by_number(cx, mode) {
+                continue;
+            }
+            for finding in codes.iter().filter_map(|code| judge(cx, role, mode, *code)) {
+                self.told = Some(cx.origin().at);
                 report.add(finding);
             }
         }
@@ -118,34 +133,50 @@ fn judge(cx: &PathCx<'_>, role: Role, mode: CodeIx, refused: CodeIx) -> Option<F
     let (of_mode, code) = (cx.control().code_at(mode)?, cx.control().code_at(refused)?);
     let says_so = if forbids(of_mode, code) {
         of_mode.entry()
-    } else if role == Role::Compensation && forbids(code, of_mode) {
+    } else if role == Role::Compensation && (forbids(code, of_mode) || begins_without(code, of_mode)) {
         code.entry()
     } else {
         return None;
     };
-    if has_own_rule(cx, of_mode.effect(), refused) {
+    if has_own_rule(cx, role, of_mode.effect(), refused) {
         return None;
     }
     let (name, other) = (of_mode.number(), code.number());
-    let range = cx.word_range(|word| word.code == refused);
+    let range =
+        if cx.codes().contains(&refused) { cx.word_range(|word| word.code == refused) } else { cx.range() };
     let mut finding = cx
         .finding(&META, range, format!("`{other}` is refused while `{name}` is on"))
         .label(format!("{}, under {}", code.entry().title, of_mode.entry().title))
         .note(format!("the control stops with an alarm  [{}]", says_so.source))
-        .at_most(limit(says_so.confidence));
+        .at_most(limit(says_so.forbids_confidence.unwrap_or(says_so.confidence)));
     if let Some(end) = of_mode.entry().cancelled_by.iter().find(|item| !item.starts_with('@')) {
         finding = finding.help(format!("end `{name}` before it (`{end}`)"));
     }
     Some(cx.resting_on(finding, Fact::Mode(role), &format!("`{name}`")))
 }
 
-fn has_own_rule(cx: &PathCx<'_>, mode: Effect, refused: CodeIx) -> bool {
+/// Did the number of no offset end the mode, as `D0` does on some controls?
+fn is_ended_by_number(cx: &PathCx<'_>, mode: CodeIx) -> bool {
+    let ends = |code: Code<'_>| code.entry().cancelled_by.iter().any(|item| item == "D0");
+    cx.code_of(mode).is_some_and(ends) && Abstract::known(cx.state().d()) == Some(0.0)
+}
+
+/// Is it a mode of its own that requires another code of the mode's group: `G12.1` after `G40`?
+fn begins_without(code: Code<'_>, mode: Code<'_>) -> bool {
+    let is_own = Role::of(code.effect()).is_some_and(|role| ROLES.contains(&role))
+        && code.group_ix() != mode.group_ix();
+    let needs = |item: &String| mode.entry().cancelled_by.contains(item) && *item != code.entry().code;
+    is_own && code.entry().requires.iter().any(needs)
+}
+
+fn has_own_rule(cx: &PathCx<'_>, role: Role, mode: Effect, refused: CodeIx) -> bool {
     let effect = cx.model.effect(refused);
     is_along_tool(mode)
         || is_along_vectors(mode)
         || effect.is_probing_move()
         || effect == Effect::ProbeLength
-        || Role::of(effect) == Some(Role::Plane)
+        || role == Role::Compensation && Role::of(effect) == Some(Role::Plane)
+        || effect == Effect::CycleCancel
         || limits_reading_ahead(cx, refused)
 }
 
@@ -174,7 +205,47 @@ mod tests {
         "#]],
         );
         check_rule(&RULE, "fanuc-lathe", &on_the_face("G1 C20."), &expect![[""]]);
+        check_rule(
+            &RULE,
+            "fanuc-lathe",
+            &on_the_face("G83 Z-10. R2. F100."),
+            &expect![[r#"
+            6 | G83 Z-10. R2. F100.
+              | ^^^ error[refused-by-mode] `G83` is refused while `G12.1` is on
+        "#]],
+        );
+        check_rule(
+            &RULE,
+            "fanuc-lathe",
+            &on_the_face("G19"),
+            &expect![[r#"
+            6 | G19
+              | ^^^ error[refused-by-mode] `G19` is refused while `G12.1` is on
+        "#]],
+        );
+        check_rule(
+            &RULE,
+            "fanuc-lathe",
+            "G21 G98 T0101\nG97 S1000 M3\nG0 X60. Z-5. C0.\nG42 G1 X50. F100.\nG12.1\nG13.1\nG40 G1 X60.\nM30\n",
+            &expect![[r#"
+                5 | G12.1
+                  | ^^^^^ error[refused-by-mode] `G12.1` is refused while `G42` is on
+            "#]],
+        );
         check_rule(&RULE, "fanuc-lathe", &on_the_face("G13.1 G0 X60."), &expect![[""]]);
+    }
+
+    #[test]
+    fn a_rapid_move_by_an_earlier_code_is_marked_once() {
+        check_rule(
+            &RULE,
+            "fanuc-lathe",
+            "G21 G40 G98 T0101\nG97 S1000 M3\nG0 X60. Z-5. C0.\nG12.1\nX40. C10.\nX38.\nG13.1\nG0 Z50.\nM30\n",
+            &expect![[r#"
+                5 | X40. C10.
+                  | ^^^^^^^^^ error[refused-by-mode] `G0` is refused while `G12.1` is on
+            "#]],
+        );
     }
 
     #[test]
@@ -190,10 +261,11 @@ mod tests {
             &program(""),
             &expect![[r#"
             5 | G13 I0.3 Z-0.4 D1 F15.
-              | ^^^ error[refused-by-mode] `G13` is refused while `G41` is on
+              | ^^^ warning[refused-by-mode] `G13` is refused while `G41` is on
         "#]],
         );
         check_rule(&RULE, "haas-mill", &program("G40 X0.\n"), &expect![[""]]);
+        check_rule(&RULE, "haas-mill", &program("D0\n"), &expect![[""]]);
     }
 
     #[test]

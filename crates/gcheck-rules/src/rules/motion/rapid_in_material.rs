@@ -1,4 +1,4 @@
-//! A rapid move through material that is cut only later.
+//! A rapid move at cutting depth where nothing is cut yet.
 
 use std::ops::Range;
 
@@ -48,7 +48,7 @@ declare_rule! {
     /// M30
     /// ```
     rule "rapid-in-material" in "motion" {
-        summary: "rapid move through material that is cut only later",
+        summary: "rapid move at cutting depth where nothing is cut yet",
         severity: Warning,
         tier: Path,
         since: "0.1.0",
@@ -191,9 +191,11 @@ impl RapidInMaterial {
             }
             let depth = cx.shown(Mm(-rapid.z));
             let mut finding = cx
-                .finding(&META, rapid.bytes.clone(), "rapid move through material that is cut only later")
-                .label(format!("{depth} below the zero of the part, where no earlier cut is so deep"))
-                .also(cx.range(), "this cuts there at the same depth")
+                .finding(&META, rapid.bytes.clone(), "rapid move at cutting depth where nothing is cut yet")
+                .label(format!(
+                    "{depth} below the zero of the part, deeper than anything that was cut there before"
+                ))
+                .also(cx.range(), "a later cut at this depth crosses the way, so there is material")
                 .help("retract the tool before the move, or make the move at feed (`G1`)");
             if let Some(assumption) = &rapid.clear.assumption {
                 finding = finding.assuming(assumption.clone());
@@ -243,7 +245,7 @@ mod tests {
             SLOT,
             &expect![[r#"
             5 | G0 X80.
-              | ^^^^^^^ warning[rapid-in-material] rapid move through material that is cut only later
+              | ^^^^^^^ warning[rapid-in-material] rapid move at cutting depth where nothing is cut yet
         "#]],
         );
     }
@@ -261,7 +263,7 @@ mod tests {
             &bores(""),
             &expect![[r#"
             6 | G0 X3.2
-              | ^^^^^^^ warning[rapid-in-material] rapid move through material that is cut only later
+              | ^^^^^^^ warning[rapid-in-material] rapid move at cutting depth where nothing is cut yet
         "#]],
         );
         check_rule(&RULE, "haas-mill", &bores("G0 Z.1\n"), &expect![[""]]);
@@ -279,7 +281,7 @@ mod tests {
             &program.replace("Y4.\n", ""),
             &expect![[r#"
             5 | G0 X80.
-              | ^^^^^^^ warning[rapid-in-material] rapid move through material that is cut only later
+              | ^^^^^^^ warning[rapid-in-material] rapid move at cutting depth where nothing is cut yet
         "#]],
         );
     }
@@ -323,7 +325,7 @@ mod tests {
             &with(6.0),
             &expect![[r#"
             9 | G0 X80.
-              | ^^^^^^^ warning[rapid-in-material] rapid move through material that is cut only later
+              | ^^^^^^^ warning[rapid-in-material] rapid move at cutting depth where nothing is cut yet
         "#]],
         );
         check_rule_in(&RULE, "haas-mill", &program, &with(50.0), &expect![[""]]);

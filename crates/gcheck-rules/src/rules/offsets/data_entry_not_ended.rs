@@ -64,17 +64,20 @@ fn finding(cx: &FileCx<'_>, code: Code<'_>, open: DataLeftOpen) -> Finding {
     };
     let finding = Finding::new(&META, open.block, title)
         .label("the control reads the blocks after this one as rows of a table")
-        .note(format!(
-            "up to {ends} it takes rows only, and stops with an alarm at any other command  [{}]",
-            entry.source
-        ))
         .help(format!("write {ends} after the last row"))
         .at_most(limit(entry.confidence));
     match elsewhere {
         Some(code) => finding
-            .note(format!("the program that `{}` leads to may have {ends}", code.number()))
+            .note(format!(
+                "the program that `{}` leads to may have {ends}  [{}]",
+                code.number(),
+                entry.source
+            ))
             .at_most(Severity::Info),
-        None => finding,
+        None => finding.note(format!(
+            "up to {ends} it takes rows only, and stops with an alarm at any other command  [{}]",
+            entry.source
+        )),
     }
 }
 
