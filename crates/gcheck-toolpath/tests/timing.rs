@@ -228,3 +228,14 @@ fn no_time_is_below_the_bound_but_for_corners_that_are_cut() {
         assert!(row.ours >= least && row.theirs >= least, "{row:?}");
     }
 }
+
+/// With less acceleration the arcs in corners are wider, and the path is shorter.
+#[test]
+fn a_slow_path_of_corners_takes_longer_with_more_acceleration() {
+    let rows = rows(false);
+    let at = |acceleration| {
+        rows.iter().find(|row| row.program == "corner-slow" && row.acceleration == acceleration).unwrap()
+    };
+    let [less, more] = [at(1_000), at(4_000)];
+    assert!(more.theirs > less.theirs * 1.005 && more.ours > less.ours * 1.005, "{less:?} {more:?}");
+}
