@@ -71,7 +71,9 @@ struct Load<T> {
     why: Cap,
     jerk: f64,
     /// The next stretch begins before the end of this one.
-    overlap: Overlap,
+    overlap: Option<Overlap>,
+    /// By so many seconds, once the next stretch is known.
+    ahead: f64,
     /// It ends in a stop that its neighbours do not make necessary.
     stops: bool,
     /// What the control takes before it goes on.
@@ -95,8 +97,8 @@ pub struct Planner<T> {
     window: Window<Load<T>>,
     /// Speed at which the last piece was left.
     speed: f64,
-    /// What the last piece, which comes to rest at its end, gains for the next one.
-    resting: Overlap,
+    /// By how many seconds the next piece begins before the last one comes to rest.
+    resting: f64,
     /// Time of following that is still to come when the path ends.
     settle: f64,
     /// The last stretch is a thread.
@@ -119,7 +121,7 @@ impl<T: Copy> Planner<T> {
             open: None,
             window: Window::new(machine.control.look_ahead),
             speed: 0.0,
-            resting: Overlap::default(),
+            resting: 0.0,
             settle: 0.0,
             threading: false,
             halting: 0.0,
@@ -355,10 +357,15 @@ impl<T: Copy> Planner<T> {
         let filtered = self.machine.control.corners == Corners::Filtered;
         let acceleration = if filtered { f64::INFINITY } else { segment.pull() };
         let (leave, overlap) = match ending {
-            Ending::Stop => (0.0, Overlap::default()),
-            Ending::Pass(speed) => (speed, Overlap::default()),
-            Ending::Overlap(overlap) => (0.0, overlap),
+            Ending::Stop => (0.0, None),
+            Ending::Pass(speed) => (speed, None),
+            Ending::Overlap(overlap) => (0.0, Some(overlap)),
         };
+        if let Some(before) = self.window.last_mut()
+            && let Some(overlap) = before.overlap.take()
+        {
+            before.ahead = overlap.seconds(segment);
+        }
         self.window.push(Piece {
             length: segment.length,
             cap: segment.cap,
@@ -374,6 +381,7 @@ impl<T: Copy> Planner<T> {
                 why: segment.why,
                 jerk: segment.jerk,
                 overlap,
+                ahead: 0.0,
                 stops: matches!(ending, Ending::Stop),
                 waits,
                 settle: if filtered && fixed.is_none() { segment.cap / segment.acceleration } else { 0.0 },
@@ -413,8 +421,8 @@ impl<T: Copy> Planner<T> {
         } + load.waits;
         self.speed = exit;
         // What the last stretch and this one share of their time.
-        let overlap = (self.resting.seconds - self.resting.lost).clamp(0.0, seconds);
-        self.resting = load.overlap;
+        let overlap = self.resting.clamp(0.0, seconds);
+        self.resting = load.ahead;
         self.clock -= overlap;
         seconds -= overlap;
         if load.settle > 0.0 {
