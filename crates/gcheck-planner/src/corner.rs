@@ -53,12 +53,22 @@ impl Side {
 impl Overlap {
     /// For how long, seconds. The second one speeds up as if it began alone.
     pub(crate) fn seconds<T: Copy>(&self, second: &Segment<T>) -> f64 {
+        let [speed, _] = self.speeds(second);
+        speed / self.first.pull
+    }
+
+    /// The mean of the speeds that the first one has when it begins and the second one when it ends.
+    fn mean_speed<T: Copy>(&self, second: &Segment<T>) -> f64 {
+        let [one, other] = self.speeds(second);
+        f64::midpoint(one, other)
+    }
+
+    fn speeds<T: Copy>(&self, second: &Segment<T>) -> [f64; 2] {
         let sides = [self.first, Side::of(second)];
         let speeding = sides.map(|side| side.reached / side.pull);
         let [room, other_room] = sides.map(|side| side.length / side.reached);
         let together = speeding[0].max(speeding[1]).min(room).min(other_room);
-        let Side { reached, pull, .. } = self.first;
-        reached.min(together * pull).min(self.tolerated) / pull
+        sides.map(|side| side.reached.min(together * side.pull).min(self.tolerated))
     }
 }
 
@@ -112,7 +122,7 @@ pub(crate) fn meet<T: Copy>(
                 return Meet::Rest;
             }
             if !first.is_plain || !second.is_plain || !first.is_flat_with(second) {
-                return beyond(rounding, limits, told, first, second);
+                return beyond(rounding, limits, (told, slow), first, second);
             }
             match round(limits, rounding, tolerated, first, second) {
                 Some(arc) if arc.cap > slow => Meet::Round(arc),
@@ -348,7 +358,7 @@ fn in_plane(bounds: &Point, one: &Vector3<f64>, other: &Vector3<f64>) -> f64 {
 fn beyond<T: Copy>(
     rounding: &Rounding,
     limits: &Limits,
-    tolerance: Option<f64>,
+    (tolerance, slow): (Option<f64>, f64),
     first: &mut Segment<T>,
     second: &mut Segment<T>,
 ) -> Meet<T> {
@@ -356,13 +366,20 @@ fn beyond<T: Copy>(
         return Meet::Pass(even_turn(limits, &(second.begin - first.end), first, second));
     }
     // Both at half the acceleration: while they overlap, the sum does not exceed the whole.
-    first.share(OVERLAPPED);
-    second.share(OVERLAPPED);
+    let [mut one, mut other] = [*first, *second];
+    one.share(OVERLAPPED);
+    other.share(OVERLAPPED);
     // The path is off by what the first still has to go when the second begins.
-    let (leaves, arrives) = (first.leaves_level(), second.pulled());
-    let sharp = (leaves.cross(&arrives).norm().atan2(leaves.dot(&arrives)) / 2.0).sin().max(1e-3);
-    let tolerated = tolerance.map_or(f64::INFINITY, |off| 2.0 * (first.pull() * off / sharp).sqrt());
-    Meet::Overlap(Overlap { first: Side::of(first), tolerated })
+    let (leaves, arrives) = (one.leaves_level(), other.pulled());
+    let (sin, cos) = (leaves.cross(&arrives).norm().atan2(leaves.dot(&arrives)) / 2.0).sin_cos();
+    let tolerated = tolerance.map_or(f64::INFINITY, |off| 2.0 * (one.pull() * off / sin.max(1e-3)).sqrt());
+    let overlap = Overlap { first: Side::of(&one), tolerated };
+    // A corner that hardly turns may be faster on the path itself.
+    if slow > cos * overlap.mean_speed(&other) {
+        return keep(first, second, 1.0 - rounding.unrounded, slow);
+    }
+    [*first, *second] = [one, other];
+    Meet::Overlap(overlap)
 }
 
 /// The speed at which half of each move is enough to bring the axes from one direction to the other.

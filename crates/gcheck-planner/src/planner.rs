@@ -14,7 +14,7 @@ use crate::corner::{Meet, OVERLAPPED, Overlap, is_alone, meet};
 use crate::feeding::Feeding;
 use crate::item::{Drive, Item, Meeting, Move};
 use crate::jerk::Easing;
-use crate::machine::{Corners, Machine, Rapids, SpindleWait};
+use crate::machine::{Corners, Machine, Rapids, SpindleWait, Taps};
 use crate::merge::Merge;
 use crate::profile::{Profile, highest_entry};
 use crate::segment::{Cap, Segment};
@@ -103,6 +103,8 @@ pub struct Planner<T> {
     settle: f64,
     /// The last stretch is a thread.
     threading: bool,
+    /// The last stretch is the stroke of a tap.
+    tapping: bool,
     /// What the control takes for the stop that is being made.
     halting: f64,
     easing: Easing,
@@ -124,6 +126,7 @@ impl<T: Copy> Planner<T> {
             resting: 0.0,
             settle: 0.0,
             threading: false,
+            tapping: false,
             halting: 0.0,
             easing: Easing::default(),
             feeding: Feeding::new(machine.control.block_time.0, machine.control.look_ahead),
@@ -241,21 +244,28 @@ impl<T: Copy> Planner<T> {
         segment.blocks = blocks;
         let threads = matches!(item.drive, Drive::Thread(_));
         let alone = is_alone(item.drive, &self.machine);
-        if alone || threads != self.threading {
+        if alone {
             self.rest(each);
+        } else if threads != self.threading {
+            // The control knows that a thread meets nothing.
+            self.end(each);
         }
         if item.drive != Drive::Rapid && self.spindle.is_awaited() {
             self.rest(each);
             self.wait_for_spindle(item.tag, each);
         }
-        if let Drive::Thread(speed) = item.drive
-            && !self.threading
-        {
-            // The thread begins at the spindle's mark, half a turn away on the average.
+        let marked = match item.drive {
+            Drive::Thread(speed) if !self.threading => Some(speed),
+            Drive::Tap(speed) if !self.tapping && self.machine.control.taps == Taps::RunOut => Some(speed),
+            _ => None,
+        };
+        if let Some(speed) = marked {
+            // It begins at the spindle's mark, half a turn away on the average.
             let spindle = Seconds(if speed.0 > 0.0 { 30.0 / speed.0 } else { 0.0 });
             self.stand(item.tag, Shares { spindle, ..Shares::default() }, Cause::Spindle, each);
         }
         self.threading = threads;
+        self.tapping = matches!(item.drive, Drive::Tap(_));
         if let Some((mut first, meeting)) = self.open.take() {
             match meet(&self.machine, (meeting, self.meeting), &mut first, &mut segment) {
                 Meet::Rest => self.lay(&first, Ending::Stop, each),
@@ -320,6 +330,7 @@ impl<T: Copy> Planner<T> {
         self.rest(each);
         self.halting = 0.0;
         self.threading = false;
+        self.tapping = false;
     }
 
     fn rest(&mut self, each: &mut impl FnMut(&Span<T>)) {
@@ -331,6 +342,14 @@ impl<T: Copy> Planner<T> {
                 // The control was ready to let the next move overlap.
                 last.keep(OVERLAPPED);
             }
+            self.lay(&last, Ending::Stop, each);
+        }
+        self.run_all(each);
+    }
+
+    /// The axes come to rest where the control knows ahead that they will.
+    fn end(&mut self, each: &mut impl FnMut(&Span<T>)) {
+        if let Some((last, _)) = self.open.take() {
             self.lay(&last, Ending::Stop, each);
         }
         self.run_all(each);
