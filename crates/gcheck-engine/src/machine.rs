@@ -48,7 +48,7 @@ pub struct Machine {
     pub table_units: Option<Units>,
     /// The rotary axes that tilt the tool or the part.
     pub kinematics: Option<Kinematics>,
-    /// Machine coordinates of the point in which the rotary axes of the table meet.
+    /// Machine coordinates of the point in which the rotary axes of the table meet, or of one on the first.
     pub rotary_centre: Option<[Mm; 3]>,
     /// Rotary axes whose positions are reached the shorter way, as angles within a turn.
     pub shorter_way: Vec<Axis>,

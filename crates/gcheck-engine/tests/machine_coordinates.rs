@@ -47,7 +47,13 @@ const CENTRE: [Mm; 3] = [Mm(-100.0), Mm(-50.0), Mm(-250.0)];
 
 /// A machine with two rotary axes, the first carrying the second.
 fn rotary(arrangement: Arrangement, order: [RotaryAxis; 2]) -> Machine {
-    let kinematics = Kinematics { arrangement, order, sign: [1.0; 2], pivot_length: Some(Mm(200.0)) };
+    let kinematics = Kinematics {
+        arrangement,
+        order,
+        sign: [1.0; 2],
+        pivot_length: Some(Mm(200.0)),
+        offset: [Mm(0.0); 3],
+    };
     Machine { kinematics: Some(kinematics), rotary_centre: Some(CENTRE), ..Machine::default() }
 }
 

@@ -57,6 +57,7 @@ fn head(first: RotaryAxis, second: RotaryAxis) -> Kinematics {
         order: [first, second],
         sign: [1.0; 2],
         pivot_length: None,
+        offset: [Mm(0.0); 3],
     }
 }
 

@@ -66,6 +66,9 @@ pub struct Kinematics {
     pub sign: [f64; 2],
     /// From the point about which the head tilts to the gauge line of the spindle; none where it is not known.
     pub pivot_length: Option<Mm>,
+    /// Where both turn the same side: from a point on the first axis to a point on the second, at zero angles. Zero where
+    /// the axes meet. A tilting head is measured from the second axis, a table turns about a point of the first.
+    pub offset: [Mm; 3],
 }
 
 impl Kinematics {
@@ -101,7 +104,8 @@ impl Kinematics {
             (None, _) => return None,
         };
         let [x, y, z] = self.offset_along_tool(tip, length + pivot, angles);
-        Some([x, y, z - pivot])
+        let [dx, dy, dz] = self.head_shift(angles);
+        Some([x + dx, y + dy, z + dz - pivot])
     }
 
     /// Where the tip of a tool of `length` is while the linear axes are at `axes`;
@@ -131,11 +135,31 @@ impl Kinematics {
         }
     }
 
-    /// Where the points of the part are once the table has turned about `centre` (X, Y, Z of a point that both table
-    /// axes pass through).
+    /// Where the points of the part are once the table has turned about `centre` (X, Y, Z of a point that the table's axis
+    /// passes through; of two axes, the first).
     #[must_use]
     pub fn part_frame(&self, centre: [Mm; 3], angles: [Degrees; 3]) -> Frame {
-        Frame::about(self.part_rotation(angles), centre)
+        if self.arrangement != Arrangement::TableTable || self.axes_meet() {
+            return Frame::about(self.part_rotation(angles), centre);
+        }
+        let ([x, y, z], [dx, dy, dz]) = (centre, self.offset);
+        Frame::about(self.second(angles), [x + dx, y + dy, z + dz])
+            .then(&Frame::about(self.first(angles), centre))
+    }
+
+    /// What the second axis of a head moves by when the first one carries it round, with the sign of the linear axes that
+    /// make up for it.
+    fn head_shift(&self, angles: [Degrees; 3]) -> [Mm; 3] {
+        if self.arrangement != Arrangement::HeadHead || self.axes_meet() {
+            return [Mm::ZERO; 3];
+        }
+        let offset = Vector3::from(self.offset.map(|part| part.0));
+        let shift: [f64; 3] = (offset - self.first(angles) * offset).into();
+        shift.map(Mm)
+    }
+
+    fn axes_meet(&self) -> bool {
+        self.offset.iter().all(|part| part.0.abs() <= 0.0)
     }
 
     fn both(&self, angles: [Degrees; 3]) -> Matrix3<f64> {
@@ -172,7 +196,7 @@ mod tests {
     const ORIGIN: [Mm; 3] = [Mm(0.0); 3];
 
     fn machine(arrangement: Arrangement, order: [RotaryAxis; 2]) -> Kinematics {
-        Kinematics { arrangement, order, sign: [1.0, 1.0], pivot_length: None }
+        Kinematics { arrangement, order, sign: [1.0, 1.0], pivot_length: None, offset: ORIGIN }
     }
 
     fn angles(a: f64, b: f64, c: f64) -> [Degrees; 3] {

@@ -23,6 +23,6 @@ pub use bounds::{Bounds, MAX_AXES};
 pub use compensation::*;
 pub use frame::Frame;
 pub use kinematics::{Arrangement, Kinematics, RotaryAxis};
-pub use nurbs::{Bezier, ControlPoint, Nurbs, NurbsError};
+pub use nurbs::{Bezier, ControlPoint, CurveArc, Nurbs, NurbsError};
 pub use plane::Plane;
 pub use units::{Degrees, MM_PER_INCH, Mm, MmPerMin, MmPerRev, Rpm, Seconds};

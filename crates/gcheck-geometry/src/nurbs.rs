@@ -2,11 +2,19 @@
 //!
 //! Knows how control points and weights make a curve. Must not know how a program gives them.
 
+use nalgebra::Vector2;
+
 use crate::segment::{Edge, Point};
 use crate::units::Mm;
 
 /// The highest order (degree plus one) of a NURBS.
 pub const MAX_ORDER: usize = 32;
+
+/// A curve is cut into no more pieces of two arcs than this, or a few more.
+const MOST_PIECES: usize = 512;
+
+/// An arc of a larger radius, in millimetres, is a line.
+const STRAIGHT: f64 = 1e6;
 
 /// No piece of a curve is halved more often than this when it is cut into chords.
 const MAX_HALVINGS: u32 = 14;
@@ -63,10 +71,97 @@ impl Bezier {
         ends
     }
 
+    /// The curve as arcs and lines that touch each other and stay within about `tolerance` of it: two arcs for each of equal
+    /// pieces, of which there are four for each control point or more.
+    pub fn arcs(&self, tolerance: Mm) -> Vec<CurveArc> {
+        let mut count = match self {
+            Self::Quadratic(points) => 4 * points.len(),
+            Self::Cubic(points) => 4 * points.len(),
+        };
+        loop {
+            let (arcs, off) = self.in_arcs(count);
+            if off <= tolerance.0 || off.is_nan() || count >= MOST_PIECES {
+                return arcs;
+            }
+            count *= 2;
+        }
+    }
+
+    /// Two arcs for each of so many pieces, and how far the joints within the pieces are from the curve.
+    #[expect(clippy::cast_precision_loss, reason = "the count is small")]
+    fn in_arcs(&self, count: usize) -> (Vec<CurveArc>, f64) {
+        let at = |index: usize| index as f64 / count as f64;
+        let mut arcs = Vec::with_capacity(2 * count);
+        let mut off: f64 = 0.0;
+        for index in 0..count {
+            let (begin, end) = (at(index), at(index + 1));
+            let last = index + 1 == count;
+            let [from, to] = [self.point_at(begin), if last { self.end() } else { self.point_at(end) }];
+            let [leaves, arrives] = [begin, end].map(|t| self.direction_at(t, to - from));
+            let joint = joint(from, leaves, to, arrives);
+            let middle = self.point_at(f64::midpoint(begin, end));
+            // The joint lies beside the curve where its neighbour does: by what it is off across the chord.
+            let across = Vector2::new(-(to - from).y, (to - from).x).try_normalize(0.0);
+            off = off.max(across.map_or(0.0, |across| (joint - middle).dot(&across).abs()));
+            arcs.push(touching(from, leaves, joint));
+            arcs.push(CurveArc { end: to, ..touching(to, arrives, joint) });
+        }
+        (arcs, off)
+    }
+
+    /// The direction of the curve at the parameter `t`; that of `chord` where it has none.
+    fn direction_at(&self, t: f64, chord: Vector2<f64>) -> Vector2<f64> {
+        let rate = match *self {
+            Self::Quadratic([start, control, end]) => (control - start) * (1.0 - t) + (end - control) * t,
+            Self::Cubic([start, first, second, end]) => {
+                let rest = 1.0 - t;
+                (first - start) * (rest * rest)
+                    + (second - first) * (2.0 * rest * t)
+                    + (end - second) * (t * t)
+            }
+        };
+        rate.try_normalize(1e-9).or_else(|| chord.try_normalize(0.0)).unwrap_or_else(Vector2::x)
+    }
+
     /// The length along the curve, to about `tolerance`.
     pub fn length(&self, tolerance: Mm) -> Mm {
         chords_length(self.start(), &self.linearised(tolerance))
     }
+}
+
+/// A part of a curve: an arc, or a line.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CurveArc {
+    /// Where it ends.
+    pub end: Point,
+    /// The centre of an arc, and whether it turns counter-clockwise.
+    pub centre: Option<(Point, bool)>,
+}
+
+/// Where two arcs meet that leave one point and arrive at another, each going equally far along its direction.
+fn joint(from: Point, leaves: Vector2<f64>, to: Point, arrives: Vector2<f64>) -> Point {
+    let way = to - from;
+    let along = way.dot(&(leaves + arrives));
+    let apart = 2.0 * (1.0 - leaves.dot(&arrives));
+    let far = if apart > 1e-12 {
+        ((along * along + apart * way.norm_squared()).sqrt() - along) / apart
+    } else if along.abs() > 0.0 {
+        way.norm_squared() / (2.0 * along)
+    } else {
+        0.0
+    };
+    Point::from((from.coords + to.coords + (leaves - arrives) * far) / 2.0)
+}
+
+/// The arc that runs in a direction at one point, and has its other end at another point, which becomes its end here.
+fn touching(from: Point, direction: Vector2<f64>, end: Point) -> CurveArc {
+    let left = Vector2::new(-direction.y, direction.x);
+    let way = end - from;
+    let beside = way.dot(&left);
+    let radius = way.norm_squared() / (2.0 * beside);
+    // What hardly bends is a line.
+    let centre = (radius.abs() < STRAIGHT).then(|| (from + left * radius, beside > 0.0));
+    CurveArc { end, centre }
 }
 
 /// Why numbers do not make a NURBS.
@@ -315,6 +410,57 @@ mod tests {
 
     fn even(points: &[(f64, f64)]) -> Vec<ControlPoint> {
         points.iter().map(|(x, y)| ControlPoint { point: p(*x, *y), weight: 1.0 }).collect()
+    }
+
+    /// The arcs follow each other without a corner, along the curve and from its start to its end.
+    #[test]
+    fn arcs_of_a_curve_touch_each_other_and_the_curve() {
+        let at = |x: f64, y: f64| Point::new(x, y);
+        let curves = [
+            Bezier::Quadratic([at(0.0, 0.0), at(8.0, 8.0), at(16.0, 0.0)]),
+            Bezier::Cubic([at(0.0, 0.0), at(5.0, 10.0), at(20.0, 10.0), at(25.0, 0.0)]),
+            // It bends to the left and then to the right.
+            Bezier::Cubic([at(0.0, 0.0), at(10.0, 0.0), at(0.0, 20.0), at(10.0, 20.0)]),
+            // The start is a control point of its own.
+            Bezier::Cubic([at(0.0, 0.0), at(0.0, 0.0), at(50.0, 90.0), at(200.0, 0.0)]),
+        ];
+        for curve in curves {
+            let arcs = curve.arcs(Mm(0.01));
+            let mut from = curve.start();
+            let mut before: Option<Vector2<f64>> = None;
+            for arc in &arcs {
+                let direction = |point: Point| match arc.centre {
+                    Some((centre, counter_clockwise)) => {
+                        let out = (point - centre).normalize();
+                        Vector2::new(-out.y, out.x) * if counter_clockwise { 1.0 } else { -1.0 }
+                    }
+                    None => (arc.end - from).normalize(),
+                };
+                if let Some((centre, _)) = arc.centre {
+                    assert!(((from - centre).norm() - (arc.end - centre).norm()).abs() < 1e-6, "{arc:?}");
+                }
+                if let Some(before) = before {
+                    assert!((direction(from) - before).norm() < 1e-4, "{curve:?}: {arc:?}");
+                }
+                before = Some(direction(arc.end));
+                from = arc.end;
+            }
+            assert_eq!(from, curve.end());
+            let nearest = |point: Point| {
+                let points = (0..=4_000).map(|part| curve.point_at(f64::from(part) / 4_000.0));
+                points.map(|on| (on - point).norm()).fold(f64::INFINITY, f64::min)
+            };
+            assert!(arcs.iter().all(|arc| nearest(arc.end) < 0.05), "{curve:?}");
+        }
+    }
+
+    #[test]
+    fn arcs_of_a_curve_that_is_not_known_end() {
+        let unknown = Point::new(f64::NAN, 0.0);
+        let curve = Bezier::Quadratic([Point::origin(), unknown, Point::new(1.0, 0.0)]);
+        assert_eq!(curve.arcs(Mm(0.01)).last().unwrap().end, Point::new(1.0, 0.0));
+        let nowhere = Bezier::Quadratic([Point::origin(); 3]);
+        assert!(nowhere.arcs(Mm(0.01)).iter().all(|arc| arc.centre.is_none() && arc.end == Point::origin()));
     }
 
     #[test]

@@ -111,6 +111,7 @@ mod tests {
             order: [RotaryAxis::A, RotaryAxis::C],
             sign: [1.0; 2],
             pivot_length: None,
+            offset: [Mm::ZERO; 3],
         };
         // A face that looks along X is turned by C to look along Y, and by A up; or the other way round.
         let ways = machine.square_to(Vector3::x(), [Degrees(0.0); 3]);
@@ -127,7 +128,7 @@ mod tests {
         ) {
             let axes = [RotaryAxis::A, RotaryAxis::B, RotaryAxis::C];
             let order = [axes[first], axes[(first + step) % 3]];
-            let machine = Kinematics { arrangement, order, sign: signs, pivot_length: None };
+            let machine = Kinematics { arrangement, order, sign: signs, pivot_length: None, offset: [Mm::ZERO; 3] };
             let direction = machine.tool_axis_in_part(at.map(Degrees));
             let ways = machine.square_to(direction, [Degrees(0.0); 3]);
             prop_assert!(!ways.is_empty(), "{machine:?} {at:?}");

@@ -26,13 +26,50 @@ pub(crate) enum Meet<T> {
     Overlap(Overlap),
 }
 
-/// How two moves overlap.
-#[derive(Debug, Clone, Copy, Default)]
+/// How two moves overlap. For how long is known once what comes after the second has taken its part of it.
+#[derive(Debug, Clone, Copy)]
 pub(crate) struct Overlap {
-    /// For how long, seconds.
-    pub(crate) seconds: f64,
-    /// By how much less than that the second one is ahead of where it would be had it begun after the first.
-    pub(crate) lost: f64,
+    first: Side,
+    /// Highest speed of the first at which the path is not too far off; infinite without a tolerance.
+    tolerated: f64,
+}
+
+/// One of two moves that overlap.
+#[derive(Debug, Clone, Copy)]
+struct Side {
+    /// The speed that it reaches, running from rest to rest.
+    reached: f64,
+    pull: f64,
+    length: f64,
+}
+
+impl Side {
+    fn of<T: Copy>(segment: &Segment<T>) -> Self {
+        let (pull, length) = (segment.pull(), segment.length);
+        Self { reached: segment.cap.min((pull * length).sqrt()), pull, length }
+    }
+}
+
+impl Overlap {
+    /// For how long, seconds. The second one speeds up as if it began alone.
+    pub(crate) fn seconds<T: Copy>(&self, second: &Segment<T>) -> f64 {
+        let [speed, _] = self.speeds(second);
+        speed / self.first.pull
+    }
+
+    /// The mean of the speeds that the first one has when it begins and the second one when it ends.
+    fn mean_speed<T: Copy>(&self, second: &Segment<T>) -> f64 {
+        let [one, other] = self.speeds(second);
+        f64::midpoint(one, other)
+    }
+
+    fn speeds<T: Copy>(&self, second: &Segment<T>) -> [f64; 2] {
+        let sides = [self.first, Side::of(second)];
+        let speeding = sides.map(|side| side.reached / side.pull);
+        let [room, other_room] = sides.map(|side| side.length / side.reached);
+        let together = speeding[0].max(speeding[1]).min(room).min(other_room);
+        sides.map(|side| side.reached.min(together * side.pull).min(self.tolerated))
+    }
 }
 
 /// The part of the acceleration that each of two overlapping moves has.
@@ -85,7 +122,7 @@ pub(crate) fn meet<T: Copy>(
                 return Meet::Rest;
             }
             if !first.is_plain || !second.is_plain || !first.is_flat_with(second) {
-                return beyond(rounding, limits, told, first, second);
+                return beyond(rounding, limits, (told, slow), first, second);
             }
             match round(limits, rounding, tolerated, first, second) {
                 Some(arc) if arc.cap > slow => Meet::Round(arc),
@@ -321,7 +358,7 @@ fn in_plane(bounds: &Point, one: &Vector3<f64>, other: &Vector3<f64>) -> f64 {
 fn beyond<T: Copy>(
     rounding: &Rounding,
     limits: &Limits,
-    tolerance: Option<f64>,
+    (tolerance, slow): (Option<f64>, f64),
     first: &mut Segment<T>,
     second: &mut Segment<T>,
 ) -> Meet<T> {
@@ -329,20 +366,20 @@ fn beyond<T: Copy>(
         return Meet::Pass(even_turn(limits, &(second.begin - first.end), first, second));
     }
     // Both at half the acceleration: while they overlap, the sum does not exceed the whole.
-    first.share(OVERLAPPED);
-    second.share(OVERLAPPED);
-    let reached = [&*first, &*second].map(|side| side.cap.min((side.pull() * side.length).sqrt()));
-    let speeding = [reached[0] / first.pull(), reached[1] / second.pull()];
-    let room = (first.length / reached[0]).min(second.length / reached[1]);
-    let together = speeding[0].max(speeding[1]).min(room);
+    let [mut one, mut other] = [*first, *second];
+    one.share(OVERLAPPED);
+    other.share(OVERLAPPED);
     // The path is off by what the first still has to go when the second begins.
-    let (leaves, arrives) = (first.pulled(first.leaves()), second.pulled(second.arrives()));
-    let sharp = (leaves.cross(&arrives).norm().atan2(leaves.dot(&arrives)) / 2.0).sin().max(1e-3);
-    let tolerated = tolerance.map_or(f64::INFINITY, |off| 2.0 * (first.pull() * off / sharp).sqrt());
-    let seconds = reached[0].min(together * first.pull()).min(tolerated) / first.pull();
-    // The second one takes all of the time to reach its speed.
-    let lost = (seconds - reached[1].min(tolerated) / second.pull()).max(0.0) / 2.0;
-    Meet::Overlap(Overlap { seconds, lost })
+    let (leaves, arrives) = (one.leaves_level(), other.pulled());
+    let (sin, cos) = (leaves.cross(&arrives).norm().atan2(leaves.dot(&arrives)) / 2.0).sin_cos();
+    let tolerated = tolerance.map_or(f64::INFINITY, |off| 2.0 * (one.pull() * off / sin.max(1e-3)).sqrt());
+    let overlap = Overlap { first: Side::of(&one), tolerated };
+    // A corner that hardly turns may be faster on the path itself.
+    if slow > cos * overlap.mean_speed(&other) {
+        return keep(first, second, 1.0 - rounding.unrounded, slow);
+    }
+    [*first, *second] = [one, other];
+    Meet::Overlap(overlap)
 }
 
 /// The speed at which half of each move is enough to bring the axes from one direction to the other.

@@ -14,7 +14,7 @@ use crate::corner::{Meet, OVERLAPPED, Overlap, is_alone, meet};
 use crate::feeding::Feeding;
 use crate::item::{Drive, Item, Meeting, Move};
 use crate::jerk::Easing;
-use crate::machine::{Corners, Machine, Rapids, SpindleWait};
+use crate::machine::{Corners, Machine, Rapids, SpindleWait, Taps};
 use crate::merge::Merge;
 use crate::profile::{Profile, highest_entry};
 use crate::segment::{Cap, Segment};
@@ -71,7 +71,9 @@ struct Load<T> {
     why: Cap,
     jerk: f64,
     /// The next stretch begins before the end of this one.
-    overlap: Overlap,
+    overlap: Option<Overlap>,
+    /// By so many seconds, once the next stretch is known.
+    ahead: f64,
     /// It ends in a stop that its neighbours do not make necessary.
     stops: bool,
     /// What the control takes before it goes on.
@@ -95,12 +97,14 @@ pub struct Planner<T> {
     window: Window<Load<T>>,
     /// Speed at which the last piece was left.
     speed: f64,
-    /// What the last piece, which comes to rest at its end, gains for the next one.
-    resting: Overlap,
+    /// By how many seconds the next piece begins before the last one comes to rest.
+    resting: f64,
     /// Time of following that is still to come when the path ends.
     settle: f64,
     /// The last stretch is a thread.
     threading: bool,
+    /// The last stretch is the stroke of a tap.
+    tapping: bool,
     /// What the control takes for the stop that is being made.
     halting: f64,
     easing: Easing,
@@ -119,9 +123,10 @@ impl<T: Copy> Planner<T> {
             open: None,
             window: Window::new(machine.control.look_ahead),
             speed: 0.0,
-            resting: Overlap::default(),
+            resting: 0.0,
             settle: 0.0,
             threading: false,
+            tapping: false,
             halting: 0.0,
             easing: Easing::default(),
             feeding: Feeding::new(machine.control.block_time.0, machine.control.look_ahead),
@@ -239,21 +244,28 @@ impl<T: Copy> Planner<T> {
         segment.blocks = blocks;
         let threads = matches!(item.drive, Drive::Thread(_));
         let alone = is_alone(item.drive, &self.machine);
-        if alone || threads != self.threading {
+        if alone {
             self.rest(each);
+        } else if threads != self.threading {
+            // The control knows that a thread meets nothing.
+            self.end(each);
         }
         if item.drive != Drive::Rapid && self.spindle.is_awaited() {
             self.rest(each);
             self.wait_for_spindle(item.tag, each);
         }
-        if let Drive::Thread(speed) = item.drive
-            && !self.threading
-        {
-            // The thread begins at the spindle's mark, half a turn away on the average.
+        let marked = match item.drive {
+            Drive::Thread(speed) if !self.threading => Some(speed),
+            Drive::Tap(speed) if !self.tapping && self.machine.control.taps == Taps::RunOut => Some(speed),
+            _ => None,
+        };
+        if let Some(speed) = marked {
+            // It begins at the spindle's mark, half a turn away on the average.
             let spindle = Seconds(if speed.0 > 0.0 { 30.0 / speed.0 } else { 0.0 });
             self.stand(item.tag, Shares { spindle, ..Shares::default() }, Cause::Spindle, each);
         }
         self.threading = threads;
+        self.tapping = matches!(item.drive, Drive::Tap(_));
         if let Some((mut first, meeting)) = self.open.take() {
             match meet(&self.machine, (meeting, self.meeting), &mut first, &mut segment) {
                 Meet::Rest => self.lay(&first, Ending::Stop, each),
@@ -318,6 +330,7 @@ impl<T: Copy> Planner<T> {
         self.rest(each);
         self.halting = 0.0;
         self.threading = false;
+        self.tapping = false;
     }
 
     fn rest(&mut self, each: &mut impl FnMut(&Span<T>)) {
@@ -329,6 +342,14 @@ impl<T: Copy> Planner<T> {
                 // The control was ready to let the next move overlap.
                 last.keep(OVERLAPPED);
             }
+            self.lay(&last, Ending::Stop, each);
+        }
+        self.run_all(each);
+    }
+
+    /// The axes come to rest where the control knows ahead that they will.
+    fn end(&mut self, each: &mut impl FnMut(&Span<T>)) {
+        if let Some((last, _)) = self.open.take() {
             self.lay(&last, Ending::Stop, each);
         }
         self.run_all(each);
@@ -355,10 +376,15 @@ impl<T: Copy> Planner<T> {
         let filtered = self.machine.control.corners == Corners::Filtered;
         let acceleration = if filtered { f64::INFINITY } else { segment.pull() };
         let (leave, overlap) = match ending {
-            Ending::Stop => (0.0, Overlap::default()),
-            Ending::Pass(speed) => (speed, Overlap::default()),
-            Ending::Overlap(overlap) => (0.0, overlap),
+            Ending::Stop => (0.0, None),
+            Ending::Pass(speed) => (speed, None),
+            Ending::Overlap(overlap) => (0.0, Some(overlap)),
         };
+        if let Some(before) = self.window.last_mut()
+            && let Some(overlap) = before.overlap.take()
+        {
+            before.ahead = overlap.seconds(segment);
+        }
         self.window.push(Piece {
             length: segment.length,
             cap: segment.cap,
@@ -374,6 +400,7 @@ impl<T: Copy> Planner<T> {
                 why: segment.why,
                 jerk: segment.jerk,
                 overlap,
+                ahead: 0.0,
                 stops: matches!(ending, Ending::Stop),
                 waits,
                 settle: if filtered && fixed.is_none() { segment.cap / segment.acceleration } else { 0.0 },
@@ -413,8 +440,8 @@ impl<T: Copy> Planner<T> {
         } + load.waits;
         self.speed = exit;
         // What the last stretch and this one share of their time.
-        let overlap = (self.resting.seconds - self.resting.lost).clamp(0.0, seconds);
-        self.resting = load.overlap;
+        let overlap = self.resting.clamp(0.0, seconds);
+        self.resting = load.ahead;
         self.clock -= overlap;
         seconds -= overlap;
         if load.settle > 0.0 {

@@ -247,18 +247,33 @@ impl<T: Copy> Segment<T> {
         self.about.filter(|_| self.is_flat).map(|(about, _)| about)
     }
 
-    /// Where the axes are pulled at an end where the path runs along `tangent`: along it, and on an arc towards the centre by
-    /// what half its speed needs. Of length 1.
-    pub(crate) fn pulled(&self, tangent: Vector3<f64>) -> Vector3<f64> {
+    /// The direction in which it leaves its last point, without the rise of an arc.
+    pub(crate) fn leaves_level(&self) -> Vector3<f64> {
+        self.level(self.leaves())
+    }
+
+    /// Where the axes are pulled at its first point: along the path, and on an arc towards the centre by what half its speed
+    /// needs. Of length 1.
+    pub(crate) fn pulled(&self) -> Vector3<f64> {
+        let tangent = self.arrives();
         let Some((about, counter_clockwise)) = self.about else { return tangent };
         let mut axis = Vector3::zeros();
         if let Some(slot) = axis.get_mut(about) {
             *slot = if counter_clockwise { 1.0 } else { -1.0 };
         }
-        let along = (tangent - axis * tangent.dot(&axis)).try_normalize(1e-12).unwrap_or(tangent);
+        let along = self.level(tangent);
         let speed = self.asked.min(self.axes) / 2.0;
         let inward = axis.cross(&along) * (speed * speed / self.radius);
-        (along * self.whole_pull * self.kept + inward).try_normalize(1e-12).unwrap_or(tangent)
+        (along * self.whole_pull + inward).try_normalize(1e-12).unwrap_or(tangent)
+    }
+
+    fn level(&self, tangent: Vector3<f64>) -> Vector3<f64> {
+        let Some((about, _)) = self.about else { return tangent };
+        let mut level = tangent;
+        if let Some(slot) = level.get_mut(about) {
+            *slot = 0.0;
+        }
+        level.try_normalize(1e-12).unwrap_or(tangent)
     }
 
     /// How much it turns to the left about an axis, by length: negative to the right, zero for a straight move.

@@ -69,8 +69,9 @@ impl Spindle {
                 let with_spindle = if change > 0.0 { pace / change } else { f64::INFINITY };
                 Profile::quickest(length, 0.0, 0.0, pace, acceleration.min(with_spindle)).seconds
             }
-            // It turns on below the bottom while it is reversed, and comes back with the same time.
-            Taps::RunOut => length / pace + 2.0 * change,
+            // It turns on below the bottom while it is reversed, and comes back with the same time; at the top the axis comes
+            // to rest beyond it.
+            Taps::RunOut => length / pace + 2.0 * change + pace / acceleration / 2.0,
         }
     }
 

@@ -54,6 +54,11 @@ impl<D> Window<D> {
         }
     }
 
+    /// What goes along with the last piece.
+    pub(crate) fn last_mut(&mut self) -> Option<&mut D> {
+        self.pieces.back_mut().map(|piece| &mut piece.data)
+    }
+
     /// The first piece, once as much is known ahead of it as the control looks ahead.
     pub(crate) fn pop_known(&mut self) -> Option<Piece<D>> {
         if self.pieces.len() > self.ahead { self.pieces.pop_front() } else { None }

@@ -109,6 +109,11 @@ fn time(machine: &Machine, run: &[Item<usize>]) -> f64 {
     spans(machine, run).iter().map(|span| span.shares.total().0).sum()
 }
 
+/// How long the path is that the axes run, corners cut.
+fn way_of(machine: &Machine, run: &[Item<usize>]) -> f64 {
+    spans(machine, run).iter().map(|span| span.profile.length).sum()
+}
+
 fn shares_of(span: &Span<usize>) -> [f64; 7] {
     let shares = span.shares;
     [
@@ -173,15 +178,20 @@ proptest! {
     }
 
     /// At one speed: the arc in a corner has the higher speed of the two moves that it rounds, so that a wider one makes a
-    /// slow move shorter.
+    /// slow move shorter. With less acceleration the arcs in corners are wider and the path is shorter: at a slow feed that
+    /// gains more than starting and stopping lose.
     #[test]
-    fn more_acceleration_never_takes_longer(
+    fn more_acceleration_takes_no_longer_than_the_longer_path(
         steps in steps(), speed in 1.0..300.0f64, corners in corners(), slow in 50.0..5_000.0f64, factor in 1.0..10.0f64,
     ) {
         let run = run_of(&at_one_speed(&steps, speed));
-        let [slow, fast] = [slow, slow * factor].map(|acceleration| time(&machine(corners, acceleration), &run));
+        let [(slow, short), (fast, long)] = [slow, slow * factor].map(|acceleration| {
+            let machine = machine(corners, acceleration);
+            (time(&machine, &run), way_of(&machine, &run))
+        });
+        let longer = (long - short).max(0.0) / speed.min(200.0);
         // A corner that is passed on the path itself may then be rounded instead, at a few microseconds.
-        prop_assert!(fast <= slow * 1.001 + 1e-6, "{slow} s, then {fast} s");
+        prop_assert!(fast <= slow + longer + 1e-6, "{slow} s, then {fast} s, {longer} s of them for a longer path");
     }
 
     #[test]

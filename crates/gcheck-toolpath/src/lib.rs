@@ -37,6 +37,7 @@ pub use compare::{
 };
 pub use corner_mode::{Contour, CornerMode};
 pub use csv::{Csv, csv_cell};
+pub use estimate::Stretch;
 pub use jsonl::JsonLines;
 pub use placing::WorkCoordinates;
 pub use plan::Plan;

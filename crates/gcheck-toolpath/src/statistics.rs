@@ -11,7 +11,7 @@ use gcheck_planner::Shares;
 
 use crate::bar::BarFigures;
 use crate::corner_mode::{CornerMode, is_of_cycle};
-use crate::estimate::{Estimate, Kind as TimeOf, Tag};
+use crate::estimate::{Estimate, Kind as TimeOf, Stretch, Tag};
 use crate::motion::{Cover, Motion, Way, cover};
 use crate::plan::Plan;
 use crate::slowest::Place as SlowPlace;
@@ -355,6 +355,20 @@ impl Statistics {
     pub fn planned(mut self, plan: Option<&Plan>) -> Self {
         self.estimate = plan.map(|plan| Estimate::new(plan.clone()));
         self
+    }
+
+    /// Keeps how fast each stretch of the path is run: memory grows with the run. Nothing without a [`Plan`].
+    #[must_use]
+    pub fn with_stretches(mut self) -> Self {
+        if let Some(estimate) = &mut self.estimate {
+            estimate.keep_stretches();
+        }
+        self
+    }
+
+    /// How the machine runs the path, in order; nothing but after [`Self::with_stretches`].
+    pub fn stretches(&self) -> &[Stretch] {
+        self.estimate.as_ref().map(Estimate::stretches).unwrap_or_default()
     }
 
     /// With the tools of a machine of which it is known how they cut, so that chip loads and speeds of edges are counted.

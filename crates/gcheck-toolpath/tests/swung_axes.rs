@@ -13,6 +13,7 @@ fn trunnion() -> Machine {
         order: [RotaryAxis::A, RotaryAxis::C],
         sign: [1.0; 2],
         pivot_length: None,
+        offset: [Mm(0.0); 3],
     };
     Machine {
         units: Some(Units::Mm),

@@ -8,6 +8,7 @@ mod in_process;
 mod keystrokes;
 mod language_server;
 mod many_files;
+mod motion_planner;
 mod peer;
 mod row;
 
@@ -31,6 +32,7 @@ pub(crate) fn run(arguments: &[String]) -> anyhow::Result<ExitCode> {
     let mut rows = Vec::new();
     if !only_server {
         rows.extend(in_process::rows()?);
+        rows.extend(motion_planner::rows()?);
         rows.extend(keystrokes::rows()?);
     }
     match command_line::build() {

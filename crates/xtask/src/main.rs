@@ -21,6 +21,7 @@ mod dist;
 mod fuzz;
 mod generate;
 #[cfg(feature = "product")]
+mod kinematics;
 mod measure;
 mod mutations;
 mod new_rule;
@@ -57,8 +58,10 @@ usage: cargo xtask COMMAND
                               docs/precision.md
   mutations                   forget each field of the machine's state once where paths meet, and write docs/dev/law-4.md with
                               the program for which law 4 then fails
-  timing [--again] [PROGRAM…] run programs in the motion planner that $GCHECK_TIMING starts, and write
-                              fixtures/timing/measured.tsv
+  timing [--again|--missing] [PROGRAM…]
+                              run programs in the motion planner of a control, and write fixtures/timing/measured.tsv
+  timing speeds               sample the speed along some of them, into fixtures/timing/speeds
+  kinematics                  ask a control's kinematics of five axes, and write fixtures/kinematics/measured.tsv
   blind seal FILE… | look draw-N | look mistakes-N | page
                               first looks at programs and mistakes that nobody tuned gcheck to (docs/dev/blind.md)
   dist [--target TRIPLE] [--binary FILE] [--out FOLDER] [--vscode]
@@ -97,6 +100,7 @@ fn main() -> ExitCode {
         "playground" => playground::run(rest),
         #[cfg(not(feature = "playground"))]
         "playground" => product::rerun_with("playground", "playground", rest),
+        "kinematics" => kinematics::run(rest),
         "timing" => timing::run(rest),
         #[cfg(feature = "product")]
         "measure" => measure::run(rest),

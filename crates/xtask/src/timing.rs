@@ -3,21 +3,25 @@
 //! Knows: the command that runs programs in that planner, the table of seconds. Must not know: what gcheck says of the same
 //! programs; the test `timing` of `gcheck-toolpath` compares the two and writes `docs/dev/timing.md`.
 //!
-//! The planner runs in real time: all programs at all accelerations take more than an hour. A machine that is busy delays it
-//! and never makes it faster, so the table keeps the least of several measurements; `--again` drops what it had.
+//! The planner runs in real time: all programs at all accelerations take two hours. A machine that is busy delays it and never
+//! makes it faster, so the table keeps the least of several measurements; `--again` drops what it had, `--missing` measures
+//! only what the table lacks. `speeds` samples the speed along the path of some programs, into `fixtures/timing/speeds`.
+//!
+//! `planner.py` runs the planner of Debian's package `linuxcnc-uspace`; `GCHECK_TIMING` may name another command of that form.
 
 use std::collections::BTreeMap;
 use std::env;
 use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, ExitCode};
+use std::process::{Command, ExitCode, Output};
 
 use anyhow::{Context as _, bail, ensure};
 use serde_json::Value;
 
 use crate::workspace;
 
+const PLANNER: &str = include_str!("timing/planner.py");
 const FOLDER: &str = "fixtures/timing";
 const TABLE: &str = "fixtures/timing/measured.tsv";
 const HEAD: &str = "program\tacceleration\tseconds\n";
@@ -27,44 +31,58 @@ const ACCELERATIONS: [u32; 4] = [250, 500, 1_000, 4_000];
 const AT_ONCE: usize = 14;
 /// A program may take this long, in seconds.
 const LIMIT: &str = "200";
+/// Programs whose speed is sampled: corners, short segments, helices, moves that overlap, a cycle, lengths that vary.
+const SAMPLED: [&str; 6] =
+    ["corner-090", "drill-peck", "drop-in-blend", "helix-corners", "mixed-lengths-naive", "surface-0.5"];
+/// They are sampled at this acceleration, for so many cycles from the first motion.
+const SAMPLED_AT: u32 = 1_000;
+const SAMPLED_CYCLES: usize = 4_000;
+/// A sample is the mean speed of so many cycles.
+const CYCLES_A_SAMPLE: usize = 4;
+/// Seconds of a cycle of the planner.
+const CYCLE: f64 = 0.001;
 
 /// Seconds by program and acceleration.
 type Measured = BTreeMap<(String, u32), f64>;
 
 /// Measures, and writes the table after each start of the planner.
 pub(crate) fn run(arguments: &[String]) -> anyhow::Result<ExitCode> {
-    let again = arguments.iter().any(|argument| argument == "--again");
-    let named: Vec<&str> =
-        arguments.iter().map(String::as_str).filter(|argument| *argument != "--again").collect();
+    let has = |option: &str| arguments.iter().any(|argument| argument == option);
+    let named: Vec<&str> = arguments
+        .iter()
+        .map(String::as_str)
+        .filter(|argument| !["--again", "--missing"].contains(argument))
+        .collect();
     if let Some(option) = named.iter().find(|argument| argument.starts_with('-')) {
-        bail!("timing has no option `{option}`: cargo xtask timing [--again] [PROGRAM…]");
+        bail!(
+            "timing has no option `{option}`: cargo xtask timing [--again|--missing] [PROGRAM…], cargo xtask timing speeds"
+        );
     }
-    let command =
-        env::var("GCHECK_TIMING").context("GCHECK_TIMING does not name the command that runs the planner")?;
-    let words: Vec<&str> = command.split_whitespace().collect();
-    let (program, before) = words.split_first().context("GCHECK_TIMING is empty")?;
+    let planner = Planner::new()?;
+    if named == ["speeds"] {
+        return sample(&planner);
+    }
     let table = workspace::root().join(TABLE);
     let mut measured = read(&fs::read_to_string(&table).unwrap_or_else(|_| HEAD.to_owned()))?;
-    let programs = programs(&named, &measured)?;
+    let programs = programs(&named, &measured, planner.folder.path())?;
     for acceleration in ACCELERATIONS {
+        let lacks = |name: &str| !measured.contains_key(&(name.to_owned(), acceleration));
+        let programs: Vec<&(String, PathBuf)> =
+            programs.iter().filter(|(name, _)| !has("--missing") || lacks(name)).collect();
         for some in programs.chunks(AT_ONCE) {
-            let output = Command::new(program)
-                .args(before)
-                .args(["--accel", &acceleration.to_string(), "--limit", LIMIT])
-                .args(some.iter().map(|(_, path)| path))
-                .output()
-                .with_context(|| format!("`{program}` does not start: GCHECK_TIMING names the command"))?;
+            let paths: Vec<&Path> = some.iter().map(|(_, path)| path.as_path()).collect();
+            let output = planner.run(acceleration, None, &paths)?;
             let lines = String::from_utf8(output.stdout).context("the output is not text")?;
             for line in lines.lines() {
                 let (path, seconds) = outcome(line)?;
                 let (name, _) =
                     some.iter().find(|(_, known)| *known == path).context("an unknown program")?;
                 let least = measured.entry((name.clone(), acceleration)).or_insert(f64::INFINITY);
-                *least = if again { seconds } else { least.min(seconds) };
+                *least = if has("--again") { seconds } else { least.min(seconds) };
                 println!("{acceleration:>5}  {seconds:>8.3} s  {name}");
             }
-            ensure!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
             fs::write(&table, write(&measured))?;
+            ensure!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
         }
     }
     println!(
@@ -73,8 +91,83 @@ pub(crate) fn run(arguments: &[String]) -> anyhow::Result<ExitCode> {
     Ok(ExitCode::SUCCESS)
 }
 
+/// Writes the tables of speeds.
+fn sample(planner: &Planner) -> anyhow::Result<ExitCode> {
+    let samples = planner.folder.path().join("samples");
+    fs::create_dir_all(&samples)?;
+    let paths: Vec<PathBuf> =
+        SAMPLED.iter().map(|name| workspace::root().join(FOLDER).join(format!("{name}.ngc"))).collect();
+    let paths: Vec<&Path> = paths.iter().map(PathBuf::as_path).collect();
+    let output = planner.run(SAMPLED_AT, Some(&samples), &paths)?;
+    ensure!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let folder = workspace::root().join(FOLDER).join("speeds");
+    fs::create_dir_all(&folder)?;
+    for name in SAMPLED {
+        let all = fs::read_to_string(samples.join(format!("{name}.tsv")))
+            .with_context(|| format!("the planner wrote no speeds of {name}"))?;
+        fs::write(folder.join(format!("{name}.tsv")), speeds(&all)?)?;
+        println!("wrote  {FOLDER}/speeds/{name}.tsv");
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Times and speeds of a table of positions by cycle, from the last cycle before the first motion on.
+fn speeds(cycles: &str) -> anyhow::Result<String> {
+    let mut places: Vec<Vec<f64>> = Vec::new();
+    // It lost what was sampled before it was started.
+    for line in cycles.strip_prefix("overrun\n").unwrap_or(cycles).lines() {
+        let cells = line.split_whitespace().skip(1).map(str::parse).collect::<Result<Vec<f64>, _>>();
+        let cells = cells.with_context(|| format!("`{line}` is not a position"))?;
+        ensure!(cells.len() == 3, "`{line}` is not a position");
+        places.push(cells);
+    }
+    let step = |from: &[f64], to: &[f64]| {
+        from.iter().zip(to).map(|(from, to)| (to - from).powi(2)).sum::<f64>().sqrt()
+    };
+    let pairs = || places.iter().zip(places.iter().skip(1));
+    let first = pairs().position(|(from, to)| step(from, to) > 0.0).context("nothing moves")?;
+    let mut table = "seconds\tspeed\n0.000\t0.00\n".to_owned();
+    let ways: Vec<f64> = pairs().skip(first).take(SAMPLED_CYCLES).map(|(from, to)| step(from, to)).collect();
+    for (index, some) in ways.chunks_exact(CYCLES_A_SAMPLE).enumerate() {
+        let cycles = CYCLES_A_SAMPLE as f64;
+        let time = (index as f64 + 0.5) * cycles * CYCLE;
+        writeln!(table, "{time:.3}\t{:.2}", some.iter().sum::<f64>() / (cycles * CYCLE))?;
+    }
+    Ok(table)
+}
+
+/// The command that runs programs in the planner, and a folder for what it reads and writes.
+struct Planner {
+    command: Vec<String>,
+    folder: tempfile::TempDir,
+}
+
+impl Planner {
+    fn new() -> anyhow::Result<Self> {
+        let folder = tempfile::tempdir()?;
+        let command = if let Ok(command) = env::var("GCHECK_TIMING") {
+            command.split_whitespace().map(str::to_owned).collect()
+        } else {
+            let script = folder.path().join("planner.py");
+            fs::write(&script, PLANNER)?;
+            vec!["python3".to_owned(), script.to_string_lossy().into_owned()]
+        };
+        Ok(Self { command, folder })
+    }
+
+    fn run(&self, acceleration: u32, samples: Option<&Path>, programs: &[&Path]) -> anyhow::Result<Output> {
+        let (program, before) = self.command.split_first().context("GCHECK_TIMING is empty")?;
+        let mut command = Command::new(program);
+        command.args(before).args(["--accel", &acceleration.to_string(), "--limit", LIMIT]);
+        if let Some(samples) = samples {
+            command.arg("--sample").arg(samples);
+        }
+        command.args(programs).output().with_context(|| format!("`{program}` does not start"))
+    }
+}
+
 /// The programs of these names; all of the folder, and those of the corpus in the table, without names.
-fn programs(asked_for: &[&str], measured: &Measured) -> anyhow::Result<Vec<(String, PathBuf)>> {
+fn programs(asked_for: &[&str], measured: &Measured, parts: &Path) -> anyhow::Result<Vec<(String, PathBuf)>> {
     let corpus = env::var_os("GCHECK_CORPUS").map(PathBuf::from);
     let mut names: Vec<String> = asked_for.iter().map(|name| (*name).to_owned()).collect();
     if names.is_empty() {
@@ -92,16 +185,36 @@ fn programs(asked_for: &[&str], measured: &Measured) -> anyhow::Result<Vec<(Stri
         names.sort();
         names.dedup();
     }
-    names.into_iter().map(|name| Ok((name.clone(), path(&name, corpus.as_deref())?))).collect()
+    let path = |(index, name): (usize, String)| {
+        let path = match name.strip_prefix("corpus/") {
+            Some(part) => {
+                let corpus =
+                    corpus.as_deref().context("GCHECK_CORPUS does not name the folder of the corpus")?;
+                let path = parts.join(format!("part-{index}.ngc"));
+                fs::write(&path, part_of_corpus(corpus, part)?)?;
+                path
+            }
+            None => workspace::root().join(FOLDER).join(format!("{name}.ngc")),
+        };
+        ensure!(path.is_file(), "there is no program {}", path.display());
+        Ok((name, path))
+    };
+    names.into_iter().enumerate().map(path).collect()
 }
 
-fn path(name: &str, corpus: Option<&Path>) -> anyhow::Result<PathBuf> {
-    let path = match name.strip_prefix("corpus/") {
-        Some(rest) => corpus.context("GCHECK_CORPUS does not name the folder of the corpus")?.join(rest),
-        None => workspace::root().join(FOLDER).join(format!("{name}.ngc")),
+/// The text of a program of the corpus, or of its first lines: `folder/program.ngc:120`. The test `timing` cuts it as well.
+fn part_of_corpus(corpus: &Path, part: &str) -> anyhow::Result<Vec<u8>> {
+    let (path, lines) = match part.rsplit_once(':') {
+        Some((path, lines)) => {
+            (path, Some(lines.parse::<usize>().with_context(|| format!("{part}: lines"))?))
+        }
+        None => (part, None),
     };
-    ensure!(path.is_file(), "there is no program {}", path.display());
-    Ok(path)
+    let path = corpus.join(path);
+    let text = fs::read(&path).with_context(|| format!("there is no program {}", path.display()))?;
+    let Some(lines) = lines else { return Ok(text) };
+    let some: Vec<&[u8]> = text.split(|byte| *byte == b'\n').take(lines).collect();
+    Ok([&some.join(&b'\n')[..], b"\nM2\n"].concat())
 }
 
 /// Program and seconds of a line that the planner's command prints.
@@ -144,6 +257,24 @@ mod tests {
     fn a_table_that_is_read_and_written_is_the_same() {
         let table = format!("{HEAD}circle\t250\t7.800\ncircle\t1000\t7.700\ncorpus/a.ngc\t250\t1.000\n");
         assert_eq!(write(&read(&table).unwrap()), table);
+    }
+
+    #[test]
+    fn speeds_are_those_from_the_first_motion_on() {
+        let cycles = "overrun\n7 0 0 0 \n8 0 0 0 \n9 0.03 0.04 0 \n10 0.03 0.04 0.05 \n11 0.03 0.04 0.1 \n12 0.03 0.04 0.15 \n";
+        assert_eq!(speeds(cycles).unwrap(), "seconds\tspeed\n0.000\t0.00\n0.002\t50.00\n");
+        assert_eq!(speeds("1 0 0 0\n2 0 0 0\n").unwrap_err().to_string(), "nothing moves");
+        assert_eq!(speeds("1 0 0 0\noverrun\n").unwrap_err().to_string(), "`overrun` is not a position");
+    }
+
+    #[test]
+    fn a_part_of_the_corpus_ends_after_its_lines() {
+        let corpus = tempfile::tempdir().unwrap();
+        fs::write(corpus.path().join("a.ngc"), "G21\nG1 X1 F100\nX2\nM2\n").unwrap();
+        let text = |part| String::from_utf8(part_of_corpus(corpus.path(), part).unwrap()).unwrap();
+        assert_eq!(text("a.ngc:2"), "G21\nG1 X1 F100\nM2\n");
+        assert_eq!(text("a.ngc"), "G21\nG1 X1 F100\nX2\nM2\n");
+        assert!(part_of_corpus(corpus.path(), "b.ngc").is_err());
     }
 
     #[test]

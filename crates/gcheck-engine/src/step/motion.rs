@@ -6,7 +6,7 @@
 use std::rc::Rc;
 
 use gcheck_controls::{CodeIx, Effect, Letter, LetterSet};
-use gcheck_geometry::{Bezier, Degrees, Mm, Plane};
+use gcheck_geometry::{Bezier, CurveArc, Degrees, Mm, Plane};
 use nalgebra::Point2;
 
 use super::arc::{axes_of_plane, plane_axes};
@@ -671,8 +671,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             vec![start, [start[0] + first[0], start[1] + first[1]], [end[0] + p, end[1] + q], end]
         };
         let count = points.len() as u32;
-        let chords = chords(&points);
-        let curve = Curve { from: *state.actual(), to: target, points: count, pieces: chords };
+        let pieces = arcs(&points);
+        let curve = Curve { from: *state.actual(), to: target, points: count, pieces };
         state.points.actual = target;
         state.points.position = target;
         self.emit(state, Event::Curve(curve));
@@ -819,13 +819,21 @@ fn mean_lead(lead: f64, change: f64, from: &Position, to: &Position) -> f64 {
     if last.is_finite() { f64::midpoint(lead, last) } else { lead }
 }
 
-/// A Bézier curve as chords within a hundredth of a millimetre.
-fn chords(points: &[[f64; 2]]) -> Rc<[CurvePiece]> {
+/// A Bézier curve as arcs within a hundredth of a millimetre, which touch each other as the curve does.
+fn arcs(points: &[[f64; 2]]) -> Rc<[CurvePiece]> {
     let control: Vec<Point2<f64>> = points.iter().map(|[x, y]| Point2::new(*x, *y)).collect();
     let curve = match control.as_slice() {
         [a, b, c] => Bezier::Quadratic([*a, *b, *c]),
         [a, b, c, d] => Bezier::Cubic([*a, *b, *c, *d]),
         _ => return Rc::from([]),
     };
-    curve.linearised(Mm(0.01)).into_iter().map(|point| CurvePiece::Line([Mm(point.x), Mm(point.y)])).collect()
+    let piece = |arc: CurveArc| {
+        let to = [Mm(arc.end.x), Mm(arc.end.y)];
+        arc.centre.map_or(CurvePiece::Line(to), |(centre, counter_clockwise)| CurvePiece::Arc {
+            to,
+            centre: [Mm(centre.x), Mm(centre.y)],
+            turn: if counter_clockwise { 1 } else { -1 },
+        })
+    };
+    curve.arcs(Mm(0.01)).into_iter().map(piece).collect()
 }

@@ -31,6 +31,7 @@ const HEAD: Kinematics = Kinematics {
     order: [RotaryAxis::A, RotaryAxis::B],
     sign: [1.0, 1.0],
     pivot_length: None,
+    offset: [Mm::ZERO; 3],
 };
 
 impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {

@@ -42,7 +42,8 @@ pub(crate) fn figures(control: &str, machine: &Machine, text: &str) -> Statistic
     let starts: Vec<usize> =
         std::iter::once(0).chain(text.match_indices('\n').map(|(at, _)| at + 1)).collect();
     let view = View::new(&[Axis::X, Axis::Y, Axis::Z]);
-    let statistics = Statistics::new(view, timing, model.work_at_power_on()).planned(plan.as_ref());
+    let statistics =
+        Statistics::new(view, timing, model.work_at_power_on()).planned(plan.as_ref()).with_stretches();
     let mut recorder = Recorder { model: &model, machine, starts: &starts, statistics, fault: None };
     run(&program, &model, machine, Options::NONE, 10_000_000, &mut recorder);
     assert_eq!(recorder.fault, None, "{text}");

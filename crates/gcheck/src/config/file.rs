@@ -152,6 +152,9 @@ pub struct MachineTable {
     pub pivot_length: Option<Placed<f64>>,
     /// Where the rotary axes of the table meet, in machine coordinates: `{ X = -381.0, Y = -203.2, Z = -550.0 }`.
     pub rotary_centre: BTreeMap<Placed<String>, Placed<f64>>,
+    /// From the first rotary axis to the second, in `units`, where both turn the same side and do not meet: `{ Y = 35.0 }`.
+    /// `rotary_centre` is then a point on the first axis.
+    pub rotary_offset: BTreeMap<Placed<String>, Placed<f64>>,
     /// Rotary axes that reach an angle the shorter way round.
     pub rotary_shorter_way: Option<Vec<Placed<String>>>,
     /// Length of a new bar in `units`, for a lathe with a bar feeder.

@@ -12,7 +12,9 @@ use gcheck_rules::RULES;
 
 use super::Placed;
 use super::execution_facts::ExecutionFacts;
-use super::file::{ByAxis, CodeTable, MachineTable, RulesTable, Scalar, ToolTable, ToolsTable, Units};
+use super::file::{
+    ByAxis, CodeTable, MachineTable, Rotary, RulesTable, Scalar, ToolTable, ToolsTable, Units,
+};
 use super::text::Text;
 use crate::Problem;
 use crate::nearest::did_you_mean;
@@ -94,6 +96,27 @@ impl<'t> Checked<'t> {
         }
     }
 
+    /// A distance between two rotary axes that turn the same side.
+    fn rotary_offset(&self, table: &MachineTable) -> Result<(), Problem> {
+        for (name, value) in &table.rotary_offset {
+            if !["X", "Y", "Z"].iter().any(|axis| name.value.eq_ignore_ascii_case(axis)) {
+                return Err(self.text.problem(name, "rotary_offset is a distance in X, Y and Z"));
+            }
+            if !value.value.is_finite() {
+                return Err(self.text.problem(value, "a distance is a number"));
+            }
+        }
+        self.each_axis_once(table.rotary_offset.keys())?;
+        let apart = table.rotary.as_ref().is_some_and(|rotary| rotary.value == Rotary::HeadTable);
+        match table.rotary_offset.keys().next() {
+            Some(name) if apart => {
+                let message = "rotary_offset is between two axes of a head or of a table: with `head-table` one axis turns the tool and one the part";
+                Err(self.text.problem(name, message).help("rotary_centre says where the table's axis is"))
+            }
+            _ => Ok(()),
+        }
+    }
+
     /// How the rotary axes are built.
     fn rotary(&self, table: &MachineTable) -> Result<(), Problem> {
         if let Some(order) = &table.rotary_order {
@@ -151,6 +174,7 @@ impl<'t> Checked<'t> {
         }
         self.rotary(table)?;
         self.rotary_centre(table)?;
+        self.rotary_offset(table)?;
         let positive = [
             &table.max_rpm,
             &table.max_feed,

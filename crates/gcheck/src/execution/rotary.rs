@@ -20,6 +20,7 @@ pub(super) struct RotaryAxes {
     sign: BTreeMap<usize, f64>,
     pivot_length: Option<Mm>,
     centre: [Option<Mm>; 3],
+    offset: [Mm; 3],
     shorter_way: Vec<Axis>,
 }
 
@@ -50,10 +51,15 @@ impl RotaryAxes {
         if let Some(length) = &table.pivot_length {
             self.pivot_length = Some(Mm(length.value * units.in_mm()));
         }
+        let linear = |name: &str| ["X", "Y", "Z"].iter().position(|axis| name.eq_ignore_ascii_case(axis));
         for (name, value) in &table.rotary_centre {
-            let slot = ["X", "Y", "Z"].iter().position(|axis| name.value.eq_ignore_ascii_case(axis));
-            if let Some(slot) = slot.and_then(|index| self.centre.get_mut(index)) {
+            if let Some(slot) = linear(&name.value).and_then(|index| self.centre.get_mut(index)) {
                 *slot = Some(Mm(value.value * units.in_mm()));
+            }
+        }
+        for (name, value) in &table.rotary_offset {
+            if let Some(slot) = linear(&name.value).and_then(|index| self.offset.get_mut(index)) {
+                *slot = Mm(value.value * units.in_mm());
             }
         }
         if let Some(names) = &table.rotary_shorter_way {
@@ -66,7 +72,7 @@ impl RotaryAxes {
         }
     }
 
-    /// Where the rotary axes of the table meet.
+    /// A point of the table's rotary axis; of two, where they meet, or of the first.
     pub(super) fn centre(&self) -> Option<[Mm; 3]> {
         let [x, y, z] = self.centre;
         Some([x?, y?, z?])
@@ -82,7 +88,8 @@ impl RotaryAxes {
         let is_told = self.arrangement.is_some()
             || self.order.is_some()
             || !self.sign.is_empty()
-            || self.pivot_length.is_some();
+            || self.pivot_length.is_some()
+            || self.offset.iter().any(|part| part.0.abs() > 0.0);
         let order = self.order.as_deref().unwrap_or(&self.named);
         let order = match order {
             [first, second, ..] => [*first, *second],
@@ -93,6 +100,7 @@ impl RotaryAxes {
             order,
             sign: order.map(|axis| self.sign.get(&axis.index()).copied().unwrap_or(1.0)),
             pivot_length: self.pivot_length,
+            offset: self.offset,
         })
     }
 }

@@ -104,6 +104,8 @@ fn of_machine(machine: &MachineTable) -> Option<&'static str> {
         (machine.jerk.is_some(), "jerk"),
         (machine.corner_speed_change.is_some(), "corner_speed_change"),
         (machine.pivot_length.is_some(), "pivot_length"),
+        (!machine.rotary_centre.is_empty(), "rotary_centre"),
+        (!machine.rotary_offset.is_empty(), "rotary_offset"),
         (machine.bar_length.is_some(), "bar_length"),
     ];
     keys.into_iter().find_map(|(is_there, key)| is_there.then_some(key))

@@ -228,6 +228,42 @@ fn called_programs_are_looked_for_on_the_search_path() {
     );
 }
 
+/// What `check` says of a key under `[machine]`.
+fn problem(machine: &str) -> String {
+    let configuration = format!("control = \"haas-mill\"\n[machine]\nunits = \"mm\"\n{machine}\n");
+    let run = Shop::with(&[("part.nc", GOOD), ("gcheck.toml", &configuration)]).gcheck("check part.nc");
+    run.stderr.lines().find(|line| line.contains("gcheck.toml:")).unwrap_or_default().to_owned()
+}
+
+#[test]
+fn a_distance_between_rotary_axes_is_one_of_a_head_or_of_a_table() {
+    for rotary in ["head-head", "table-table"] {
+        assert_eq!(problem(&format!("rotary = \"{rotary}\"\nrotary_offset = {{ Y = 35.0, Z = -12.0 }}")), "");
+    }
+    expect!["error: gcheck.toml:5:19: rotary_offset is between two axes of a head or of a table: with `head-table` one axis turns the tool and one the part"].assert_eq(&problem("rotary = \"head-table\"\nrotary_offset = { Y = 35.0 }"));
+    expect!["error: gcheck.toml:5:19: rotary_offset is a distance in X, Y and Z"]
+        .assert_eq(&problem("rotary = \"table-table\"\nrotary_offset = { A = 35.0 }"));
+    expect!["error: gcheck.toml:5:23: a distance is a number"]
+        .assert_eq(&problem("rotary = \"table-table\"\nrotary_offset = { Y = inf }"));
+    expect!["error: gcheck.toml:5:28: the axis Y is listed twice"]
+        .assert_eq(&problem("rotary = \"table-table\"\nrotary_offset = { Y = 1.0, y = 2.0 }"));
+}
+
+#[test]
+fn machine_coordinates_under_tool_centre_point_control_know_axes_that_do_not_meet() {
+    let program = "G21 G90 G94\nG54 G0 X0. Y0. Z0. A0. C0.\nG234 H1\nG1 X10. Y0. Z0. A90. C90. F1000.\nM30\n";
+    let at = |offset: &str| {
+        let configuration = format!(
+            "control = \"haas-mill\"\n[machine]\nunits = \"mm\"\naxes = [\"X\", \"Y\", \"Z\", \"A\", \"C\"]\nrotary = \"table-table\"\nrotary_centre = {{ X = 0.0, Y = 0.0, Z = -50.0 }}\n{offset}\n[offsets]\nG54 = {{ X = 0.0, Y = 0.0, Z = 0.0 }}\n[tools]\n1 = {{ length = 100.0 }}\n"
+        );
+        let shop = Shop::with(&[("part.nc", program), ("gcheck.toml", &configuration)]);
+        let run = shop.gcheck("run part.nc --output-format jsonl");
+        run.stdout.lines().filter(|line| line.contains("machine")).last().unwrap_or_default().to_owned()
+    };
+    expect![[r#"{"n":2,"file":"part.nc","line":4,"kind":"feed","units":"mm","from":{"X":0.0,"Y":0.0,"Z":-100.0,"A":0.0,"C":0.0},"programmed":{"X":10.0,"Y":0.0,"Z":0.0,"A":90.0,"C":90.0},"to":{"X":10.0,"Y":0.0,"Z":0.0,"A":90.0,"C":90.0},"machine":{"X":0.0,"Y":-50.0,"Z":60.0,"A":90.0,"C":90.0},"feed":1000.0,"feed_mode":"per-minute","seconds":6.029925}"#]].assert_eq(&at(""));
+    expect![[r#"{"n":2,"file":"part.nc","line":4,"kind":"feed","units":"mm","from":{"X":0.0,"Y":0.0,"Z":-100.0,"A":0.0,"C":0.0},"programmed":{"X":10.0,"Y":0.0,"Z":0.0,"A":90.0,"C":90.0},"to":{"X":10.0,"Y":0.0,"Z":0.0,"A":90.0,"C":90.0},"machine":{"X":5.0,"Y":-50.0,"Z":65.0,"A":90.0,"C":90.0},"feed":1000.0,"feed_mode":"per-minute","seconds":6.029925}"#]].assert_eq(&at("rotary_offset = { Y = 5.0 }"));
+}
+
 #[test]
 fn every_key_of_the_contract_is_taken() {
     let configuration = r##"
@@ -245,6 +281,7 @@ rotary = "head-head"
 rotary_order = ["A", "B"]
 rotary_sign = { A = 1, B = 1 }
 pivot_length = 150.0
+rotary_offset = { Z = 20.0 }
 bar_length = 1200.0
 bars = 4
 [settings]

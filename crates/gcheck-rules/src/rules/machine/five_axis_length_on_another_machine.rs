@@ -85,7 +85,7 @@ impl PathRule for FiveAxisLengthOnAnotherMachine {
 mod tests {
     use expect_test::expect;
     use gcheck_controls::LetterSet;
-    use gcheck_geometry::{Arrangement, Kinematics, RotaryAxis};
+    use gcheck_geometry::{Arrangement, Kinematics, Mm, RotaryAxis};
 
     use super::RULE;
     use crate::testing::{World, check_rule, check_rule_in};
@@ -136,6 +136,7 @@ mod tests {
             order: [RotaryAxis::A, RotaryAxis::B],
             sign: [1.0; 2],
             pivot_length: None,
+            offset: [Mm(0.0); 3],
         });
         check_rule_in(
             &RULE,

@@ -1,4 +1,4 @@
-//! Where the linear axes of four machines stand for a point of the part, against formulas worked out by hand.
+//! Where the linear axes of six machines are for a point of the part, against formulas worked out by hand.
 //!
 //! A point `p` of the part, about the centre of the table, is carried to `T p` by the table; the tip is to be there, so that the
 //! gauge line lies a tool's length along the tool from it.
@@ -9,6 +9,8 @@ use gcheck_geometry::{Arrangement, Degrees, Kinematics, Mm, RotaryAxis};
 
 const LENGTH: f64 = 120.0;
 const POINT: [f64; 3] = [30.0, -20.0, 15.0];
+/// Axes that meet.
+const MEETING: [Mm; 3] = [Mm(0.0); 3];
 
 /// The axes for [`POINT`] of the part, about a table's centre.
 fn axes(machine: &Kinematics, centre: [f64; 3], angles: [f64; 3]) -> [f64; 3] {
@@ -40,6 +42,7 @@ fn a_head_of_c_and_b_swings_about_its_pivot() {
         order: [RotaryAxis::C, RotaryAxis::B],
         sign: [1.0, 1.0],
         pivot_length: Some(Mm(pivot)),
+        offset: MEETING,
     };
     for (b, c) in [(0.0, 0.0), (30.0, 0.0), (30.0, 90.0), (-75.0, 200.0)] {
         let ((sin_b, cos_b), (sin_c, cos_c)) = (sin_cos(b), sin_cos(c));
@@ -59,6 +62,7 @@ fn a_head_of_a_and_b_with_a_turned_direction() {
         order: [RotaryAxis::A, RotaryAxis::B],
         sign: [1.0, -1.0],
         pivot_length: Some(Mm(pivot)),
+        offset: MEETING,
     };
     for (a, b) in [(0.0, 0.0), (20.0, 0.0), (0.0, 20.0), (-40.0, 65.0)] {
         let ((sin_a, cos_a), (sin_b, cos_b)) = (sin_cos(a), sin_cos(b));
@@ -78,6 +82,7 @@ fn a_trunnion_of_a_and_c_carries_the_part() {
         order: [RotaryAxis::A, RotaryAxis::C],
         sign: [-1.0, -1.0],
         pivot_length: None,
+        offset: MEETING,
     };
     let centre = [400.0, 250.0, -90.0];
     for (a, c) in [(0.0, 0.0), (90.0, 0.0), (0.0, 90.0), (-35.0, 160.0)] {
@@ -99,6 +104,7 @@ fn a_head_of_b_over_a_table_of_c() {
         order: [RotaryAxis::B, RotaryAxis::C],
         sign: [1.0, -1.0],
         pivot_length: Some(Mm(pivot)),
+        offset: MEETING,
     };
     let centre = [-300.0, 120.0, 0.0];
     for (b, c) in [(0.0, 0.0), (45.0, 0.0), (0.0, 45.0), (-60.0, -130.0)] {
@@ -109,5 +115,58 @@ fn a_head_of_b_over_a_table_of_c() {
         let expected =
             [centre[0] + turned_x + arm * sin_b, centre[1] + turned_y, centre[2] + z + arm * cos_b - pivot];
         check(&machine, centre, [0.0, b, c], expected);
+    }
+}
+
+/// A trunnion of B and C whose axes do not meet: C, at `d` from B, takes `(x, y)` by `-c` about itself, then B takes
+/// `(z, x)`, counted from B, by `-b`.
+#[test]
+fn a_trunnion_of_b_and_c_whose_axes_do_not_meet() {
+    let apart = [35.0, -8.0, -12.0];
+    let machine = Kinematics {
+        arrangement: Arrangement::TableTable,
+        order: [RotaryAxis::B, RotaryAxis::C],
+        sign: [-1.0, -1.0],
+        pivot_length: None,
+        offset: apart.map(Mm),
+    };
+    let centre = [200.0, 150.0, -60.0];
+    for (b, c) in [(0.0, 0.0), (90.0, 0.0), (0.0, 90.0), (25.0, -140.0)] {
+        let ((sin_b, cos_b), (sin_c, cos_c)) = (sin_cos(b), sin_cos(c));
+        let [x, y, z] = POINT;
+        let [dx, dy, dz] = apart;
+        let (from_x, from_y) = (x - dx, y - dy);
+        let (turned_x, turned_y) =
+            (dx + from_x * cos_c + from_y * sin_c, dy - from_x * sin_c + from_y * cos_c);
+        let (tilted_x, tilted_z) = (turned_x * cos_b - z * sin_b, turned_x * sin_b + z * cos_b);
+        let expected = [centre[0] + tilted_x, centre[1] + turned_y, centre[2] + tilted_z + LENGTH];
+        check(&machine, centre, [0.0, b, c], expected);
+        // What is apart along the second axis changes nothing.
+        let along = Kinematics { offset: [Mm(dx), Mm(dy), Mm(dz + 50.0)], ..machine };
+        check(&along, centre, [0.0, b, c], expected);
+    }
+}
+
+/// A fork head whose B is carried round by C at a distance: the pivot moves by what `d` turns, `(dx cos c - dy sin c - dx,
+/// dx sin c + dy cos c - dy)`, and the axes make up for it.
+#[test]
+fn a_head_of_c_and_b_whose_axes_do_not_meet() {
+    let pivot = 250.0;
+    let apart = [18.0, -6.0, 40.0];
+    let machine = Kinematics {
+        arrangement: Arrangement::HeadHead,
+        order: [RotaryAxis::C, RotaryAxis::B],
+        sign: [1.0, 1.0],
+        pivot_length: Some(Mm(pivot)),
+        offset: apart.map(Mm),
+    };
+    for (b, c) in [(0.0, 0.0), (30.0, 0.0), (0.0, 90.0), (-75.0, 200.0)] {
+        let ((sin_b, cos_b), (sin_c, cos_c)) = (sin_cos(b), sin_cos(c));
+        let arm = LENGTH + pivot;
+        let ([x, y, z], [dx, dy, _]) = (POINT, apart);
+        let (moved_x, moved_y) = (dx * cos_c - dy * sin_c - dx, dx * sin_c + dy * cos_c - dy);
+        let expected =
+            [x + arm * sin_b * cos_c - moved_x, y + arm * sin_b * sin_c - moved_y, z + arm * cos_b - pivot];
+        check(&machine, [0.0; 3], [0.0, b, c], expected);
     }
 }
