@@ -744,9 +744,13 @@ export const commands: Test[] = [
       const titles = lenses.map((lens) => lens.command?.title ?? "");
       assert.match(titles[0] ?? "", /^\d+:\d\d in all/, titles.join("; "));
       assert.ok(titles.some((title) => /^T1 · 10 mm end mill · \d+:\d\d · X -?\d/.test(title)), titles.join("; "));
-      await until("the lenses in the text", async () => ((await widgets()).lenses.length > 0 ? true : undefined));
+      const inText = async () => (await widgets()).lenses;
+      await until("the lenses in the text", async () => {
+        const shown = await inText();
+        return shown.some((lens) => lens.includes("in all")) && shown.some((lens) => lens.includes("T1")) ? true : undefined;
+      });
       await withSetting("codeLens", false, async () => {
-        await until("no lenses", async () => ((await widgets()).lenses.length === 0 ? true : undefined));
+        await until("no lenses", async () => ((await inText()).length === 0 ? true : undefined));
       });
       await closeAll();
     },
