@@ -94,7 +94,7 @@ mod tests {
         for (control, text) in [
             (
                 "fanuc-mill",
-                "%\nO1\nG21 G90 G54 G0 X1. Y0.\nG1 G1 X5 F100.\nN7 G2 X6. Y$05. R5.\nG1 X6.\nM30\n%\n",
+                "%\nO1\nG21 G90 G54 G0 X1. Y0.\nG1 G1 X5 F100.\nN7 G2 X6. Y$05. R5.\nG1 X6\nM30\n%\n",
             ),
             ("haas-mill", "%\nO1\nG21 G90 G54 G0 X1. Y0.\n/G2 X6. Y$05. I0. J5. F100.\nM30\n%\n"),
         ] {

@@ -388,7 +388,7 @@ mod tests {
     fn tool_centre_point_control_keeps_the_tip_where_the_program_says() {
         let tip = |control: &str, code: &str, h: u32, machine: &Machine| {
             let text = format!(
-                "O1\nG21 G90 G54\nT3 M6\nG0 X1. Y2. Z50. A0. C0.\n{code} H{h} Z5.\nG1 A30. C40. F100.\n$0G1 X7. F100.\nM30\n"
+                "O1\nG21 G90 G54\nT3 M6\nG0 X1. Y2. Z50. A0. C0.\n{code} H{h} X1. Y2. Z5.\nG1 X1. Y2. Z5. A30. C40. F100.\n$0G1 X7. F100.\nM30\n"
             );
             let mut settings = Settings::new(gcheck_controls::load(control).unwrap(), gcheck_rules::RULES);
             let mut facts = (*settings.machine).clone();
