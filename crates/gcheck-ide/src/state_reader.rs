@@ -353,16 +353,17 @@ fn leaning(
     beside: Position,
     angles: [Degrees; 3],
 ) -> Position {
-    let [x, y, z] = beside.xyz();
-    if [x, y, z].iter().all(|part| part.0 == 0.0) {
+    let [sideways, across, along] = beside.xyz();
+    let is_along = sideways.0 == 0.0 && across.0 == 0.0;
+    if is_along && along.0 == 0.0 {
         return work;
     }
-    let is_along = x.0 == 0.0 && y.0 == 0.0;
     match kinematics {
         Some(kinematics) if is_along => {
-            let [i, j, k]: [f64; 3] = kinematics.tool_axis_in_part(angles).into();
-            let [x, y, along] = work.xyz();
-            work.with_xyz([x + z * i, y + z * j, along + z * k])
+            let axis: [f64; 3] = kinematics.tool_axis_in_part(angles).into();
+            let [x, y, z] = work.xyz();
+            let [by_x, by_y, by_z] = axis.map(|part| along * part);
+            work.with_xyz([x + by_x, y + by_y, z + by_z])
         }
         _ => work.with_xyz([Mm::UNKNOWN; 3]),
     }

@@ -207,7 +207,7 @@ fn check_blocks(path: &Path) {
             let before = block.get(..*at).and_then(|before| before.chars().next_back());
             *at == 0
                 || !c.is_whitespace()
-                    && !before.is_some_and(|before| before.is_alphanumeric() == c.is_ascii_digit())
+                    && before.is_none_or(|before| before.is_alphanumeric() != c.is_ascii_digit())
         };
         let words: Vec<usize> = block.char_indices().filter(begins).map(|(at, _)| at).collect();
         let shown =

@@ -88,33 +88,33 @@ fn editors(root: &Path) -> anyhow::Result<Vec<Editor>> {
 
 /// What the manifest of the extension contributes.
 fn of_manifest(manifest: &Value) -> Vec<Contributed> {
-    let contributes = &manifest["contributes"];
-    let text = |value: &Value| value.as_str().unwrap_or_default().to_owned();
-    let list = |value: &Value| value.as_array().cloned().unwrap_or_default();
+    let text =
+        |value: &Value, key: &str| value.get(key).and_then(Value::as_str).unwrap_or_default().to_owned();
+    let list = |key: &str| manifest.pointer(&format!("/contributes/{key}")).and_then(Value::as_array);
+    let table = |key: &str| manifest.pointer(&format!("/contributes/{key}")).and_then(Value::as_object);
     let mut all = Vec::new();
-    for command in list(&contributes["commands"]) {
-        let title = format!("gcheck: {}", text(&command["title"]));
-        all.push(Contributed::new("command", text(&command["command"]), title));
+    for command in list("commands").into_iter().flatten() {
+        let title = format!("gcheck: {}", text(command, "title"));
+        all.push(Contributed::new("command", text(command, "command"), title));
     }
-    for (name, setting) in contributes["configuration"]["properties"].as_object().into_iter().flatten() {
-        let what = ["description", "markdownDescription"].map(|key| text(&setting[key])).concat();
+    for (name, setting) in table("configuration/properties").into_iter().flatten() {
+        let what = ["description", "markdownDescription"].map(|key| text(setting, key)).concat();
         all.push(Contributed::new("setting", name, what));
     }
-    for views in contributes["views"].as_object().into_iter().flat_map(|places| places.values()) {
-        for view in list(views) {
-            all.push(Contributed::new("view", text(&view["id"]), text(&view["name"])));
+    let views = table("views").into_iter().flatten().filter_map(|(_, views)| views.as_array());
+    for view in views.flatten() {
+        all.push(Contributed::new("view", text(view, "id"), text(view, "name")));
+    }
+    for key in list("keybindings").into_iter().flatten() {
+        all.push(Contributed::new("key", format!("key {}", text(key, "key")), text(key, "command")));
+    }
+    for (kind, place, name, what) in [
+        ("problem matcher", "problemMatchers", "name", "label"),
+        ("walkthrough", "walkthroughs", "id", "title"),
+    ] {
+        for one in list(place).into_iter().flatten() {
+            all.push(Contributed::new(kind, format!("{kind} {}", text(one, name)), text(one, what)));
         }
-    }
-    for key in list(&contributes["keybindings"]) {
-        all.push(Contributed::new("key", format!("key {}", text(&key["key"])), text(&key["command"])));
-    }
-    for matcher in list(&contributes["problemMatchers"]) {
-        let name = format!("problem matcher {}", text(&matcher["name"]));
-        all.push(Contributed::new("problem matcher", name, text(&matcher["label"])));
-    }
-    for walkthrough in list(&contributes["walkthroughs"]) {
-        let name = format!("walkthrough {}", text(&walkthrough["id"]));
-        all.push(Contributed::new("walkthrough", name, text(&walkthrough["title"])));
     }
     all
 }
