@@ -22,13 +22,54 @@
     table)
   "A comment stands in parentheses.")
 
+(defface gcode-rapid
+  '((t :inherit font-lock-warning-face))
+  "A code that moves at rapid.")
+
+(defface gcode-feed
+  '((t :inherit font-lock-keyword-face))
+  "A code that cuts in a straight line.")
+
+(defface gcode-arc
+  '((t :inherit font-lock-type-face))
+  "A code that cuts along a curve.")
+
+(defface gcode-code
+  '((t :inherit font-lock-builtin-face))
+  "Any other code.")
+
+(defface gcode-tool
+  '((t :inherit font-lock-string-face))
+  "A tool word, or the speed of the spindle.")
+
+(defface gcode-label
+  '((t :inherit font-lock-constant-face))
+  "A sequence number.")
+
+(defface gcode-program
+  '((t :inherit font-lock-function-name-face))
+  "A program number, and the tape marks.")
+
+(defface gcode-variable
+  '((t :inherit font-lock-variable-name-face))
+  "A variable.")
+
+(defface gcode-flow
+  '((t :inherit font-lock-preprocessor-face))
+  "A word that decides where the program goes on.")
+
 (defconst gcode-font-lock-keywords
-  '(("^\\s-*[O:]\\s-*[0-9]+" . font-lock-function-name-face)
-    ("\\_<N[0-9]+" . font-lock-constant-face)
-    ("[GM][0-9]+\\(\\.[0-9]+\\)?" . font-lock-keyword-face)
-    ("#+[0-9]+\\|#<[^>]*>" . font-lock-variable-name-face)
-    ("\\_<\\(IF\\|THEN\\|GOTO\\|WHILE\\|DO[0-9]?\\|END[0-9]?\\|SUB\\|ENDSUB\\|CALL\\|RETURN\\)" . font-lock-builtin-face))
-  "What the lexer can say.")
+  (let ((code (lambda (number) (concat "\\(G[ \t]*0*" number "\\)\\(?:[^0-9.]\\|$\\)"))))
+    `(("^\\s-*\\([O:]\\s-*[0-9]+\\|%.*\\)" 1 'gcode-program)
+      ("#+[0-9]+\\|#\\s-*<[^>]*>" 0 'gcode-variable)
+      ("\\_<\\(IF\\|THEN\\|ELSE\\|GOTO\\|WHILE\\|DO\\|END\\|SUB\\|ENDSUB\\|CALL\\|RETURN\\|REPEAT\\)[0-9]*\\_>" 0 'gcode-flow)
+      ("\\_<N\\s-*[0-9]+" 0 'gcode-label)
+      (,(funcall code "0") 1 'gcode-rapid)
+      (,(funcall code "1") 1 'gcode-feed)
+      (,(funcall code "[23]") 1 'gcode-arc)
+      ("[GM][ \t]*[0-9]+\\(\\.[0-9]+\\)?" 0 'gcode-code)
+      ("[TS][ \t]*[0-9]+" 0 'gcode-tool)))
+  "What the lexer can say, by the role of a word.")
 
 ;;;###autoload
 (define-derived-mode gcode-mode prog-mode "G-code"

@@ -15,8 +15,11 @@ use std::ops::Range;
 
 use gcheck_db::{Analysis, Cancelled, Database, DocumentId};
 
-pub use action::{ActionKind, CodeAction};
-pub use proved::{PathChange, Proved, ProvedChange, proved, proved_change_at, proved_changes, whole_lines};
+pub use action::{ActionKind, CodeAction, Offer};
+pub use proved::{
+    PROVED, PathChange, Proved, ProvedChange, WITH_FIGURES, proved, proved_change_at, proved_changes,
+    whole_lines,
+};
 
 /// Bytes of a file for which changes of the whole file are offered at every place; of a larger one only when all of it is
 /// selected, because editors ask at every move of the cursor.
@@ -57,7 +60,7 @@ mod tests {
 
     use expect_test::{Expect, expect};
 
-    use super::{ActionKind, CodeAction, code_actions};
+    use super::{ActionKind, CodeAction, Offer, code_actions};
     use crate::fixture::{Fixture, applied};
 
     /// All actions at a range.
@@ -69,6 +72,44 @@ mod tests {
     /// All actions at the cursor.
     fn offered_at_cursor(fixture: &mut Fixture) -> Vec<CodeAction> {
         offered(fixture, fixture.offset..fixture.offset)
+    }
+
+    /// Does a title fit the one with `…` that lists have?
+    fn fits(title: &str, pattern: &str) -> bool {
+        let mut rest = title;
+        let mut parts = pattern.split('…');
+        let first = parts.next().unwrap();
+        let Some(after) = rest.strip_prefix(first) else { return false };
+        rest = after;
+        parts.all(|part| {
+            let found = rest.find(part);
+            rest = found.map_or("", |at| &rest[at + part.len()..]);
+            found.is_some()
+        })
+    }
+
+    #[test]
+    fn each_action_has_the_title_that_lists_have() {
+        let mut seen = std::collections::BTreeSet::new();
+        for (control, text) in [
+            (
+                "fanuc-mill",
+                "%\nO1\nG21 G90 G54 G0 X1. Y0.\nG1 G1 X5 F100.\nN7 G2 X6. Y$05. R5.\nG1 X6\nM30\n%\n",
+            ),
+            ("haas-mill", "%\nO1\nG21 G90 G54 G0 X1. Y0.\n/G2 X6. Y$05. I0. J5. F100.\nM30\n%\n"),
+        ] {
+            let mut fixture = Fixture::new(control, text);
+            let whole = 0..fixture.snapshot().len();
+            let at_cursor = offered_at_cursor(&mut fixture);
+            for action in offered(&mut fixture, whole).into_iter().chain(at_cursor) {
+                let title = action.offer.title();
+                assert!(fits(&action.title, title), "{} is titled {title}", action.title);
+                seen.insert(action.offer.name());
+            }
+        }
+        let missing: Vec<_> =
+            Offer::ALL.iter().map(|offer| offer.name()).filter(|name| !seen.contains(name)).collect();
+        assert_eq!(missing, [""; 0]);
     }
 
     /// The actions at the cursor of some kinds, and the text after each.

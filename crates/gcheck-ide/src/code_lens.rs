@@ -40,6 +40,12 @@ pub struct SectionStatistics {
     pub extents: String,
 }
 
+/// The kinds of lenses: their names, and what they tell.
+pub const LENSES: [(&str, &str); 2] = [
+    ("program", "time of the whole program, tools, where the control would stop"),
+    ("tool", "tool, time and extents of a tool section"),
+];
+
 /// A line above a place.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct CodeLens {

@@ -57,10 +57,10 @@ mod workspace_symbols;
 pub use call_hierarchy::{CallItem, Incoming, Outgoing, call_items, incoming_calls, outgoing_calls};
 pub use caller::{Caller, caller};
 pub use code_actions::{
-    ActionKind, CodeAction, PathChange, Proved, ProvedChange, code_actions, proved, proved_change_at,
-    proved_changes, whole_lines,
+    ActionKind, CodeAction, Offer, PROVED, PathChange, Proved, ProvedChange, WITH_FIGURES, code_actions,
+    proved, proved_change_at, proved_changes, whole_lines,
 };
-pub use code_lens::{CodeLens, RunStatistics, SectionStatistics, code_lenses, run_statistics};
+pub use code_lens::{CodeLens, LENSES, RunStatistics, SectionStatistics, code_lenses, run_statistics};
 pub use completion::{
     Completion, CompletionKind, TRIGGERS as COMPLETION_TRIGGERS, completion, completion_details,
 };

@@ -331,7 +331,12 @@ pub(crate) fn look_at(
 
 #[cfg(test)]
 mod tests {
+    use std::sync::Arc;
+
     use expect_test::{Expect, expect};
+    use gcheck_db::Settings;
+    use gcheck_engine::{Axis, Machine, Position, Tool, WorkOffset};
+    use gcheck_geometry::{Arrangement, Kinematics, Mm, RotaryAxis};
 
     use super::state_at;
     use crate::fixture::Fixture;
@@ -377,6 +382,55 @@ mod tests {
         let tilted = "O1\nG20 G90 G54 T1 M6\nG0 X1. Y0. Z3. A0. B0.\nG143 H1 X1. Y0. Z3. A-15. B8.\n$0G1 X1.25 Z2. F20.\nM30\n";
         let (_, programmed, tip) = tip(tilted);
         assert_eq!((programmed, tip), (Some(Some(3.0)), Some(None)), "the posted length is not known");
+    }
+
+    #[test]
+    fn tool_centre_point_control_keeps_the_tip_where_the_program_says() {
+        let tip = |control: &str, code: &str, h: u32, machine: &Machine| {
+            let text = format!(
+                "O1\nG21 G90 G54\nT3 M6\nG0 X1. Y2. Z50. A0. C0.\n{code} H{h} X1. Y2. Z5.\nG1 X1. Y2. Z5. A30. C40. F100.\n$0G1 X7. F100.\nM30\n"
+            );
+            let mut settings = Settings::new(gcheck_controls::load(control).unwrap(), gcheck_rules::RULES);
+            let mut facts = (*settings.machine).clone();
+            facts.engine = machine.clone();
+            settings.machine = Arc::new(facts);
+            let mut fixture = Fixture::with(&text, &settings);
+            let view = state_at(&mut fixture.database, fixture.document, fixture.offset, &|| false);
+            let tip = view.unwrap().unwrap().before.tip;
+            ['X', 'Y', 'Z'].map(|axis| tip.get(&axis).copied().flatten())
+        };
+        let axes = vec![Axis::X, Axis::Y, Axis::Z, Axis::A, Axis::C];
+        let nothing_told = Machine { axes: Some(axes), ..Machine::default() };
+        let tool = |length: f64| Tool {
+            pocket: 0,
+            offset: Position::ZERO.with_xyz([Mm::ZERO, Mm::ZERO, Mm(length)]),
+            diameter: Mm::UNKNOWN,
+            corner_radius: Mm::UNKNOWN,
+            angles: [0.0; 2],
+            orientation: 0,
+        };
+        let mut described = nothing_told.clone();
+        described.tools.extend([(3, tool(80.0)), (4, tool(90.0))]);
+        let mut with_table = described.clone();
+        with_table.kinematics = Some(Kinematics {
+            arrangement: Arrangement::TableTable,
+            order: [RotaryAxis::A, RotaryAxis::C],
+            sign: [-1.0, -1.0],
+            pivot_length: None,
+        });
+        with_table.offsets.insert(1, WorkOffset { origin: Position::ZERO, rotation: 0.0 });
+        for (control, code) in [("haas-mill", "G234"), ("fanuc-mill", "G43.4")] {
+            for machine in [&nothing_told, &described, &with_table] {
+                assert_eq!(tip(control, code, 3, machine), [Some(1.0), Some(2.0), Some(5.0)], "{code}");
+            }
+            // The length of another tool: nobody knows where the tip is, unless both lengths are told, and how the tool leans.
+            assert_eq!(tip(control, code, 4, &nothing_told), [None; 3], "{code}");
+            assert_eq!(tip(control, code, 4, &described), [None; 3], "{code}");
+            let [x, y, z] = tip(control, code, 4, &with_table).map(|place| place.unwrap());
+            let away = (x - 1.0).hypot(y - 2.0).hypot(z - 5.0);
+            assert!((away - 10.0).abs() < 1e-5, "{code}: {x} {y} {z} is {away} away");
+            assert!((z - 5.0 - 10.0 * 30.0_f64.to_radians().cos()).abs() < 1e-5, "{code}: {z}");
+        }
     }
 
     #[test]

@@ -8,7 +8,7 @@ use gcheck_engine::{
     Abstract, AbstractValue, Axis, Domain as _, FeedMode, Model, PathMode, Position, Role, Spindle, State,
     Truth, Units,
 };
-use gcheck_geometry::{Mm, Rpm};
+use gcheck_geometry::{Degrees, Kinematics, Mm, Rpm};
 
 use crate::number_text::{coordinate, decimals, plain, unit, value};
 
@@ -254,16 +254,12 @@ impl<'a> StateReader<'a> {
     /// Where the axes are.
     pub(crate) fn places(&self, state: &State<Abstract>) -> Places {
         let work = *state.actual();
-        Places {
-            programmed: *state.position(),
-            work,
-            machine: state.machine(self.model, &self.snapshot.settings().machine.engine),
-            tip: self.tip(state, work),
-        }
+        let machine = state.machine(self.model, &self.snapshot.settings().machine.engine);
+        Places { programmed: *state.position(), work, machine, tip: self.tip(state, work, machine) }
     }
 
     /// The tip lies where the work position says while the tool's own length is in effect; else the difference away.
-    fn tip(&self, state: &State<Abstract>, work: Position) -> Position {
+    fn tip(&self, state: &State<Abstract>, work: Position, stands: Position) -> Position {
         if state.tool_shift().along_tool().is_some() {
             let h = Abstract::known(state.h()).filter(|h| *h >= 0.0);
             let machine = &self.snapshot.settings().machine.engine;
@@ -271,24 +267,32 @@ impl<'a> StateReader<'a> {
             let tip = h.and_then(|h| gcheck_toolpath::tip_of_posted(machine, h as u32, state.position()));
             return tip.map_or(Position::UNKNOWN, |tip| state.position().with_xyz(tip));
         }
-        // A tool that is shifted along a vector has its tip elsewhere, and so has one that is tilted.
+        let effect = state.effect(Role::Length, self.model);
+        let keeps_tip = effect == Some(Effect::ToolCentrePoint);
+        // A tool that is shifted along a vector has its tip elsewhere, and so has one that is tilted, unless the control keeps the tip
+        // in its place.
         let shifted = state.tool_shift().along_vectors().is_some();
-        let turned = self.snapshot.settings().machine.engine.kinematics.is_some()
-            && self.axes().iter().any(|axis| axis.is_rotary() && state.actual().raw(*axis) != 0.0);
-        #[expect(clippy::cast_sign_loss, reason = "tool numbers are not negative")]
-        let tool = Abstract::known(state.tool()).filter(|tool| *tool > 0.0).map(|tool| tool as u32);
-        if shifted || turned {
+        let is_turned = self.axes().iter().any(|axis| axis.is_rotary() && state.actual().raw(*axis) != 0.0);
+        let kinematics = self.snapshot.settings().machine.engine.kinematics;
+        if shifted || is_turned && kinematics.is_some() && !keeps_tip {
             return Position::UNKNOWN;
         }
+        #[expect(clippy::cast_sign_loss, reason = "tool numbers are not negative")]
+        let tool = Abstract::known(state.tool()).filter(|tool| *tool > 0.0).map(|tool| tool as u32);
         let entry = tool.and_then(|tool| state.tables().tool(tool));
-        let tip = entry.map_or(Position::UNKNOWN, |entry| work + *state.length() - entry.offset);
+        let beside = entry.map_or(Position::UNKNOWN, |entry| *state.length() - entry.offset);
+        let tip = if keeps_tip && is_turned {
+            leaning(kinematics, work, beside, stands.abc())
+        } else {
+            work + beside
+        };
         if tip.xyz().iter().all(|value| value.is_known()) {
             return tip;
         }
         // However long the tool is: with its own length in effect the program says where the tip goes. Another tool's number is
         // nearly always another tool's length.
         let is_own = tool.is_some_and(|tool| Abstract::known(state.h()) == Some(f64::from(tool)));
-        let adds = state.effect(Role::Length, self.model).is_some_and(|effect| effect == Effect::LengthPlus);
+        let adds = keeps_tip || effect == Some(Effect::LengthPlus);
         if adds && is_own { work } else { tip }
     }
 
@@ -338,6 +342,30 @@ impl<'a> StateReader<'a> {
             _ => {}
         }
         items
+    }
+}
+
+/// Where the tip is when a length that is not the tool's own is in effect along a tool that leans: `beside` is what the length has
+/// too much, and the part turns with the coordinates of the program.
+fn leaning(
+    kinematics: Option<Kinematics>,
+    work: Position,
+    beside: Position,
+    angles: [Degrees; 3],
+) -> Position {
+    let [sideways, across, along] = beside.xyz();
+    let is_along = sideways.0 == 0.0 && across.0 == 0.0;
+    if is_along && along.0 == 0.0 {
+        return work;
+    }
+    match kinematics {
+        Some(kinematics) if is_along => {
+            let axis: [f64; 3] = kinematics.tool_axis_in_part(angles).into();
+            let [x, y, z] = work.xyz();
+            let [by_x, by_y, by_z] = axis.map(|part| along * part);
+            work.with_xyz([x + by_x, y + by_y, z + by_z])
+        }
+        _ => work.with_xyz([Mm::UNKNOWN; 3]),
     }
 }
 

@@ -6,7 +6,7 @@
 #![expect(clippy::unwrap_used, reason = "a test that meets the unexpected is to fail")]
 
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use gcheck_db::{Database, DocumentId, Settings};
@@ -126,6 +126,17 @@ fn enter_changes_nothing_whatever_is_typed() {
 /// Lines of a hover that still let people see the program.
 const MOST_LINES: usize = 10;
 
+/// Complains of a hover that people cannot take in at a glance.
+fn check_hover(typed: &mut Typed, name: &str, at: u32) -> bool {
+    let Some(found) = hover(&mut typed.database, typed.id, at, &|| false) else { return false };
+    // Rules and the line under a table's head take no line.
+    let is_line =
+        |line: &&str| !line.trim().is_empty() && !line.starts_with("---") && !line.starts_with("|--");
+    let lines = found.markdown.lines().filter(is_line).count();
+    assert!(lines <= MOST_LINES, "{name}: {lines} lines at {at}\n{}", found.markdown);
+    true
+}
+
 #[test]
 fn a_hover_fits_in_ten_lines_and_has_the_state_on_top() {
     let fixtures = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fixtures");
@@ -135,17 +146,75 @@ fn a_hover_fits_in_ten_lines_and_has_the_state_on_top() {
             let mut typed = Typed::new(control);
             typed.database.edit(typed.id, 0..0, &program).unwrap();
             for at in 0..program.len() as u32 {
-                let Some(found) = hover(&mut typed.database, typed.id, at, &|| false) else {
-                    continue;
-                };
-                // Rules and the line under a table's head take no line.
-                let is_line = |line: &&str| {
-                    !line.trim().is_empty() && !line.starts_with("---") && !line.starts_with("|--")
-                };
-                let lines = found.markdown.lines().filter(is_line).count();
-                assert!(lines <= MOST_LINES, "{name}: {lines} lines at {at}\n{}", found.markdown);
+                check_hover(&mut typed, name, at);
             }
         }
+    }
+}
+
+/// The programs below a folder.
+fn programs_below(folder: &Path, found: &mut Vec<PathBuf>) {
+    let mut entries: Vec<PathBuf> =
+        fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    entries.sort();
+    for path in entries {
+        if path.is_dir() {
+            programs_below(&path, found);
+        } else if path.extension().is_some_and(|extension| extension == "nc" || extension == "ngc") {
+            found.push(path);
+        }
+    }
+}
+
+/// The control of a fixture: the configuration beside it names one, or its file does; the oracle reads the others.
+fn control_of(program: &Path) -> String {
+    let configured = fs::read_to_string(program.with_file_name("gcheck.toml")).unwrap_or_default();
+    let named = configured
+        .lines()
+        .find_map(|line| line.strip_prefix("control = "))
+        .map(|name| name.trim_matches('"'));
+    let stem = program.file_stem().unwrap().to_str().unwrap();
+    let is_control = gcheck_controls::names().contains(&stem);
+    named.unwrap_or(if is_control { stem } else { "linuxcnc" }).to_owned()
+}
+
+#[test]
+fn every_block_of_every_fixture_has_a_hover_of_ten_lines() {
+    let fixtures = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fixtures");
+    let mut programs = Vec::new();
+    for group in ["clean", "oracle", "timing", "firmware"] {
+        programs_below(&fixtures.join(group), &mut programs);
+    }
+    assert!(programs.len() > 300, "{} programs", programs.len());
+    let share = programs.len().div_ceil(2);
+    std::thread::scope(|scope| {
+        for part in programs.chunks(share) {
+            scope.spawn(|| part.iter().for_each(|program| check_blocks(program)));
+        }
+    });
+}
+
+/// Checks the hover of each word of a program.
+fn check_blocks(path: &Path) {
+    let name = path.display().to_string();
+    let program = String::from_utf8_lossy(&fs::read(path).unwrap()).into_owned();
+    let mut typed = Typed::new(&control_of(path));
+    typed.database.edit(typed.id, 0..0, &program).unwrap();
+    let mut start = 0;
+    for line in program.split_inclusive('\n') {
+        let block = line.trim_end();
+        let begins = |(at, c): &(usize, char)| {
+            let before = block.get(..*at).and_then(|before| before.chars().next_back());
+            *at == 0
+                || !c.is_whitespace()
+                    && before.is_none_or(|before| before.is_alphanumeric() != c.is_ascii_digit())
+        };
+        let words: Vec<usize> = block.char_indices().filter(begins).map(|(at, _)| at).collect();
+        let shown =
+            words.into_iter().filter(|at| check_hover(&mut typed, &name, (start + at) as u32)).count();
+        let is_move = block.starts_with(['G', 'X', 'g', 'x']);
+        assert!(shown > 0 || !is_move, "{name}: {block} has no hover");
+        start += line.len();
     }
 }
 

@@ -4,6 +4,8 @@
 
 #[cfg(feature = "product")]
 mod control_pages;
+#[cfg(feature = "product")]
+mod editor_tests;
 mod generated;
 #[cfg(feature = "product")]
 mod markdown;
@@ -92,6 +94,7 @@ fn from_product() -> anyhow::Result<Generated> {
     let mut files = rule_pages::generate();
     files.extend(control_pages::generate()?);
     files.extend(schema::generate());
+    files.extend(editor_tests::generate(workspace::root())?);
     files.extend(summary::generate(workspace::root(), &files)?);
     Ok(files)
 }

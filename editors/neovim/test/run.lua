@@ -226,6 +226,183 @@ test("rapid moves, cuts, arcs and other codes have their own colours", function(
   vim.cmd("bwipeout!")
 end)
 
+test("options of the user reach the server: cmd, settings, on_attach, capabilities", function()
+  vim.fn.mkdir(folder .. "/options/.git", "p")
+  vim.fn.writefile({ "G21 G90 G54", "G00 X1.", "G65 P1", "M2" }, folder .. "/options/part.nc")
+  local plugin = require("gcheck")
+  local before = vim.deepcopy(plugin.options)
+  local met = {}
+  local capabilities = vim.lsp.protocol.make_client_capabilities()
+  capabilities.textDocument.hover.contentFormat = { "plaintext" }
+  plugin.setup({
+    cmd = { plugin.command()[1], "--isolated", "lsp" },
+    settings = { control = "linuxcnc" },
+    on_attach = function(found, buffer)
+      met[buffer] = found
+    end,
+    capabilities = capabilities,
+  })
+  open("options/part.nc")
+  local buffer = vim.api.nvim_get_current_buf()
+  local own = until_("on_attach", function()
+    return met[buffer]
+  end)
+  assert(vim.deep_equal(own.config.cmd, { plugin.command()[1], "--isolated", "lsp" }), vim.inspect(own.config.cmd))
+  -- The control of the settings has no such code.
+  local found = until_("the finding", function()
+    return finding("unknown-code")
+  end)
+  assert(found.lnum == 2, vim.inspect(found))
+  cursor_on("G00")
+  local hover = ask("textDocument/hover")
+  assert(hover.contents.kind == "plaintext", vim.inspect(hover))
+  plugin.options = before
+  plugin.setup({})
+end)
+
+test("GcheckExplain shows a page beside the program", function()
+  open("part.nc")
+  vim.cmd("GcheckExplain unknown-code")
+  local text = table.concat(vim.api.nvim_buf_get_lines(0, 0, -1, false), "\n")
+  assert(text:find("unknown-code", 1, true) and #text > 300, text)
+  assert(vim.bo.buftype == "nofile" and not vim.bo.modifiable)
+  vim.cmd("bwipeout!")
+end)
+
+--- The answer of the server of `:GcheckPath`, as text; of events what has come when `enough` says so.
+local function get(port, path, fields, enough)
+  local uv = vim.uv or vim.loop
+  local client = uv.new_tcp()
+  local text, is_done = "", false
+  client:connect("127.0.0.1", port, function(problem)
+    assert(not problem, problem)
+    client:read_start(function(_, chunk)
+      if chunk then
+        text = text .. chunk
+      else
+        is_done = true
+      end
+    end)
+    local host = fields.host or ("127.0.0.1:" .. port)
+    local cookie = fields.cookie and ("Cookie: gcheck=" .. fields.cookie .. "\r\n") or ""
+    client:write(("%s %s HTTP/1.1\r\nHost: %s\r\n%s\r\n"):format(fields.method or "GET", path, host, cookie))
+  end)
+  until_("the answer to " .. path, function()
+    return is_done or (enough and enough(text))
+  end)
+  client:close()
+  return text
+end
+
+test("GcheckPath serves the page by an address that works once, and follows the cursor", function()
+  open("pocket.nc")
+  local address
+  require("gcheck").options.open = function(given)
+    address = given
+  end
+  vim.cmd("GcheckPath")
+  until_("the address", function()
+    return address
+  end)
+  local port, path = address:match("^http://127%.0%.0%.1:(%d+)(/%x+)$")
+  assert(port and #path == 33, address)
+  port = tonumber(port)
+  local function status(...)
+    return get(port, ...):match("^HTTP/1.1 (%d+)")
+  end
+  assert(status("/", {}) == "403", "nothing without the token")
+  assert(status("/page", {}) == "403", "the page needs a cookie")
+  assert(status("/" .. ("0"):rep(32), {}) == "403", "another token")
+  assert(status(path, { host = "gcheck.example" }) == "403", "another name for this machine")
+  assert(status(path, { method = "POST" }) == "405", "only reading")
+  local outer = get(port, path, {})
+  local cookie = outer:match("Set%-Cookie: gcheck=(%x+); HttpOnly; SameSite=Strict")
+  assert(outer:find("^HTTP/1.1 200") and cookie, outer)
+  assert(status(path, {}) == "403", "the token works once")
+  assert(status(path, { cookie = cookie }) == "200", "the page can be loaded again")
+  assert(status("/page", { cookie = ("0"):rep(32) }) == "403", "another cookie")
+  assert(status("/other", { cookie = cookie }) == "404")
+  local page = get(port, "/page", { cookie = cookie })
+  assert(page:find("pocket.nc", 1, true) and page:find('"toolpath"', 1, true), page:sub(1, 500))
+  cursor_on("G03 I-15.")
+  local line = vim.api.nvim_win_get_cursor(0)[1]
+  vim.cmd("doautocmd CursorMoved")
+  local function has(event, data)
+    return function(text)
+      return text:find("event: " .. event .. "\ndata: " .. data .. "\n\n", 1, true) ~= nil
+    end
+  end
+  get(port, "/events", { cookie = cookie }, has("line", line))
+  -- Moves while the page is open, an edit, and the end.
+  local moved, edited = false, false
+  get(port, "/events", { cookie = cookie }, function(text)
+    if not moved and has("line", line)(text) then
+      moved = true
+      vim.api.nvim_win_set_cursor(0, { 3, 0 })
+      vim.cmd("doautocmd CursorMoved")
+    elseif moved and not edited and has("line", 3)(text) then
+      edited = true
+      vim.api.nvim_buf_set_lines(0, 3, 3, false, { "(edited)" })
+      vim.cmd("doautocmd TextChanged")
+    end
+    return edited and has("page", "new")(text)
+  end)
+  assert(get(port, "/page", { cookie = cookie }):find("(edited)", 1, true), "the page has the text of the buffer")
+  vim.cmd("GcheckPath!")
+  local uv = vim.uv or vim.loop
+  local refused
+  local client = uv.new_tcp()
+  client:connect("127.0.0.1", port, function(problem)
+    refused = problem or "it answers"
+  end)
+  until_("the end", function()
+    return refused
+  end)
+  assert(refused:find("REFUSED"), refused)
+  vim.cmd("edit!")
+  require("gcheck").options.open = nil
+end)
+
+if vim.env.GCHECK_FOLLOW then
+  test("the page of GcheckPath chooses the line of the cursor in a browser", function()
+    open("pocket.nc")
+    local said = {}
+    require("gcheck").options.open = function(address)
+      local command = vim.split(vim.env.GCHECK_FOLLOW, "\n")
+      command[#command + 1] = address
+      vim.fn.jobstart(command, {
+        on_stdout = function(_, lines)
+          vim.list_extend(said, lines)
+        end,
+        on_stderr = function(_, lines)
+          vim.list_extend(said, lines)
+        end,
+      })
+    end
+    local function shown(text)
+      return function()
+        for _, line in ipairs(said) do
+          if line:find(text, 1, true) then
+            return true
+          end
+        end
+      end
+    end
+    vim.api.nvim_win_set_cursor(0, { 15, 0 })
+    vim.cmd("GcheckPath")
+    local ok, problem = pcall(function()
+      until_("the line in the page", shown("says line 15"))
+      cursor_on("G03 I-15.")
+      vim.cmd("doautocmd CursorMoved")
+      until_("the next line in the page", shown("says line " .. vim.api.nvim_win_get_cursor(0)[1]))
+      vim.cmd("GcheckPath!")
+      until_("the end of the page", shown("title ended: gcheck"))
+    end)
+    assert(ok, tostring(problem) .. ": " .. table.concat(said, "; "))
+    require("gcheck").options.open = nil
+  end)
+end
+
 test("the health check passes", function()
   vim.cmd("silent checkhealth gcheck")
   local text = table.concat(vim.api.nvim_buf_get_lines(0, 0, -1, false), "\n")

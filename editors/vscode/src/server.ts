@@ -4,7 +4,16 @@ import * as fs from "node:fs";
 import * as path from "node:path";
 
 import * as vscode from "vscode";
-import { LanguageClient, type LanguageClientOptions, type ServerOptions, State } from "vscode-languageclient/node";
+import {
+  CodeActionResolveRequest,
+  LanguageClient,
+  type LanguageClientOptions,
+  LSPErrorCodes,
+  type MessageSignature,
+  ResponseError,
+  type ServerOptions,
+  State,
+} from "vscode-languageclient/node";
 
 /** Which control reads a program, as the server says it. */
 export interface Status {
@@ -28,6 +37,24 @@ const EXPLAIN = "gcheck.explain";
 
 /** The command that asks for the figures of a change. */
 const CHANGE = "gcheck.askAndChange";
+
+/** A client that says why a change is refused, where others say that a request failed. */
+class Client extends LanguageClient {
+  override handleFailedRequest<T>(
+    type: MessageSignature,
+    token: vscode.CancellationToken | undefined,
+    error: unknown,
+    defaultValue: T,
+    showNotification = true,
+  ): T {
+    const isRefused = error instanceof ResponseError && error.code === LSPErrorCodes.RequestFailed;
+    if (type.method === CodeActionResolveRequest.method && isRefused) {
+      void vscode.window.showWarningMessage(`gcheck: ${error.message}`);
+      return defaultValue;
+    }
+    return super.handleFailedRequest(type, token, error, defaultValue, showNotification);
+  }
+}
 
 /** Is never cancelled. */
 const NEVER = new vscode.CancellationTokenSource().token;
@@ -90,7 +117,7 @@ export class Server implements vscode.Disposable {
       // Of what a hover says, nothing but this may be run by a click.
       markdown: { isTrusted: { enabledCommands: [EXPLAIN] }, supportHtml: false },
     };
-    const client = new LanguageClient("gcheck", "gcheck", run, options);
+    const client = new Client("gcheck", "gcheck", run, options);
     client.registerFeature({
       fillClientCapabilities(capabilities) {
         capabilities.experimental = { ...capabilities.experimental, gcheck: { explainCommand: EXPLAIN, changeCommand: CHANGE } };

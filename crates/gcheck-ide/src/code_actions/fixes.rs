@@ -7,7 +7,7 @@ use std::ops::Range;
 use gcheck_db::{Analysis, Snapshot};
 use gcheck_diagnostics::{Edit, Finding, Fix};
 
-use super::action::{ActionKind, CodeAction};
+use super::action::{CodeAction, Offer};
 use super::suppress;
 
 /// Findings that are answered at one place.
@@ -32,7 +32,7 @@ pub(super) fn offer(
         for (index, fix) in finding.fixes.iter().enumerate() {
             let mut action = CodeAction::change(
                 format!("{}{}", capitalised(&fix.title), note(fix.safe)),
-                ActionKind::Fix,
+                Offer::Fix,
                 fix.edits.clone(),
             );
             action.is_preferred = index == 0 && fix.safe;
@@ -50,7 +50,7 @@ pub(super) fn offer(
         if count > 1 {
             let note = note(of_rule().all(|fix| fix.safe));
             let title = format!("Fix all {count} `{}` findings in this file{note}", finding.rule.id);
-            actions.push(answer(finding, CodeAction::change(title, ActionKind::Fix, edits)));
+            actions.push(answer(finding, CodeAction::change(title, Offer::FixRule, edits)));
         }
     }
     for finding in &here {
@@ -58,7 +58,7 @@ pub(super) fn offer(
             actions.push(answer(finding, action));
         }
         let title = format!("Explain `{}`", finding.rule.id);
-        let mut action = CodeAction::change(title, ActionKind::Explain, Vec::new());
+        let mut action = CodeAction::change(title, Offer::Explain, Vec::new());
         action.link = Some(finding.rule.page());
         actions.push(answer(finding, action));
     }
@@ -66,7 +66,7 @@ pub(super) fn offer(
     let (edits, count) = together(safe);
     if count > 0 {
         let title = format!("Fix all {count} findings whose fixes change no move");
-        actions.push(CodeAction::change(title, ActionKind::FixAll, edits));
+        actions.push(CodeAction::change(title, Offer::FixAll, edits));
     }
 }
 

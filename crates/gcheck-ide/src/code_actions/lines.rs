@@ -8,7 +8,7 @@ use gcheck_db::Snapshot;
 use gcheck_diagnostics::Edit;
 use gcheck_format::{Numbering, renumber};
 
-use super::action::{ActionKind, CodeAction};
+use super::action::{CodeAction, Offer};
 use crate::symbols::code_end;
 
 /// Lines that are changed together.
@@ -47,20 +47,20 @@ pub(super) fn offer_block_skip(snapshot: &Snapshot, range: &Range<u32>, actions:
     let all = lines.iter().all(|(_, is_skipped)| *is_skipped);
     let count = lines.len();
     let plural = if count == 1 { "this block" } else { "these blocks" };
-    let (title, edits): (_, Vec<Edit>) = if all {
+    let (title, offer, edits): (_, _, Vec<Edit>) = if all {
         let edits = lines.iter().map(|(at, _)| {
             // A level belongs to its slash.
             let behind = snapshot.slice(at + 1..at + 2);
             let len = if behind.starts_with(|c: char| c.is_ascii_digit()) { 2 } else { 1 };
             Edit { range: *at..at + len, text: String::new() }
         });
-        (format!("Remove block delete from {plural}"), edits.collect())
+        (format!("Remove block delete from {plural}"), Offer::RemoveBlockDelete, edits.collect())
     } else {
         let bare = lines.iter().filter(|(_, is_skipped)| !is_skipped);
         let edits = bare.map(|(at, _)| Edit { range: *at..*at, text: "/".to_owned() });
-        (format!("Add block delete to {plural}"), edits.collect())
+        (format!("Add block delete to {plural}"), Offer::AddBlockDelete, edits.collect())
     };
-    actions.push(CodeAction::change(title, ActionKind::Rewrite, edits));
+    actions.push(CodeAction::change(title, offer, edits));
 }
 
 /// Offers to renumber the blocks, with all that names them.
@@ -73,6 +73,6 @@ pub(super) fn offer_renumber(snapshot: &Snapshot, actions: &mut Vec<CodeAction>)
         && !edits.is_empty()
     {
         let title = "Renumber blocks in tens, with the jumps to them";
-        actions.push(CodeAction::change(title, ActionKind::Source, edits));
+        actions.push(CodeAction::change(title, Offer::Renumber, edits));
     }
 }

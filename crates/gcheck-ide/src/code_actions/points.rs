@@ -7,7 +7,7 @@ use gcheck_db::Snapshot;
 use gcheck_diagnostics::Edit;
 use gcheck_program::{BlockFlags, Word};
 
-use super::action::{ActionKind, CodeAction};
+use super::action::{CodeAction, Offer};
 use crate::describe;
 use crate::number_text::plain;
 
@@ -40,7 +40,7 @@ pub(super) fn offer(snapshot: &Snapshot, actions: &mut Vec<CodeAction>) {
             "Write {} with decimal points, as the control counts them",
             numbers_in_words(words.len())
         );
-        actions.push(CodeAction::change(title, ActionKind::Source, edits));
+        actions.push(CodeAction::change(title, Offer::WriteCounted, edits));
     }
     let behind =
         words.iter().map(|word| Edit { range: word.digits.end..word.digits.end, text: ".".to_owned() });
@@ -48,7 +48,7 @@ pub(super) fn offer(snapshot: &Snapshot, actions: &mut Vec<CodeAction>) {
         "Write decimal points after {} without one (changes what they count)",
         numbers_in_words(words.len())
     );
-    actions.push(CodeAction::change(title, ActionKind::Source, behind.collect()));
+    actions.push(CodeAction::change(title, Offer::AddPoints, behind.collect()));
 }
 
 /// `1 number`, `5 numbers`.

@@ -26,6 +26,30 @@ const MOST_ACTS: usize = 200_000;
 /// Bytes of a document whose changes are offered.
 const MOST_BYTES: u32 = 4 << 20;
 
+/// The changes that need no figures: their names and titles.
+pub const PROVED: [(&str, &str); 17] = [
+    ("expand-cycle", "Write canned cycles as plain moves"),
+    ("fold-cycle", "Write drilled holes as canned cycles"),
+    ("unroll-loop", "Write loops turn by turn"),
+    ("absolute", "Write increments as absolute coordinates"),
+    ("incremental", "Write absolute coordinates as increments"),
+    ("mm", "Write the program in millimetres"),
+    ("inch", "Write the program in inches"),
+    ("safe-start", "Insert safe start lines in front of tool changes"),
+    ("feeds-90", "Scale the feeds to 90 %"),
+    ("feeds-110", "Scale the feeds to 110 %"),
+    ("speeds-90", "Scale the spindle speeds to 90 %"),
+    ("speeds-110", "Scale the spindle speeds to 110 %"),
+    ("mirror-x", "Mirror the path at X0 (climb milling becomes conventional)"),
+    ("mirror-y", "Mirror the path at Y0 (climb milling becomes conventional)"),
+    ("rotate-90", "Rotate the path by 90° about X0 Y0"),
+    ("rotate-180", "Rotate the path by 180° about X0 Y0"),
+    ("rotate-270", "Rotate the path by 270° about X0 Y0"),
+];
+/// Changes that ask for figures: their names and titles.
+pub const WITH_FIGURES: [(&str, &str); 2] =
+    [("translate", "Shift the path"), ("renumber", "Number the blocks again")];
+
 /// A change that is offered, and proved when it is chosen.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ProvedChange {
@@ -77,32 +101,21 @@ pub fn proved_changes(snapshot: &Snapshot, selected: &Range<u32>) -> Vec<ProvedC
     let has_drilling = control.codes().any(|code| is_moves_and_dwells(code.effect()));
     let has_loop = !snapshot.file_index().loops.is_empty() || !snapshot.file_index().o_words.is_empty();
     let is_whole = range.is_none();
-    let offers = [
-        (has_cycle, "expand-cycle", "Write canned cycles as plain moves"),
-        (
-            has_drilling && is(Effect::Rapid) && is(Effect::Linear),
-            "fold-cycle",
-            "Write drilled holes as canned cycles",
-        ),
-        (has_loop, "unroll-loop", "Write loops turn by turn"),
-        (is(Effect::Incremental), "absolute", "Write increments as absolute coordinates"),
-        (is(Effect::Absolute), "incremental", "Write absolute coordinates as increments"),
-        (is_whole && is(Effect::Inch), "mm", "Write the program in millimetres"),
-        (is_whole && is(Effect::Millimetre), "inch", "Write the program in inches"),
-        (is(Effect::ToolChange), "safe-start", "Insert safe start lines in front of tool changes"),
-        (true, "feeds-90", "Scale the feeds to 90 %"),
-        (true, "feeds-110", "Scale the feeds to 110 %"),
-        (true, "speeds-90", "Scale the spindle speeds to 90 %"),
-        (true, "speeds-110", "Scale the spindle speeds to 110 %"),
-        (is_mill, "mirror-x", "Mirror the path at X0 (climb milling becomes conventional)"),
-        (is_mill, "mirror-y", "Mirror the path at Y0 (climb milling becomes conventional)"),
-        (is_mill, "rotate-90", "Rotate the path by 90° about X0 Y0"),
-        (is_mill, "rotate-180", "Rotate the path by 180° about X0 Y0"),
-        (is_mill, "rotate-270", "Rotate the path by 270° about X0 Y0"),
-    ];
-    let fitting = offers.into_iter().filter(|(fits, _, _)| *fits);
+    let fits = |name: &str| match name {
+        "expand-cycle" => has_cycle,
+        "fold-cycle" => has_drilling && is(Effect::Rapid) && is(Effect::Linear),
+        "unroll-loop" => has_loop,
+        "absolute" => is(Effect::Incremental),
+        "incremental" => is(Effect::Absolute),
+        "mm" => is_whole && is(Effect::Inch),
+        "inch" => is_whole && is(Effect::Millimetre),
+        "safe-start" => is(Effect::ToolChange),
+        "mirror-x" | "mirror-y" | "rotate-90" | "rotate-180" | "rotate-270" => is_mill,
+        _ => true,
+    };
+    let fitting = PROVED.into_iter().filter(|(name, _)| fits(name));
     fitting
-        .map(|(_, name, title)| ProvedChange {
+        .map(|(name, title)| ProvedChange {
             title: format!("{title}{part}, with proof"),
             name,
             range: range.clone(),

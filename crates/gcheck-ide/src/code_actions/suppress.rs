@@ -5,7 +5,7 @@
 use gcheck_db::Snapshot;
 use gcheck_diagnostics::{Edit, Finding};
 
-use super::action::{ActionKind, CodeAction};
+use super::action::{CodeAction, Offer};
 use crate::lexemes::lexemes;
 use gcheck_syntax::SyntaxKind;
 
@@ -19,7 +19,7 @@ pub(super) fn of(snapshot: &Snapshot, finding: &Finding) -> Vec<CodeAction> {
     let line = snapshot.line_at(finding.range.start);
     if let Some(edit) = on_line(snapshot, line, &format!("(gcheck: ignore {rule} - {REASON})")) {
         let title = format!("Ignore `{rule}` on this line");
-        actions.push(CodeAction::change(title, ActionKind::Suppress, vec![edit]));
+        actions.push(CodeAction::change(title, Offer::IgnoreLine, vec![edit]));
     }
     let at = head(snapshot);
     let edit = Edit {
@@ -27,7 +27,7 @@ pub(super) fn of(snapshot: &Snapshot, finding: &Finding) -> Vec<CodeAction> {
         text: format!("(gcheck: ignore-file {rule} - {REASON}){}", line_end(snapshot)),
     };
     let title = format!("Ignore `{rule}` in this file");
-    actions.push(CodeAction::change(title, ActionKind::Suppress, vec![edit]));
+    actions.push(CodeAction::change(title, Offer::IgnoreFile, vec![edit]));
     actions
 }
 

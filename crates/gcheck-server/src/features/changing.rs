@@ -71,10 +71,6 @@ pub(crate) struct Changed {
     changes: bool,
 }
 
-/// Changes that ask for figures: how the client's command knows them, and their titles.
-const WITH_FIGURES: [(&str, &str); 2] =
-    [("translate", "Shift the path"), ("renumber", "Number the blocks again")];
-
 /// A change that is proved when it is chosen.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 struct Asked {
@@ -202,7 +198,7 @@ impl Owner {
             return;
         };
         let selected = (!range.is_empty()).then_some(params.range);
-        for (name, title) in WITH_FIGURES {
+        for (name, title) in gcheck_ide::WITH_FIGURES {
             // Blocks are numbered in the whole file.
             let selected = selected.filter(|_| name != "renumber");
             let part = if selected.is_some() { " in the selected lines" } else { "" };

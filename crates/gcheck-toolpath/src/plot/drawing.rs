@@ -202,7 +202,7 @@ impl Drawing {
             );
         }
         if self.turned {
-            notes.push("rotary axes are not drawn: the tool moves as if the work did not move".into());
+            notes.push("the drawing does not turn the work with its rotary axes; a page does so for one axis (Rotary axis under Options)".into());
         }
         if self.posted > 0 {
             notes.push(

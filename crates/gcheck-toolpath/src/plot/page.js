@@ -236,7 +236,11 @@ try {
   viewer = createViewer(byId("canvas"), page.toolpath, callbacks);
   setTheme();
   viewer.setMarks(page.findings);
-  panel = createPanel(byId("choices"), viewer, { save });
+  const turned = () => {
+    viewer.setMarks(page.findings);
+    if (chosen) choose(chosen.file, chosen.line);
+  };
+  panel = createPanel(byId("choices"), viewer, { save, turned });
   if (page.toolpath.count === 0) byId("stage").append(make("div", { className: "message", textContent: page.notes.map(({ words }) => words).join("\n") }));
 } catch (error) {
   byId("stage").append(make("div", { className: "message", textContent: `The path cannot be drawn: ${error.message}.` }));
@@ -296,6 +300,8 @@ document.addEventListener("keydown", (event) => {
     ",": () => step(-1), ".": () => step(1), n: () => nextFinding(1), p: () => nextFinding(-1),
     f: () => viewer?.fit(), z: () => viewer?.fitSelection(), m: () => viewer?.measure.toggle(), r: () => panel?.toggleRapids(),
     o: () => showPanel(byId("choices").hidden), "?": () => byId("keys").showModal(), Escape: leave,
+    t: () => { viewer?.pause(); viewer?.stepTool(event.shiftKey ? -1 : 1); },
+    s: () => { viewer?.pause(); viewer?.stepOperation(event.shiftKey ? -1 : 1); },
     1: () => viewer?.setView("top"), 2: () => viewer?.setView("front"), 3: () => viewer?.setView("side"),
     4: () => viewer?.setView("iso"), 5: () => viewer?.setView("lathe"),
     ...(isButton ? {} : { " ": toggle }),
@@ -307,3 +313,12 @@ document.addEventListener("keydown", (event) => {
   action();
 });
 drawLines();
+
+// --- The address: `#line=12` chooses that line of the program, for links and for editors that follow their cursor.
+
+function followAddress() {
+  const line = Number(/^#line=(\d{1,9})$/.exec(location.hash)?.[1] ?? 0);
+  if (line > 0 && line <= (sources[0]?.lines?.length ?? line)) choose(0, line);
+}
+addEventListener("hashchange", followAddress);
+followAddress();

@@ -20,7 +20,7 @@ const MAX_TEXT: usize = 32 << 20;
 const MAX_LINES: usize = 1_500_000;
 
 /// The modules of the page, each after those that it imports: as one script their names are one another's.
-const MODULES: [&str; 16] = [
+const MODULES: [&str; 17] = [
     include_str!("viewer/geometry.js"),
     include_str!("viewer/data.js"),
     include_str!("viewer/former.js"),
@@ -34,6 +34,7 @@ const MODULES: [&str; 16] = [
     include_str!("viewer/measure.js"),
     include_str!("viewer/picture.js"),
     include_str!("viewer/pick.js"),
+    include_str!("viewer/rotary.js"),
     include_str!("viewer.js"),
     include_str!("panel.js"),
     include_str!("page.js"),

@@ -2,9 +2,10 @@
 //
 // Knows: the viewer, the elements that it makes. Must not know: the page around it, program text, where a picture is saved.
 //
-//   const panel = createPanel(host, viewer, { save(name, blob), hasFormer });
+//   const panel = createPanel(host, viewer, { save(name, blob), hasFormer, turned() });
 //
-// `hasFormer` where programs are edited: there is a switch for the former path. `panel.refresh()` after other data,
+// `hasFormer` where programs are edited: there is a switch for the former path. `turned` is called when a rotary axis is drawn in
+// another way, so that lines are chosen and findings are marked again. `panel.refresh()` after other data,
 // `panel.look()` at `onLook`, `panel.measured(state)` at `onMeasure`. What was hidden stays hidden while it has the same name. The
 // panel's elements have classes and no style; every text goes in as text.
 
@@ -102,7 +103,7 @@ function createHeights(viewer) {
 }
 
 /** Puts the panel into `host`. */
-export function createPanel(host, viewer, { save, hasFormer = false }) {
+export function createPanel(host, viewer, { save, hasFormer = false, turned = null }) {
   const hidden = { tools: new Set(), sections: new Set() };
   let rapids = true, former = true;
   // By index: what tools and operations are called. Of operations with one name each has a number.
@@ -174,6 +175,24 @@ export function createPanel(host, viewer, { save, hasFormer = false }) {
     }));
   }
 
+  // --- A rotary axis
+  const ways = make("select", { ariaLabel: "Rotary axis" }), rotary = group("Rotary axis", true, make("label", { className: "row" }, ways));
+  let way = "still";
+  rotary.title = "Drawn about the zero of the program";
+  ways.addEventListener("change", () => {
+    way = ways.value;
+    viewer.setRotary(way);
+    refresh({ keep: true });
+    turned?.();
+  });
+
+  function fillRotary() {
+    const known = viewer.rotaryWays();
+    rotary.hidden = known.length === 0;
+    ways.replaceChildren(...known.map(([value, textContent]) => make("option", { value, textContent })));
+    ways.value = way;
+  }
+
   // --- Heights, measures, pictures
   const heights = createHeights(viewer);
   const measure = make("button", { type: "button", textContent: "Measure", title: "Measure between two places (M)", ariaPressed: "false" });
@@ -221,6 +240,7 @@ export function createPanel(host, viewer, { save, hasFormer = false }) {
   host.replaceChildren(
     group("Colour", true, make("label", { className: "row" }, make("span", { textContent: "by" }), choice), legend),
     group("Tools", true, tools),
+    rotary,
     operations,
     group("Range of Z", false, heights.box),
     group("Measure", true, measure, spoken, make("div", { className: "takes" }, ...takes)),
@@ -234,6 +254,7 @@ export function createPanel(host, viewer, { save, hasFormer = false }) {
       hidden.sections.clear();
     }
     look();
+    fillRotary();
     fillOperations();
     heights.refresh(keep);
     measured(viewer.measure.state());

@@ -59,9 +59,9 @@
 // A place is { piece, file, line, kind, tool, point: [x, y, z], angles: [{ axis, degrees }], seconds, drive }.
 //
 // The viewer: `setView(name)` of VIEWS, `fit()`, `fitSelection()`, `select(file, first, last)` or `select(null)`, `setMarks([{
-// file, line, severity }])`, `goTo(piece)`, `goToTime(seconds)`, `step(by)`, `stepBlock(by)`, `stepTool(by)`, `play()`,
-// `pause()`, `setSpeed(factor)`; what is shown: `showRapids(yes)`, `setHidden(tools, sections)` by index, `showFormer(yes)`,
-// `setHeights(low, high)` in millimetres or null, `setColoring(name)` of `colorings()`, `setTheme(THEMES.dark)`; `measure.start()`,
+// file, line, severity }])`, `goTo(piece)`, `goToTime(seconds)`, `step(by)`, `stepBlock(by)`, `stepTool(by)`,
+// `stepOperation(by)`, `play()`, `pause()`, `setSpeed(factor)`; what is shown: `showRapids(yes)`, `setHidden(tools, sections)` by index, `showFormer(yes)`,
+// `setHeights(low, high)` in millimetres or null, `setRotary(way)` of `rotaryWays()`, `setColoring(name)` of `colorings()`, `setTheme(THEMES.dark)`; `measure.start()`,
 // `stop()`, `take(is)`; pictures: `png()` (a promise of a Blob) and `svg(title)`; `setData(data, { keep, former })`, `clear()`,
 // `draw()`, `destroy()`, and to read: `data()`, `place()`, `pieces()`, `duration()`, `isPlaying()`, `sections()`, `legend()`,
 // `toolColor(index)`, `heightRange()`. Drag turns, with Shift or another button it shifts; the wheel zooms where it points; on the
@@ -78,6 +78,7 @@ import { CHOSEN, HIDDEN, ROW, createPainter } from "./viewer/painter.js";
 import { canvasPaper, svgPaper } from "./viewer/paper.js";
 import { pieceNear } from "./viewer/pick.js";
 import { drawPieces } from "./viewer/picture.js";
+import { drawnWith, rotaryWays } from "./viewer/rotary.js";
 
 export { KIND, THEMES, VIEWS };
 export { placeText, lengthText, speedsFor, timeText, toolText } from "./viewer/words.js";
@@ -102,6 +103,8 @@ export function createViewer(canvas, data, callbacks = {}) {
   const size = () => [Math.max(canvas.clientWidth, 1), Math.max(canvas.clientHeight, 1)];
   const camera = createCamera(size);
 
+  // The data as they came, and as they are drawn: around a rotary axis, or unrolled.
+  let raw, rotaryWay = "still";
   let d, marks, sections, sectionOf, theme = THEMES.dark, findings = [];
   // The data that had points last, and the moves that the ones before had and these do not.
   let drawn = null, former = null, isFormerShown = true;
@@ -122,6 +125,8 @@ export function createViewer(canvas, data, callbacks = {}) {
 
   const last = () => d.count - 1;
   const pointOf = (i) => [d.points[3 * i], d.points[3 * i + 1], d.points[3 * i + 2]];
+  /** A point as the program has it. */
+  const ownOf = (i) => d.own ? [d.own[3 * i], d.own[3 * i + 1], d.own[3 * i + 2]] : pointOf(i);
   const isHidden = (i) => (marks[2 * i + 1] & HIDDEN) !== 0 || d.kinds[i] === KIND.START || (d.kinds[i] === KIND.RAPID && !rapids);
   // Z is not up on a lathe.
   const steepness = () => d.lathe ? 0 : 0.5;
@@ -279,7 +284,7 @@ export function createViewer(canvas, data, callbacks = {}) {
     const angleNow = (k) => i === at && part < 1 && Number.isFinite(angle(k, i - 1)) ? angle(k, i - 1) + (angle(k, i) - angle(k, i - 1)) * part : angle(k, i);
     return {
       piece: i, file: d.fileOf ? d.fileOf[i] : 0, line: d.lines[i], kind: d.kinds[i], tool: d.tools[d.toolOf[i]] ?? null,
-      point: i === at ? [...tip] : pointOf(i), seconds: i === at ? clock : d.seconds[i],
+      point: i === at && part < 1 ? between(ownOf(i - 1), ownOf(i), part) : ownOf(i), seconds: i === at ? clock : d.seconds[i],
       angles: axes.map((axis, k) => ({ axis, degrees: angleNow(k) })),
       drive: d.driveOf ? d.drives[d.driveOf[i]] ?? null : null,
     };
@@ -334,6 +339,7 @@ export function createViewer(canvas, data, callbacks = {}) {
 
   const stepBlock = (by) => stepGroup(by, (i, j) => d.lines[i] === d.lines[j] && (!d.fileOf || d.fileOf[i] === d.fileOf[j]));
   const stepTool = (by) => stepGroup(by, (i, j) => d.toolOf[i] === d.toolOf[j]);
+  const stepOperation = (by) => stepGroup(by, (i, j) => sectionOf[i] === sectionOf[j]);
 
   function play() {
     if (playing || d.count < 2) return;
@@ -533,9 +539,25 @@ export function createViewer(canvas, data, callbacks = {}) {
    * same program after an edit, shows what the path had before.
    */
   function setData(next, { keep = false, former: isEdit = false } = {}) {
+    raw = decode(next);
+    adopt({ keep, isEdit });
+  }
+
+  /** Draws a rotary axis in a way of `rotaryWays`; what is chosen and marked is to be told again. */
+  function setRotary(way) {
+    const [time, where] = [clock, at < last()];
+    rotaryWay = way;
+    // The path is drawn elsewhere, so that none of the one before can be shown beside it.
+    former = null;
+    adopt({ keep: true });
+    if (where) goToTime(time);
+    fit();
+  }
+
+  function adopt({ keep, isEdit = false }) {
     stopPlay();
     const wasLathe = d?.lathe;
-    d = decode(next);
+    d = drawnWith(raw, rotaryWay);
     if (d.count) {
       const less = isEdit && drawn ? formerOf(drawn, d) : null;
       // An edit that leaves the path as it is does not end the comparison.
@@ -578,12 +600,14 @@ export function createViewer(canvas, data, callbacks = {}) {
 
   try { setData(data); } catch (error) { destroy(); throw error; }
   return {
-    setView, fit, fitSelection, select, setMarks, goTo, goToTime, step, stepBlock, stepTool, play, pause: stopPlay, draw, setData, clear, measure, png, svg,
+    setView, fit, fitSelection, select, setMarks, goTo, goToTime, step, stepBlock, stepTool, stepOperation, play, pause: stopPlay, draw, setData, clear, measure, png, svg,
     setSpeed: (factor) => { speed = factor; },
     showRapids: (yes) => { rapids = yes; draw(); },
     showFormer: (yes) => { isFormerShown = yes; draw(); },
     setHidden: (tools, sections) => { hiddenTools = new Set(tools); hiddenSections = new Set(sections); filterAgain(); },
     setHeights: (low, high) => { section = [low ?? -Infinity, high ?? Infinity]; draw(); },
+    setRotary,
+    rotaryWays: () => rotaryWays(raw),
     setColoring: (name) => { wantedColoring = name; colorAgain(); },
     setTheme: (wanted) => { theme = { ...THEMES.dark, ...wanted }; colorAgain(); },
     colorings: () => coloringsOf(d),

@@ -21,7 +21,7 @@ const drawn = async (name) => {
   return pixels(await colors(name), (...color) => !isGround(...color));
 };
 const openGroup = (name) => page.locator("#choices summary", { hasText: name }).evaluate((summary) => { summary.parentElement.open = true; });
-const colorBy = async (name) => { await page.locator("#choices select").selectOption(name); await rest(); };
+const colorBy = async (name) => { await page.locator('#choices select[aria-label="Colour by"]').selectOption(name); await rest(); };
 const legend = async () => (await text("#choices .legend")).split("\n").map((line) => line.trim()).filter(Boolean);
 const chooseLine = async (line) => { await page.locator(`.source .line[data-line="${line}"]`).click(); await rest(); };
 

@@ -379,6 +379,65 @@ fn the_options_of_a_page_work_in_a_browser() {
     assert_eq!((&seen["scrollsSideways"], &seen["optionsOfNarrow"]), (&false.into(), &true.into()));
 }
 
+/// Work on a rotary axis: a groove around a bar, and two holes at its sides.
+const ROTARY: &str = "%\nO1 (ROTARY)\n(gcheck: control=haas-mill)\nG21 G17 G40 G49 G80 G90 G54\nT1 M6 (6 MM BALL)\n(WRAP)\nG0 X0. Y0. Z40. A0. S5000 M3\nG43 H1 Z30.\nG1 Z25. F200.\nG1 X20. A360. F500.\nG1 X40. A720.\nG0 Z40.\nT2 M6 (DRILL)\nG0 X10. Y0. Z40. A90.\nG43 H2 Z40.\nG1 Z15. F100.\nG0 Z40.\nA180.\nG1 Z15.\nG0 Z40.\nM30\n%\n";
+
+#[test]
+fn a_page_turns_the_part_with_its_rotary_axis_and_steps_from_operation_to_operation() {
+    let shop = Shop::with(&[("bar.nc", ROTARY)]);
+    let run = shop.gcheck("plot bar.nc -o bar.html");
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    let Some(seen) = look("rotary.mjs", &shop.path("bar.html")) else { return };
+    assert_eq!(seen["ways"], serde_json::json!(["A does not turn", "A around the part", "A unrolled"]));
+    // What the program says of the end of the hole stays; it is drawn at the side of the bar, or a quarter of its girth away.
+    for way in ["still", "around", "unrolled"] {
+        assert_eq!(seen["readouts"][way], "X10.000 Y0.000 Z15.000 A90", "{way}: {seen:#}");
+    }
+    let drawn = |way: &str| seen["drawn"][way].as_str().unwrap_or_default().to_owned();
+    assert_eq!(drawn("still"), "X10.000 Y0.000 Z15.000", "{seen:#}");
+    assert_eq!(drawn("around"), "X10.000 Y-15.000 Z0.000", "{seen:#}");
+    assert_eq!(drawn("unrolled"), "X10.000 Y-39.270 Z15.000", "{seen:#}");
+    let ink = |way: &str| seen["ink"][way].as_u64().unwrap_or_default();
+    assert!(ink("around") > ink("still") + 1_000, "a helix is more than a line: {seen:#}");
+    assert_eq!(seen["operations"], serde_json::json!(["line 12", "line 20", "line 12"]), "{seen:#}");
+    assert_eq!(
+        seen["addresses"],
+        serde_json::json!(["line 11", "line 16", "line 16", "line 16"]),
+        "{seen:#}"
+    );
+}
+
+#[test]
+fn a_million_moves_turn_at_a_pace_that_people_can_follow() {
+    let mut text =
+        String::from("%\nO1\nG21 G90 G17\nT1 M6\nG0 X0. Y0. S100 M3\nG43 H1 Z5.\nG1 Z-1. F5000.\n");
+    for at in 0..1_000_000_u64 {
+        let (column, row) = (at % 1000, at / 1000);
+        let x = if row % 2 == 0 { column } else { 999 - column };
+        // Writing to a string cannot fail.
+        let _ = writeln!(
+            text,
+            "X{}.{} Y{}.{} Z-{}.{:03}",
+            x / 10,
+            x % 10,
+            row / 10,
+            row % 10,
+            at % 3,
+            at * 7919 % 1000
+        );
+    }
+    text.push_str("M30\n%\n");
+    let shop = Shop::with(&[("million.nc", text.as_str())]);
+    let run = shop.gcheck("plot million.nc --control fanuc-mill -o million.html");
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    let Some(seen) = run_script("frames.mjs", &shop.path("million.html")) else { return };
+    let frames: Vec<u64> = seen["frames"].as_array().unwrap().iter().filter_map(Value::as_u64).collect();
+    assert_eq!(frames.len(), 60, "{seen:#}");
+    assert!(seen["summary"].as_str().unwrap().contains("1,000,0"), "{seen:#}");
+    // The one in the middle: the machine may do other things as well.
+    assert!(frames[30] <= 150, "{frames:?}");
+}
+
 /// What an editor does with the viewer: it shows one text after the other, of which some make no move.
 #[test]
 fn the_viewer_takes_other_data_and_comes_to_an_end() {

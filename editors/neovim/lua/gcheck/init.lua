@@ -15,6 +15,8 @@ M.options = {
   on_attach = nil,
   --- Capabilities of a completion plugin, if there is one.
   capabilities = nil,
+  --- Called with the address of the toolpath in place of the system's browser.
+  open = nil,
 }
 
 local markers = { "gcheck.toml", ".gcheck.toml", ".git" }
@@ -57,7 +59,8 @@ function M.config(root)
     root_dir = root,
     capabilities = M.options.capabilities,
     settings = { gcheck = M.options.settings },
-    init_options = { settings = M.options.settings },
+    -- Known from the first moment, also where the editor cannot be asked.
+    init_options = M.options.settings,
     on_attach = M.options.on_attach,
   }
 end
@@ -118,7 +121,8 @@ function M.setup(options)
         end
       end,
       settings = { gcheck = M.options.settings },
-      init_options = { settings = M.options.settings },
+      -- Known from the first moment, also where the editor cannot be asked.
+      init_options = M.options.settings,
       capabilities = M.options.capabilities,
       on_attach = M.options.on_attach,
     })

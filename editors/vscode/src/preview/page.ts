@@ -77,7 +77,7 @@ function show(uri: string, toolpath: Toolpath): void {
     });
     viewer.setTheme(theme());
     view.value = drawing.lathe ? "lathe" : "iso";
-    panel = createPanel(choices, viewer, { save, hasFormer: true });
+    panel = createPanel(choices, viewer, { save, hasFormer: true, turned: chooseAgain });
   } else {
     // While somebody types the picture is seen from where it was.
     const keep = uri === shown;
@@ -96,6 +96,15 @@ function show(uri: string, toolpath: Toolpath): void {
   describe(toolpath);
   list(toolpath.alarms);
   host.postMessage({ kind: "drawn", pieces: viewer.pieces(), alarms: alarms.childElementCount });
+}
+
+/** The lines that are chosen in the editor. */
+let lines: { first: number; last: number } | undefined;
+
+function chooseAgain(): void {
+  if (lines !== undefined) {
+    viewer?.select(Math.max(drawing?.files.indexOf("") ?? 0, 0), lines.first, lines.last);
+  }
 }
 
 /** The editor asks where to, and writes the picture. */
@@ -215,7 +224,8 @@ window.addEventListener("message", (event: MessageEvent<ToPage>) => {
       list(message.alarms);
       break;
     case "lines":
-      viewer?.select(Math.max(drawing?.files.indexOf("") ?? 0, 0), message.first, message.last);
+      lines = { first: message.first, last: message.last };
+      chooseAgain();
       break;
   }
 });
@@ -249,6 +259,8 @@ const KEYS: Record<string, () => void> = {
   PageDown: () => viewer?.stepBlock(1),
   T: () => viewer?.stepTool(-1),
   t: () => viewer?.stepTool(1),
+  S: () => viewer?.stepOperation(-1),
+  s: () => viewer?.stepOperation(1),
   r: () => panel?.toggleRapids(),
   o: () => options.click(),
 };
@@ -262,6 +274,7 @@ canvas.addEventListener("keydown", (event) => {
 element("back").addEventListener("click", () => viewer?.stepBlock(-1));
 element("on").addEventListener("click", () => viewer?.stepBlock(1));
 element("next-tool").addEventListener("click", () => viewer?.stepTool(1));
+element("next-operation").addEventListener("click", () => viewer?.stepOperation(1));
 // The panel is left with Escape, and a measure is ended wherever the keyboard is.
 document.addEventListener("keydown", (event) => {
   if (event.key === "Escape" && viewer?.measure.state().isOn) {

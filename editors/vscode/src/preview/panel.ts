@@ -109,6 +109,7 @@ export class ToolpathPreview implements vscode.Disposable {
 <button id="play" title="Play or pause (space)" aria-label="Play">▶</button>
 <button id="on" title="On a block (Page Down); a move: ." aria-label="On a block">›</button>
 <button id="next-tool" title="To the end of the next tool (T)" aria-label="Next tool">T›</button>
+<button id="next-operation" title="To the end of the next operation (S)" aria-label="Next operation">S›</button>
 <input id="time" type="range" min="0" max="1000" value="1000" aria-label="Place in the run">
 <select id="speed" aria-label="Speed"></select>
 <select id="view" aria-label="View">

@@ -82,6 +82,7 @@ declare module "gcheck-viewer" {
     step(by: number): void;
     stepBlock(by: number): void;
     stepTool(by: number): void;
+    stepOperation(by: number): void;
     play(): void;
     pause(): void;
     setSpeed(factor: number): void;
@@ -118,6 +119,6 @@ declare module "gcheck-panel" {
   export function createPanel(
     host: HTMLElement,
     viewer: Viewer,
-    how: { save(name: string, blob: Blob): Promise<void> | void; hasFormer?: boolean },
+    how: { save(name: string, blob: Blob): Promise<void> | void; hasFormer?: boolean; turned?(): void },
   ): Panel;
 }

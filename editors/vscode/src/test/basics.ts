@@ -6,7 +6,7 @@ import * as path from "node:path";
 
 import * as vscode from "vscode";
 
-import { api, askList, browser, closeAll, create, edit, finding, focus, folder, goTo, hoverText, open, picture, place, press, type Test, until, widgets } from "./harness";
+import { api, askList, browser, closeAll, create, edit, finding, focus, folder, goTo, hoverText, open, picture, place, press, type Test, until, uses, widgets } from "./harness";
 
 const aFindingAppears: Test = [
   "a finding appears, with a link to its page",
@@ -166,6 +166,7 @@ export const trusted: Test[] = [
       goTo(editor, "G03");
       await picture("vscode-toolpath");
     },
+    uses("gcheck.showToolpath"),
   ],
   [
     "the options of the toolpath colour, cut, measure and save it",
@@ -232,6 +233,30 @@ export const trusted: Test[] = [
       await inToolpath({ do: "click", at: "#options" });
       subscription.dispose();
       await vscode.commands.executeCommand("workbench.action.files.revert");
+    },
+  ],
+  [
+    "keys step through the toolpath by operations and tools, and the cursor goes along",
+    async () => {
+      const { preview } = await api();
+      const text = "%\nO1\n(gcheck: control=haas-mill)\nG21 G90 G54\nT1 M6 (END MILL)\nG0 X0. Y0. S900 M3\nG43 H1 Z5.\n(SLOT)\nG1 Z-1. F100.\nY20.\nG0 Z5.\n(STEP)\nX30.\nG1 Z-2.\nG0 Z50.\nT2 M6 (DRILL)\nG0 X5. Y5. S500 M3\nG43 H2 Z5.\nG1 Z-3. F50.\nG0 Z50.\nM30\n%\n";
+      let pieces = 0;
+      const subscription = preview.onDrawn((drawn) => (pieces = drawn.pieces));
+      const editor = await create("steps.nc", text);
+      await vscode.commands.executeCommand("gcheck.showToolpath");
+      await until("the drawing", () => (pieces > 6 ? true : undefined));
+      const key = (name: string) => browser<string>("inToolpath", { do: "press", at: "#canvas", with: name, read: "#readout" });
+      assert.match(await key("S"), /^line 15 /, "to the end of the operation before");
+      assert.match(await key("S"), /^line 11 /);
+      await until("the cursor", () => (editor.selection.active.line === 10 ? true : undefined));
+      assert.match(await key("s"), /^line 15 /);
+      assert.match(await key("t"), /^line 20 /, "to the end of the next tool");
+      assert.match(await key("T"), /^line 15 /);
+      assert.match(await browser<string>("inToolpath", { do: "click", at: "#next-operation", read: "#readout" }), /^line 20 /);
+      await picture("vscode-toolpath-steps");
+      subscription.dispose();
+      await closeAll();
+      fs.rmSync(path.join(folder(), "steps.nc"));
     },
   ],
   [
@@ -302,6 +327,7 @@ export const trusted: Test[] = [
       await until("the finding", () => finding(document, "unknown-code"));
       await picture("vscode-findings");
     },
+    uses("gcheck.restartServer"),
   ],
 ];
 

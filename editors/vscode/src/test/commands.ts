@@ -26,8 +26,12 @@ import {
   picture,
   place,
   press,
+  rule,
   type Test,
   until,
+  use,
+  useAction,
+  uses,
   type Widgets,
   widgets,
 } from "./harness";
@@ -52,6 +56,78 @@ G1 X1.
 M30
 %
 `;
+
+/** A program in inches with something for every change that is proved. */
+const PROVED = `%
+O1019 (PROVED)
+(gcheck: control=fanuc-mill)
+G20 G17 G40 G49 G80 G90 G54
+T1 M6
+S1000 M3
+G43 H1 Z1.
+G0 X1. Y0.
+Z0.1
+G1 Z-0.5 F5.
+G0 Z0.1
+X2.
+G1 Z-0.5
+G0 Z0.1
+G91
+G1 X0.5 F10.
+Y0.25
+G90
+#1=0
+WHILE [#1 LT 2] DO1
+G1 X[#1+1.] F10.
+#1=#1+1
+END1
+G81 X3. Y1. Z-0.5 R0.1 F5.
+G80
+G0 Z1.
+M30
+%
+`;
+
+/** One in millimetres with two tools, for the changes that fit it. */
+const PROVED_METRIC = `%
+O1020 (SECOND)
+(gcheck: control=fanuc-mill)
+G21 G17 G40 G49 G80 G90 G54
+T1 M6
+S1000 M3
+G43 H1 Z25.4
+G0 X10. Y5.
+G1 Z-1. F127.
+X20.
+G0 Z25.4
+T2 M6
+S2000 M3
+G43 H2 Z25.4
+G1 X25.4 F50.8
+M30
+%
+`;
+
+/** Each change that is proved: its action, its title, the program that it changes, and what it makes of some lines. */
+const CHANGES: [string, RegExp, string, RegExp][] = [
+  ["expand-cycle", /^Write canned cycles as plain moves/, PROVED, /^END1\nG0 X3\. Y1\.\nG1 Z-0\.5 F5\.\nG0 Z0\.1\n/m],
+  ["fold-cycle", /^Write drilled holes as canned cycles/, PROVED, /^G99 G81 X1\. Y0\. Z-0\.5 R0\.1 F5\.\nX2\.\nG80 G98\n/m],
+  ["unroll-loop", /^Write loops turn by turn/, PROVED, /^G90\n#1=0\nG1 X1\. F10\.\n[^]*^G1 X2\. F10\.\n/m],
+  ["absolute", /^Write increments as absolute/, PROVED, /^G90\nG1 X2\.5 F10\.\nY0\.25\n/m],
+  ["incremental", /^Write absolute coordinates as increments/, PROVED_METRIC, /^G91 G1 Z-26\.4 F127\.\nX10\.\n/m],
+  ["mm", /^Write the program in millimetres/, PROVED, /^G21 [^]*^G1 Z-12\.7 F127\.\nG0 Z2\.54\nX50\.8\n/m],
+  ["inch", /^Write the program in inches/, PROVED_METRIC, /^G20 [^]*^G43 H2 Z1\.\nG1 X1\. F2\.\n/m],
+  ["safe-start", /^Insert safe start lines/, PROVED_METRIC, /^G0 Z25\.4\nG21 G17 G90 G94 G40 G80\nT2 M6\n/m],
+  ["feeds-90", /^Scale the feeds to 90/, PROVED, /^G1 Z-0\.5 F4\.5\n[^]*^G1 X0\.5 F9\.\n/m],
+  ["feeds-110", /^Scale the feeds to 110/, PROVED, /^G1 Z-0\.5 F5\.5\n[^]*^G1 X0\.5 F11\.\n/m],
+  ["speeds-90", /^Scale the spindle speeds to 90/, PROVED_METRIC, /^S900 M3\n[^]*^S1800 M3\n/m],
+  ["speeds-110", /^Scale the spindle speeds to 110/, PROVED_METRIC, /^S1100 M3\n[^]*^S2200 M3\n/m],
+  ["mirror-x", /^Mirror the path at X0/, PROVED, /^G0 X-1\. Y0\.\n[^]*^G81 X-3\. Y1\. /m],
+  ["mirror-y", /^Mirror the path at Y0/, PROVED_METRIC, /^G0 X10\. Y-5\.\n/m],
+  ["rotate-90", /^Rotate the path by 90/, PROVED, /^G0 X0\. Y1\.\n[^]*^G81 X-1\. Y3\. /m],
+  ["rotate-180", /^Rotate the path by 180/, PROVED_METRIC, /^G0 X-10\. Y-5\.\n[^]*^X-20\.\n/m],
+  ["rotate-270", /^Rotate the path by 270/, PROVED_METRIC, /^G0 X5\. Y-10\.\n[^]*^Y-20\.\n/m],
+];
 
 /** The text of the page that the extension shows beside the program. */
 async function answerPage(title: string): Promise<string> {
@@ -115,8 +191,11 @@ async function afterProof(document: vscode.TextDocument, range: vscode.Range, ti
   const action = offered.find((action) => title.test(action.title));
   assert.ok(action?.edit, `${title} is offered and proved; there are: ${offered.map((one) => one.title).join("; ")}`);
   assert.ok(await vscode.workspace.applyEdit(action.edit));
+  useAction(action.title);
   const after = document.getText();
   await vscode.commands.executeCommand("workbench.action.files.revert");
+  // All changes of the list were proved for this, and those that were refused said why.
+  await vscode.commands.executeCommand("notifications.clearAll");
   return after;
 }
 
@@ -126,6 +205,7 @@ async function afterAction(document: vscode.TextDocument, text: string, title: R
   const action = offered.find((action) => title.test(action.title));
   assert.ok(action?.edit, `${title} is offered; there are: ${offered.map((one) => one.title).join("; ")}`);
   assert.ok(await vscode.workspace.applyEdit(action.edit));
+  useAction(action.title);
   const after = document.getText();
   await vscode.commands.executeCommand("workbench.action.files.revert");
   return after;
@@ -155,6 +235,7 @@ export const commands: Test[] = [
       await picture("vscode-state");
       await closeAll();
     },
+    uses("gcheck.showState"),
   ],
   [
     "Machine State follows the cursor, and its modes lead to where they were set",
@@ -180,6 +261,7 @@ export const commands: Test[] = [
       await noComplaint();
       await closeAll();
     },
+    uses("gcheck.machineState"),
   ],
   [
     "Show Syntax Tree shows the tree of the block",
@@ -193,6 +275,7 @@ export const commands: Test[] = [
       await noComplaint();
       await closeAll();
     },
+    uses("gcheck.showSyntaxTree"),
   ],
   [
     "Select Control writes a comment into this program",
@@ -213,6 +296,7 @@ export const commands: Test[] = [
       await noComplaint();
       await closeAll();
     },
+    uses("gcheck.selectControl"),
   ],
   [
     "Select Control sets the control of all programs",
@@ -231,6 +315,7 @@ export const commands: Test[] = [
       await statusSays(/a guess/);
       await closeAll();
     },
+    uses("gcheck.selectControl", "gcheck.control"),
   ],
   [
     "the status bar says how the control was chosen, and what keeps a program from being checked",
@@ -277,6 +362,7 @@ export const commands: Test[] = [
       await vscode.commands.executeCommand("notifications.clearAll");
       await closeAll();
     },
+    uses("gcheck.explain"),
   ],
   [
     "Apply All Safe Fixes changes what has a fix that changes no move",
@@ -288,6 +374,7 @@ export const commands: Test[] = [
       await until("no finding", () => (finding(document, "code-given-twice") === undefined ? true : undefined));
       await closeAll();
     },
+    uses("gcheck.fixAll"),
   ],
   [
     "Show Output shows what the server said",
@@ -298,6 +385,7 @@ export const commands: Test[] = [
       );
       await vscode.commands.executeCommand("workbench.action.closePanel");
     },
+    uses("gcheck.showOutput"),
   ],
   [
     "Tab takes the first entry of a list, Enter the one that somebody moved to, and else begins a line",
@@ -316,6 +404,7 @@ export const commands: Test[] = [
       assert.deepEqual(document.getText().split("\n").slice(1), ["G80 G81", "G81", "G8", ""]);
       await closeAll();
     },
+    uses("key enter", "key tab"),
   ],
   [
     "a list opens neither after a blank nor for a number, and says what its rows are",
@@ -392,9 +481,11 @@ export const commands: Test[] = [
       const explain = offered.find(({ title }) => title === "Explain `missing-decimal-point`");
       assert.equal(explain?.command?.command, "gcheck.explain");
       await vscode.commands.executeCommand(explain.command.command, ...(explain.command.arguments ?? []));
+      useAction(explain.title);
       await until("the page", async () => ((await browser<string>("frames")).includes("missing-decimal-point") ? true : undefined));
       await closeAll();
     },
+    uses("action fix", "action fix-rule", "action ignore-line", "action ignore-file", "action explain", "action arc-by-centre", "action add-block-delete", "action renumber-in-tens", "action write-counted", "action add-points"),
   ],
   [
     "changes with proof are made where the cursor is, of a selection and of the whole program",
@@ -411,6 +502,114 @@ export const commands: Test[] = [
       assert.match(mirrored, /^G0 X-10\. Y5\.$[^]*^G3 X-20\. Y15\. R20\.$/m);
       await closeAll();
     },
+  ],
+  [
+    "every change with a proof makes of the program what its title says",
+    async () => {
+      for (const [name, title, text, result] of CHANGES) {
+        const { document } = await create(`change-${name}.nc`, text);
+        const after = await afterProof(document, new vscode.Range(0, 0, 0, 0), title);
+        assert.match(after, result, `${name} gives\n${after}`);
+        await closeAll();
+        fs.rmSync(document.fileName);
+      }
+    },
+    uses(
+      "action expand-cycle",
+      "action fold-cycle",
+      "action unroll-loop",
+      "action absolute",
+      "action incremental",
+      "action mm",
+      "action inch",
+      "action safe-start",
+      "action feeds-90",
+      "action feeds-110",
+      "action speeds-90",
+      "action speeds-110",
+      "action mirror-x",
+      "action mirror-y",
+      "action rotate-90",
+      "action rotate-180",
+      "action rotate-270",
+    ),
+  ],
+  [
+    "a change that is refused when it is chosen says why, and no request fails",
+    async () => {
+      const { document } = await create("refused.nc", PROVED);
+      const kind = vscode.CodeActionKind.RefactorRewrite.value;
+      const offered = await askList<vscode.CodeAction>("vscode.executeCodeActionProvider", document, new vscode.Range(0, 0, 0, 0), kind, 100);
+      const increments = offered.find(({ title }) => title.startsWith("Write absolute coordinates as increments"));
+      assert.ok(increments !== undefined && increments.edit === undefined, "nothing is changed");
+      const said = await until("the reason", async () => {
+        const { messages } = await widgets();
+        return messages.includes("cannot write increments: line 21: this block runs more than once") ? messages : undefined;
+      });
+      assert.doesNotMatch(said, /Request .* failed/);
+      await picture("vscode-refused");
+      await vscode.commands.executeCommand("notifications.clearAll");
+      await closeAll();
+    },
+  ],
+  [
+    "an arc with a centre is written with its radius, and a block without its slash",
+    async () => {
+      const text = "%\nO1021\n(gcheck: control=haas-mill)\nG21 G17 G90 G54\nG0 X0. Y0.\nG2 X10. Y10. I10. J0. F100.\n/G0 Z50.\nM30\n%\n";
+      const { document } = await create("arc.nc", text);
+      assert.match(await afterAction(document, "I10.", /^Write this arc with its radius$/), /^G2 X10\. Y10\. R10\. F100\.$/m);
+      assert.match(await afterAction(document, "G0 Z50.", /^Remove block delete from this block$/), /^G0 Z50\.$/m);
+      await closeAll();
+    },
+    uses("action arc-by-radius", "action remove-block-delete"),
+  ],
+  [
+    "all fixes that change no move are one action",
+    async () => {
+      const text = "%\nO1022\n(gcheck: control=haas-mill)\nG21 G17 G40 G49 G80 G90 G54\nG00 G00 X10. Y10.\nG00 G00 X20. Y10.\nM30\n%\n";
+      const { document } = await create("all.nc", text);
+      await until("the finding", () => finding(document, "code-given-twice"));
+      assert.match(await afterAction(document, "X20.", /^Fix all \d+ findings whose fixes change no move$/), /\nG00 X10\. Y10\.\nG00 X20\. Y10\.\n/);
+      await closeAll();
+    },
+    uses("action fix-all"),
+  ],
+  [
+    "the action that numbers the blocks again asks how",
+    async () => {
+      const text = "%\nO1023\n(gcheck: control=haas-mill)\nG21 G17 G40 G49 G80 G90 G54\nGOTO 7\nN3 G0 X5.\nN7 G0 X1.\nM30\n%\n";
+      const { document } = await create("again.nc", text);
+      await focus();
+      const kind = vscode.CodeActionKind.RefactorRewrite.value;
+      const offered = await askList<vscode.CodeAction>("vscode.executeCodeActionProvider", document, new vscode.Range(0, 0, 0, 0), kind);
+      const action = offered.find(({ title }) => title.startsWith("Number the blocks again"));
+      assert.ok(action?.command, offered.map(({ title }) => title).join("; "));
+      void vscode.commands.executeCommand(action.command.command, ...(action.command.arguments ?? []));
+      useAction(action.title);
+      await until("the question", async () => ((await widgets()).dialog ? true : undefined));
+      await pause(500);
+      await press([...characters("50:50"), "Enter"]);
+      await until("the numbers", () => (document.getText().includes("GOTO 100\nN50 G0 X5.\nN100 G0 X1.\n") ? true : undefined));
+      await closeAll();
+    },
+    uses("action renumber"),
+  ],
+  [
+    "findings of a rule that repeats are folded, and shown one by one with the setting",
+    async () => {
+      const blocks = Array.from({ length: 12 }, (_, i) => `G00 G00 X${i}.`).join("\n");
+      const text = `%\nO1024\n(gcheck: control=haas-mill)\nG21 G17 G40 G49 G80 G90 G54\n${blocks}\nM30\n%\n`;
+      const { document } = await create("repeats.nc", text);
+      const twice = () => vscode.languages.getDiagnostics(document.uri).filter((found) => rule(found) === "code-given-twice");
+      const folded = await until("the findings", () => (twice().length === 6 ? twice() : undefined));
+      assert.ok(folded.some(({ message }) => /and 7 more of code-given-twice, lines 10 to 16/.test(message)), folded.map(({ message }) => message).join("; "));
+      await withSetting("foldRepeats", false, async () => {
+        await until("each finding", () => (twice().length === 12 ? true : undefined));
+      });
+      await until("the fold", () => (twice().length === 6 ? true : undefined));
+      await closeAll();
+    },
+    uses("gcheck.foldRepeats"),
   ],
   [
     "Shift Path asks how far, and changes the selected lines or the program with its proof",
@@ -435,6 +634,7 @@ export const commands: Test[] = [
       const action = offered.find(({ title }) => title.startsWith("Shift the path in the selected lines"));
       assert.ok(action?.command, offered.map(({ title }) => title).join("; "));
       void vscode.commands.executeCommand(action.command.command, ...(action.command.arguments ?? []));
+      useAction(action.title);
       await until("the question", async () => ((await widgets()).dialog ? true : undefined));
       await pause(500);
       await picture("vscode-shift");
@@ -445,6 +645,7 @@ export const commands: Test[] = [
       await vscode.commands.executeCommand("workbench.action.files.revert");
       await closeAll();
     },
+    uses("gcheck.shiftPath", "action translate"),
   ],
   [
     "a shift that cannot be proved says why, and changes nothing",
@@ -478,6 +679,7 @@ export const commands: Test[] = [
       await vscode.commands.executeCommand("workbench.action.files.revert");
       await closeAll();
     },
+    uses("gcheck.renumber"),
   ],
   [
     "gcheck.toml has hover, completion and findings, without any other extension",
@@ -535,19 +737,24 @@ export const commands: Test[] = [
     },
   ],
   [
-    "lenses stand above the tools, and go with their setting",
+    "lenses are above the tools, and go with their setting",
     async () => {
       const { document } = await open("pocket.nc");
       const lenses = await askList<vscode.CodeLens>("vscode.executeCodeLensProvider", document);
       const titles = lenses.map((lens) => lens.command?.title ?? "");
       assert.match(titles[0] ?? "", /^\d+:\d\d in all/, titles.join("; "));
       assert.ok(titles.some((title) => /^T1 · 10 mm end mill · \d+:\d\d · X -?\d/.test(title)), titles.join("; "));
-      await until("the lenses in the text", async () => ((await widgets()).lenses.length > 0 ? true : undefined));
+      const inText = async () => (await widgets()).lenses;
+      await until("the lenses in the text", async () => {
+        const shown = await inText();
+        return shown.some((lens) => lens.includes("in all")) && shown.some((lens) => lens.includes("T1")) ? true : undefined;
+      });
       await withSetting("codeLens", false, async () => {
-        await until("no lenses", async () => ((await widgets()).lenses.length === 0 ? true : undefined));
+        await until("no lenses", async () => ((await inText()).length === 0 ? true : undefined));
       });
       await closeAll();
     },
+    uses("gcheck.codeLens", "lens program", "lens tool"),
   ],
   [
     "each kind of hint is shown, and goes with its setting",
@@ -573,6 +780,7 @@ export const commands: Test[] = [
       await picture("vscode-hints");
       await closeAll();
     },
+    uses("gcheck.inlayHints.feed", "gcheck.inlayHints.speed", "gcheck.inlayHints.values", "gcheck.inlayHints.positions", "gcheck.inlayHints.tools"),
   ],
   [
     "gcheck.run checks when a program is saved",
@@ -588,6 +796,7 @@ export const commands: Test[] = [
       });
       await closeAll();
     },
+    uses("gcheck.run"),
   ],
   [
     "gcheck.configPath names the configuration of all programs",
@@ -602,6 +811,7 @@ export const commands: Test[] = [
       await until("the finding again", () => finding(document, "unknown-code"));
       await closeAll();
     },
+    uses("gcheck.configPath"),
   ],
   [
     "gcheck.path names the server",
@@ -621,6 +831,7 @@ export const commands: Test[] = [
       fs.rmSync(other);
       await closeAll();
     },
+    uses("gcheck.path"),
   ],
   [
     "gcheck.trace.server writes the messages",
@@ -639,12 +850,14 @@ export const commands: Test[] = [
       await vscode.commands.executeCommand("workbench.action.closePanel");
       await closeAll();
     },
+    uses("gcheck.trace.server"),
   ],
   [
     "the problem matcher reads what the command line prints",
     async () => {
       const { server } = await api();
       const matcher = vscode.extensions.getExtension("gcheck.gcheck")?.packageJSON.contributes.problemMatchers[0];
+      use(`problem matcher ${matcher.name}`);
       let printed = "";
       try {
         printed = execFileSync(server.path ?? "", ["check", "--output-format", "concise", "part.nc"], { cwd: folder(), encoding: "utf8" });
@@ -655,6 +868,7 @@ export const commands: Test[] = [
       assert.ok(found, printed);
       assert.deepEqual([found[1], found[2], found[4]], ["part.nc", "6", "error"]);
     },
+    uses("problem matcher gcheck"),
   ],
   [
     "a program in capitals that comes or goes on disk is noticed",
@@ -676,5 +890,6 @@ export const commands: Test[] = [
       await picture("vscode-walkthrough");
       await closeAll();
     },
+    uses("walkthrough start"),
   ],
 ];

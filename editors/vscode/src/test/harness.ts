@@ -10,9 +10,72 @@ import * as path from "node:path";
 import * as vscode from "vscode";
 
 import type { Api } from "../extension";
+import { OFFERED } from "./offered";
 
-/** A test: the fact that it proves, and the proof. */
-export type Test = [string, () => Promise<void>];
+/** A test: the fact that it proves, the proof, and what it uses of all that the extension adds to VS Code. */
+export type Test = [string, () => Promise<void>, string[]?];
+
+/** What a test uses, for the page docs/dev/editor-tests.md: the test fails when it did not. */
+export function uses(...names: string[]): string[] {
+  return names;
+}
+
+/** What a test has used so far: commands, settings, keys, actions by title, lenses. */
+const used = new Set<string>();
+
+/** Keeps in mind that a test used something. */
+export function use(name: string): void {
+  used.add(name);
+}
+
+/** Keeps in mind that an action changed the program, or ran. */
+export function useAction(title: string): void {
+  used.add(`action: ${title}`);
+}
+
+const executeCommand = vscode.commands.executeCommand;
+/** Commands that ran are used; a view is used when it has the focus. */
+vscode.commands.executeCommand = ((command: string, ...rest: unknown[]) => {
+  use(command.replace(/\.focus$/, ""));
+  if (command === "workbench.action.openWalkthrough") {
+    use(`walkthrough ${String(rest[0]).split("#")[1]}`);
+  }
+  return executeCommand(command, ...rest);
+}) as typeof executeCommand;
+
+/** Settings that changed are used. */
+function watchSettings(): vscode.Disposable {
+  const extension = vscode.extensions.getExtension("gcheck.gcheck");
+  const names = Object.keys(extension?.packageJSON.contributes.configuration.properties ?? {});
+  assert.ok(names.length > 0, "the extension has settings");
+  return vscode.workspace.onDidChangeConfiguration((change) => {
+    for (const name of names.filter((name) => change.affectsConfiguration(name))) {
+      use(name);
+    }
+  });
+}
+
+/** Does a title fit one with `…` for what depends on the place? */
+function fits(title: string, pattern: string): boolean {
+  const escaped = pattern.split("…").map((part) => part.replace(/[.*+?^${}()|[\]\\]/g, "\\$&"));
+  return new RegExp(`^${escaped.join("[^]*")}`).test(title);
+}
+
+/** Was something used that a test says it uses? */
+function isUsed(name: string): boolean {
+  const [, kind, rest] = /^(action|lens) (.*)$/.exec(name) ?? [];
+  const all = [...used];
+  if (kind === "action") {
+    const pattern = OFFERED[rest ?? ""];
+    assert.ok(pattern, `there is an action ${rest}`);
+    return all.some((one) => one.startsWith("action: ") && fits(one.slice("action: ".length), pattern));
+  }
+  if (kind === "lens") {
+    const pattern = rest === "program" ? /^lens: .*\d:\d\d in all/ : /^lens: T\d+ /;
+    return all.some((one) => pattern.test(one));
+  }
+  return used.has(name);
+}
 
 /** Milliseconds for what takes a moment on a busy machine. */
 const PATIENCE = 60_000;
@@ -62,6 +125,7 @@ export async function picture(name: string): Promise<void> {
 
 /** Presses keys in the window: characters, and names such as `Enter` or `Control+z`. */
 export async function press(keys: string[], delay: [number, number] = [40, 60]): Promise<void> {
+  keys.forEach((key) => use(`key ${key.toLowerCase()}`));
   await browser("press", { keys, delay }, PATIENCE + keys.length * (delay[1] + 1_000));
 }
 
@@ -82,7 +146,9 @@ export interface Widgets {
 }
 
 export async function widgets(): Promise<Widgets> {
-  return browser<Widgets>("widgets");
+  const seen = await browser<Widgets>("widgets");
+  seen.lenses.forEach((lens) => use(`lens: ${lens.trim()}`));
+  return seen;
 }
 
 /** The characters of a text as keys. */
@@ -176,10 +242,14 @@ export async function hoverText(document: vscode.TextDocument, at: vscode.Positi
 /** Runs tests one after the other; complains when one failed. */
 export async function runAll(tests: Test[]): Promise<void> {
   const failed: string[] = [];
-  for (const [name, test] of tests) {
+  watchSettings();
+  for (const [name, test, says] of tests) {
     const start = Date.now();
+    used.clear();
     try {
       await test();
+      const unused = (says ?? []).filter((name) => !isUsed(name));
+      assert.deepEqual(unused, [], `the test uses what it says; it used ${[...used].join("; ")}`);
       console.log(`@test ok ${name} (${((Date.now() - start) / 1000).toFixed(1)} s)`);
     } catch (error) {
       failed.push(name);

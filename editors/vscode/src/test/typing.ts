@@ -141,7 +141,7 @@ function withSlips(text: string): string[] {
 
 export const typing: Test[] = [
   ...programs().map(({ name, text }): Test => [
-    `${name} is typed, and stands there as it was typed`,
+    `${name} is typed, and is there as it was typed`,
     async () => {
       const { document } = await empty(name);
       await press(characters(text), HUMAN);
@@ -150,7 +150,7 @@ export const typing: Test[] = [
     },
   ]),
   [
-    "a program is typed with slips and corrections, and stands there as it was meant",
+    "a program is typed with slips and corrections, and is there as it was meant",
     async () => {
       const text = CORRECTED;
       const { document } = await empty("haas-mill/corrected.nc");
@@ -160,7 +160,7 @@ export const typing: Test[] = [
     },
   ],
   [
-    "a configuration is typed, and stands there as it was typed",
+    "a configuration is typed, and is there as it was typed",
     async () => {
       const { document } = await empty("configuration/gcheck.toml");
       await press(characters(CONFIGURATION), HUMAN);
