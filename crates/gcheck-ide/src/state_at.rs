@@ -417,6 +417,7 @@ mod tests {
             order: [RotaryAxis::A, RotaryAxis::C],
             sign: [-1.0, -1.0],
             pivot_length: None,
+            offset: [Mm::ZERO; 3],
         });
         with_table.offsets.insert(1, WorkOffset { origin: Position::ZERO, rotation: 0.0 });
         for (control, code) in [("haas-mill", "G234"), ("fanuc-mill", "G43.4")] {

@@ -200,7 +200,7 @@ fn stem(id: &'static str) -> &'static str {
 pub(crate) struct Case {
     /// Where each condition is, if it is in the file; when that way is taken.
     conditions: Vec<(Option<Range<u32>>, String)>,
-    /// What nobody knows.
+    /// What is unknown, where the case has no condition in a file.
     note: Option<String>,
 }
 

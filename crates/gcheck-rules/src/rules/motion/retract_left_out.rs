@@ -13,7 +13,7 @@ declare_rule! {
     /// Before the other tool changes, or before the other turns of a rotary axis, the program takes Z home (`G28`, `G30`, `G53`). Here
     /// it does not, and the tool has cut since.
     ///
-    /// A tool that stands 50 mm or more above all other levels counts as out of the way.
+    /// A tool 50 mm or more above all other levels counts as out of the way.
     ///
     /// Only mills are looked at, and only programs in which at least two others go home. Tool changes do not count on controls
     /// whose tool change goes home by itself.
