@@ -22,6 +22,7 @@ mod fuzz;
 mod generate;
 #[cfg(feature = "product")]
 mod kinematics;
+#[cfg(feature = "product")]
 mod measure;
 mod mutations;
 mod new_rule;
@@ -100,7 +101,10 @@ fn main() -> ExitCode {
         "playground" => playground::run(rest),
         #[cfg(not(feature = "playground"))]
         "playground" => product::rerun_with("playground", "playground", rest),
+        #[cfg(feature = "product")]
         "kinematics" => kinematics::run(rest),
+        #[cfg(not(feature = "product"))]
+        "kinematics" => product::rerun("kinematics", rest, false),
         "timing" => timing::run(rest),
         #[cfg(feature = "product")]
         "measure" => measure::run(rest),
