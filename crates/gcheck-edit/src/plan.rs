@@ -104,7 +104,7 @@ pub fn gaps(assumptions: &BTreeSet<Assumption>) -> BTreeSet<Assumption> {
 struct Rows {
     /// Numbers of those that no run came to, ascending.
     unreached: Vec<u32>,
-    /// Bytes of those that may be commands: the code in front of them may open data or not.
+    /// Bytes of those that a run has executed as commands, as where a jump leads into a table.
     doubtful: Vec<Range<u32>>,
 }
 
@@ -125,12 +125,8 @@ impl Rows {
             }
             match witness.blocks.get(number as usize).copied().flatten() {
                 None => rows.unreached.push(number),
-                Some(seen) => {
-                    let is_doubtful = !seen.facts.is_row || file_index.is_likely_data(place.range().start);
-                    if is_doubtful {
-                        rows.doubtful.push(place.range());
-                    }
-                }
+                Some(seen) if !seen.facts.is_row => rows.doubtful.push(place.range()),
+                Some(_) => {}
             }
         }
         rows

@@ -55,6 +55,7 @@ use crate::words::BlockWords;
 
 /// Switches of the operator's panel, and how far a run goes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[expect(clippy::struct_excessive_bools, reason = "independent switches")]
 pub struct Options {
     /// Block delete by level 1 to 9: a bit that is set skips the level's blocks. Bit 0 stands for a plain `/`.
     pub skip: u16,

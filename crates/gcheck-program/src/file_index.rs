@@ -298,8 +298,6 @@ pub struct FileIndex {
     /// Lines of data from the block that opens them to the next command, in text order: rows of a table. See
     /// [`FileIndex::is_data`].
     data: Vec<Range<u32>>,
-    /// Those among them after a code that may open data: `G10 L75`.
-    likely_data: Vec<Range<u32>>,
     /// Blocks that matter to lines of data, for a file that this chunk is joined to.
     data_marks: Vec<DataMark>,
     /// The block that opened lines of data, if no command has come after it.
@@ -430,8 +428,7 @@ impl FileIndex {
         let mut file_index = Self::default();
         file_index.add(table, 0, end, dialect);
         file_index.seen = Default::default();
-        (file_index.data, file_index.likely_data) = (Vec::new(), Vec::new());
-        file_index.data_opened = None;
+        (file_index.data, file_index.data_opened) = (Vec::new(), None);
         file_index.data_left_open = Vec::new();
         file_index
     }
@@ -466,7 +463,6 @@ impl FileIndex {
                     drain(&mut self.unpointed, data, |block| block.start);
                     drain(&mut self.long_numbers, data, |block| block.start);
                 }
-                self.likely_data.extend(rows.iter().cloned());
                 self.data.extend(rows);
             }
         }
@@ -501,11 +497,6 @@ impl FileIndex {
     pub fn is_data(&self, at: u32) -> bool {
         let open = self.data_opened.as_ref().filter(|_| self.is_data_open());
         is_in(&self.data, at) || open.is_some_and(|open| open.from <= at || is_in(&open.rows, at))
-    }
-
-    /// Is the place in lines that are most likely data: the code before them may open some, and another code ends them?
-    pub fn is_likely_data(&self, at: u32) -> bool {
-        is_in(&self.likely_data, at)
     }
 
     /// Adds the next chunk by what it holds; `base` is its offset in the file.

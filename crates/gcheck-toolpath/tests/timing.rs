@@ -17,6 +17,8 @@ use std::path::{Path, PathBuf};
 use expect_test::expect_file;
 use gcheck_engine::{Axis, Dynamics, Machine, Position, Tool, Units};
 use gcheck_geometry::{Mm, MmPerMin, Rpm, Seconds};
+use gcheck_testkit::corpus;
+use gcheck_testkit::skips::skip;
 use gcheck_toolpath::Stretch;
 
 /// A program that takes this long is held to [`EACH`].
@@ -118,7 +120,7 @@ fn folder() -> PathBuf {
 
 /// The programs of our own, or those of the corpus; none of these without `GCHECK_CORPUS`.
 fn rows(of_corpus: bool) -> Vec<Row> {
-    let corpus = std::env::var_os("GCHECK_CORPUS").map(PathBuf::from);
+    let corpus = corpus::folder();
     let table = std::fs::read_to_string(folder().join("measured.tsv")).unwrap();
     let mut rows = Vec::new();
     for line in table.lines().skip(1) {
@@ -333,9 +335,9 @@ const CAUSES_OF_CORPUS: &[Cause] = &[
 
 #[test]
 fn times_of_other_authors_programs_are_those_of_the_real_planner() {
-    if std::env::var_os("GCHECK_CORPUS").is_none() {
-        println!("skipped: GCHECK_CORPUS does not name the folder of the corpus");
-        return;
+    if corpus::folder().is_none() {
+        let test = "times_of_other_authors_programs_are_those_of_the_real_planner";
+        return skip(test, "corpus", "set GCHECK_CORPUS to the folder of the corpus");
     }
     let rows = rows(true);
     assert!(!rows.is_empty());

@@ -38,7 +38,7 @@ const SAMPLED: [&str; 6] =
 const SAMPLED_AT: u32 = 1_000;
 const SAMPLED_CYCLES: usize = 4_000;
 /// A sample is the mean speed of so many cycles.
-const CYCLES_A_SAMPLE: usize = 4;
+const CYCLES_A_SAMPLE: u8 = 4;
 /// Seconds of a cycle of the planner.
 const CYCLE: f64 = 0.001;
 
@@ -128,10 +128,10 @@ fn speeds(cycles: &str) -> anyhow::Result<String> {
     let first = pairs().position(|(from, to)| step(from, to) > 0.0).context("nothing moves")?;
     let mut table = "seconds\tspeed\n0.000\t0.00\n".to_owned();
     let ways: Vec<f64> = pairs().skip(first).take(SAMPLED_CYCLES).map(|(from, to)| step(from, to)).collect();
-    for (index, some) in ways.chunks_exact(CYCLES_A_SAMPLE).enumerate() {
-        let cycles = CYCLES_A_SAMPLE as f64;
-        let time = (index as f64 + 0.5) * cycles * CYCLE;
-        writeln!(table, "{time:.3}\t{:.2}", some.iter().sum::<f64>() / (cycles * CYCLE))?;
+    let sample = f64::from(CYCLES_A_SAMPLE) * CYCLE;
+    for (index, some) in (0_u32..).zip(ways.chunks_exact(usize::from(CYCLES_A_SAMPLE))) {
+        let time = (f64::from(index) + 0.5) * sample;
+        writeln!(table, "{time:.3}\t{:.2}", some.iter().sum::<f64>() / sample)?;
     }
     Ok(table)
 }

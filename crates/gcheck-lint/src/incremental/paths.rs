@@ -44,6 +44,9 @@ pub(crate) struct Paths {
     unsure: bool,
 }
 
+/// Findings with the severities that the user gave their rules.
+type Findings = Vec<(Option<Severity>, Finding)>;
+
 /// The segments of one analysis in order.
 #[derive(Debug)]
 struct Chain {
@@ -233,7 +236,7 @@ impl Paths {
         &mut self,
         inputs: &Inputs<'_>,
         watchers: &mut Watchers<'_, '_>,
-        found: &RefCell<Vec<(Option<Severity>, Finding)>>,
+        found: &RefCell<Findings>,
         remembers: bool,
         collector: &mut Collector<'_>,
         work: &mut Work,
@@ -302,9 +305,9 @@ impl Paths {
     fn follow_ends_of_cases(
         &self,
         watchers: &mut Watchers<'_, '_>,
-        found: &RefCell<Vec<(Option<Severity>, Finding)>>,
+        found: &RefCell<Findings>,
         layout: &Layout,
-    ) -> Result<Vec<Vec<(Option<Severity>, Finding)>>, Broken> {
+    ) -> Result<Vec<Findings>, Broken> {
         let follow = |chain: &Chain| {
             watchers.restart(Scope::OneWay);
             watchers.forget_made();
@@ -341,7 +344,7 @@ impl Paths {
         &mut self,
         inputs: &Inputs<'_>,
         watchers: &mut Watchers<'_, '_>,
-        found: &RefCell<Vec<(Option<Severity>, Finding)>>,
+        found: &RefCell<Findings>,
         offers: bool,
         work: &mut Work,
     ) -> Result<bool, Broken> {
@@ -373,7 +376,7 @@ impl Paths {
         &mut self,
         inputs: &Inputs<'_>,
         watchers: &mut Watchers<'_, '_>,
-        found: &RefCell<Vec<(Option<Severity>, Finding)>>,
+        found: &RefCell<Findings>,
         offers: bool,
         work: &mut Work,
     ) -> Result<(), Broken> {
@@ -391,7 +394,7 @@ impl Paths {
         &self,
         inputs: &Inputs<'_>,
         as_if_kept: Option<Case>,
-        at_ends: Vec<Vec<(Option<Severity>, Finding)>>,
+        at_ends: Vec<Findings>,
         told: &mut Told,
         collector: &mut Collector<'_>,
     ) {
@@ -452,7 +455,7 @@ fn follow_apart(
     new: impl FnOnce() -> Chain,
     inputs: &Inputs<'_>,
     watchers: &mut Watchers<'_, '_>,
-    found: &RefCell<Vec<(Option<Severity>, Finding)>>,
+    found: &RefCell<Findings>,
     offers: bool,
     work: &mut Work,
 ) -> Result<Chain, Broken> {
@@ -475,7 +478,7 @@ fn follow_apart(
 fn collect<'c>(
     layout: &'c Layout,
     chains: impl IntoIterator<Item = &'c Chain>,
-    last: Vec<(Option<Severity>, Finding)>,
+    last: Findings,
     add: &mut dyn FnMut(Option<Severity>, Finding),
 ) {
     let mut made: HashSet<(&'static str, u32, &str)> = HashSet::new();
@@ -643,7 +646,7 @@ fn advance(
     chain: &mut Chain,
     inputs: &Inputs<'_>,
     watchers: &mut Watchers<'_, '_>,
-    found: &RefCell<Vec<(Option<Severity>, Finding)>>,
+    found: &RefCell<Findings>,
     offers: bool,
     work: &mut Work,
 ) -> Result<bool, Broken> {
@@ -775,7 +778,7 @@ struct Recorder<'r, 'w, 'c> {
     watchers: &'r mut Watchers<'w, 'c>,
     file: &'r ProgramFile<'r>,
     layout: &'r Layout,
-    found: &'r RefCell<Vec<(Option<Severity>, Finding)>>,
+    found: &'r RefCell<Findings>,
     offers: bool,
     stop: &'r dyn Fn() -> bool,
     /// The block that is far enough; `None` when it was reached.

@@ -258,7 +258,7 @@ fn machine_coordinates_under_tool_centre_point_control_know_axes_that_do_not_mee
         );
         let shop = Shop::with(&[("part.nc", program), ("gcheck.toml", &configuration)]);
         let run = shop.gcheck("run part.nc --output-format jsonl");
-        run.stdout.lines().filter(|line| line.contains("machine")).last().unwrap_or_default().to_owned()
+        run.stdout.lines().rfind(|line| line.contains("machine")).unwrap_or_default().to_owned()
     };
     expect![[r#"{"n":2,"file":"part.nc","line":4,"kind":"feed","units":"mm","from":{"X":0.0,"Y":0.0,"Z":-100.0,"A":0.0,"C":0.0},"programmed":{"X":10.0,"Y":0.0,"Z":0.0,"A":90.0,"C":90.0},"to":{"X":10.0,"Y":0.0,"Z":0.0,"A":90.0,"C":90.0},"machine":{"X":0.0,"Y":-50.0,"Z":60.0,"A":90.0,"C":90.0},"feed":1000.0,"feed_mode":"per-minute","seconds":6.029925}"#]].assert_eq(&at(""));
     expect![[r#"{"n":2,"file":"part.nc","line":4,"kind":"feed","units":"mm","from":{"X":0.0,"Y":0.0,"Z":-100.0,"A":0.0,"C":0.0},"programmed":{"X":10.0,"Y":0.0,"Z":0.0,"A":90.0,"C":90.0},"to":{"X":10.0,"Y":0.0,"Z":0.0,"A":90.0,"C":90.0},"machine":{"X":5.0,"Y":-50.0,"Z":65.0,"A":90.0,"C":90.0},"feed":1000.0,"feed_mode":"per-minute","seconds":6.029925}"#]].assert_eq(&at("rotary_offset = { Y = 5.0 }"));

@@ -233,8 +233,13 @@ fn rows_of_data_are_matched_with_each_other() {
     );
     same(&table("N1320 P1 R5"), &table("R5 P1 N1320"));
     // Rows of a number that is not listed are rows too, where a code ends them.
-    expect![[""]]
-        .assert_eq(&different("G10 L75\nN1320 P1 R5\nG11\nG1 X10.", "G10 L75\nN1320 P1 R50\nG11\nG1 X10."));
+    expect![[r#"
+        other commands differ, once
+          - a.nc:9  row of data N1320 P1 R5   | N1320 P1 R5
+          + b.nc:9  row of data N1320 P1 R50   | N1320 P1 R50
+        a.nc and b.nc move along the same path, within 0.001 mm, with differences
+    "#]]
+    .assert_eq(&different("G10 L75\nN1320 P1 R5\nG11\nG1 X10.", "G10 L75\nN1320 P1 R50\nG11\nG1 X10."));
     same(
         "#1=1320\nWHILE [#1 LT 1322] DO1\nG10 L50\nN#1 P1 R[#1*2]\nG11\n#1=#1+1\nEND1\nG1 X10.",
         &table("N1320 P1 R2640\nG11\nG10 L50\nN1321 P1 R2642"),

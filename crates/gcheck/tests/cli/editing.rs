@@ -538,20 +538,11 @@ fn rows_of_data_stay() {
 }
 
 #[test]
-fn a_block_that_may_be_a_row_of_data_is_not_changed() {
-    refuses(
-        &DATA.replace("L52\nN1320 P1 R500000\n", "L75\nN1 T1 R5.\n"),
-        "fanuc-mill",
-        "inch",
-        &expect![[r#"
-            error: part.nc:13:1: cannot write the program in inches: this block may be a row of data, which has to stay as it is
-               |
-            13 | N1 T1 R5.
-               | ^^^^^^^^^
-              help: select lines without it
-            part.nc: nothing is changed
-        "#]],
-    );
+fn rows_of_a_number_that_is_not_listed_stay_as_they_are() {
+    let program = DATA.replace("L52\nN1320 P1 R500000\n", "L75\nN1 T1 R5.\n");
+    let (run, text) = edit(&program, "fanuc-mill", "inch");
+    assert_eq!(run.code, 0, "{run}");
+    assert!(text.contains("G20") && text.contains("G10 L75\nN1 T1 R5.\n"), "{text}");
 }
 
 #[test]

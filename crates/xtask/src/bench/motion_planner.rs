@@ -17,9 +17,9 @@ use super::row::{Limit, Row};
 const MOVES: u32 = 1_000_000;
 const RUNS: usize = 3;
 /// Moves that the control looks ahead.
-const LOOK_AHEAD: usize = 200;
+const LOOK_AHEAD: u32 = 200;
 /// What is kept beyond them: the arc at each corner, the last move, the one that comes.
-const KEPT: f64 = 2.0 * LOOK_AHEAD as f64 + 2.0;
+const KEPT: u32 = 2 * LOOK_AHEAD + 2;
 
 /// Measures.
 pub(super) fn rows() -> anyhow::Result<Vec<Row>> {
@@ -28,7 +28,7 @@ pub(super) fn rows() -> anyhow::Result<Vec<Row>> {
     let mut waiting = 0;
     for _ in 0..RUNS {
         let start = Instant::now();
-        waiting = run(machine);
+        waiting = run(&machine);
         seconds = seconds.min(start.elapsed().as_secs_f64());
     }
     Ok(vec![
@@ -41,15 +41,15 @@ pub(super) fn rows() -> anyhow::Result<Vec<Row>> {
         Row {
             name: format!("planner, most moves kept at a look-ahead of {LOOK_AHEAD}"),
             measured: Some(f64::from(waiting)),
-            limit: Limit::AtMost(KEPT),
+            limit: Limit::AtMost(f64::from(KEPT)),
             unit: "moves",
         },
     ])
 }
 
 /// Runs short moves along a wave on a surface, each with a corner; gives the most moves that waited at a time.
-fn run(machine: Machine) -> u32 {
-    let mut planner = Planner::new(machine);
+fn run(machine: &Machine) -> u32 {
+    let mut planner = Planner::new(*machine);
     let mut done = 0;
     let mut waiting = 0;
     let rounded = Meeting::Rounded { tolerance: Some(Mm(0.01)), merge: Mm::ZERO };
@@ -94,7 +94,7 @@ fn machine() -> anyhow::Result<Machine> {
         control: Control {
             corners: Corners::Rounded(rounding),
             rapids: Rapids::Joined,
-            look_ahead: LOOK_AHEAD,
+            look_ahead: LOOK_AHEAD as usize,
             block_time: Seconds(0.000_5),
             even_below: Seconds::ZERO,
             halt_time: Seconds::ZERO,

@@ -227,7 +227,15 @@ mod tests {
     fn the_bottom_of_a_bore_is_not_a_cutoff() {
         let drill = "T404\nG0 X0. Z0.2\nG1 Z-0.85 F0.006\nG0 Z4.\n";
         let boring = "G0 X0.4\nG1 X-0.01 F0.003\n";
-        check_rule(&RULE, "haas-lathe", &program(drill, boring), &expect![[""]]);
+        check_rule(
+            &RULE,
+            "haas-lathe",
+            &program(drill, boring),
+            &expect![[r#"
+            19 | G105 J0.9
+               | ^^^^^^^^^ warning[bar-fed-before-cutoff] the bar is fed with the turned part still on it
+        "#]],
+        );
         // In several strokes from outside it is one.
         let pecks = "G1 X0.4 F0.0025\nG0 X0.5\nG1 X-0.02 F0.0025\n";
         check_rule(&RULE, "haas-lathe", &program("", pecks), &expect![[""]]);

@@ -250,7 +250,13 @@ mod tests {
             "O1\nN10 (CHECK TOOL) #3000=5 (TOOL BROKEN)\nM30\n",
             &World::default(),
         );
-        expect![[""]].assert_eq(&found.iter().map(words).collect::<String>());
+        expect![[r#"
+            the program always ends with its own alarm (`#3000`)
+              here: its own alarm 5: TOOL BROKEN
+              note: with the values that the program sets, every path comes here
+              help: give the macro the arguments that it needs, or correct the condition of the alarm
+        "#]]
+        .assert_eq(&found.iter().map(words).collect::<String>());
     }
 
     #[test]

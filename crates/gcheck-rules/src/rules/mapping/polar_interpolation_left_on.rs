@@ -78,7 +78,7 @@ impl PathRule for PolarInterpolationLeftOn {
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
         if let Some(boundary) = boundary(cx) {
             self.judge(cx, boundary.words(), boundary_range(cx, boundary), Some(boundary), report);
-        } else if cx.has_effect(returns) && !self.is_refused(cx) {
+        } else if cx.has_effect(returns) && !is_refused(cx) {
             self.judge(cx, "at the return to the reference position", cx.effect_range(returns), None, report);
         }
     }
@@ -92,12 +92,6 @@ impl PathRule for PolarInterpolationLeftOn {
 }
 
 impl PolarInterpolationLeftOn {
-    /// Does the mode refuse the return? `refused-by-mode` says so.
-    fn is_refused(&self, cx: &PathCx<'_>) -> bool {
-        let mode = cx.state().mode(Role::PolarInterpolation).only().and_then(|mode| cx.code_of(mode));
-        mode.is_some_and(|mode| cx.has_code(|code| returns(code.effect()) && forbids(mode, code)))
-    }
-
     fn judge(
         &mut self,
         cx: &PathCx<'_>,
@@ -127,6 +121,12 @@ impl PolarInterpolationLeftOn {
         };
         report.add(cx.resting_on(finding, Fact::Mode(Role::PolarInterpolation), &format!("`{name}`")));
     }
+}
+
+/// Does the mode refuse the return? `refused-by-mode` says so.
+fn is_refused(cx: &PathCx<'_>) -> bool {
+    let mode = cx.state().mode(Role::PolarInterpolation).only().and_then(|mode| cx.code_of(mode));
+    mode.is_some_and(|mode| cx.has_code(|code| returns(code.effect()) && forbids(mode, code)))
 }
 
 fn is_on(effect: Effect) -> bool {
