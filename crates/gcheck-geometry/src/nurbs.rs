@@ -80,7 +80,7 @@ impl Bezier {
         };
         loop {
             let (arcs, off) = self.in_arcs(count);
-            if off <= tolerance.0 || off.is_nan() || count >= MOST_PIECES {
+            if off <= tolerance.0 || count >= MOST_PIECES {
                 return arcs;
             }
             count *= 2;

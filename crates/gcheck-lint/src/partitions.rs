@@ -198,19 +198,30 @@ fn stem(id: &'static str) -> &'static str {
 /// What an analysis took for granted that another may not, in words.
 #[derive(Debug)]
 pub(crate) struct Case {
-    /// Where each condition is, if it is in the file; when that way is taken.
-    conditions: Vec<(Option<Range<u32>>, String)>,
-    /// What is unknown, where the case has no condition in a file.
-    note: Option<String>,
+    conditions: Vec<Condition>,
+}
+
+/// Something on which a case rests.
+#[derive(Debug)]
+struct Condition {
+    /// In words that follow "when".
+    when: String,
+    shown: Shown,
+}
+
+/// How a finding shows a condition beside naming it.
+#[derive(Debug)]
+enum Shown {
+    /// It marks the bytes of the file that decide.
+    Marked(Range<u32>),
+    /// It says in a note what no place of the file shows.
+    Noted(String),
 }
 
 impl Case {
     /// The case of some choices.
     pub(crate) fn new(choices: &[Choice], program: &Program<'_>, environment: Environment<'_>) -> Self {
-        Self {
-            conditions: choices.iter().map(|choice| condition(*choice, program, environment)).collect(),
-            note: None,
-        }
+        Self { conditions: choices.iter().map(|choice| condition(*choice, program, environment)).collect() }
     }
 
     /// The case that programs which are not here leave what the file sets as it was; `None` if it calls no such program.
@@ -223,7 +234,7 @@ impl Case {
             _ => None,
         };
         let missing: Vec<String> = assumptions.into_iter().filter_map(name).collect();
-        let (leave, note) = match missing.as_slice() {
+        let (when, note) = match missing.as_slice() {
             [] => return None,
             [only] => (
                 format!("{only} leaves it so"),
@@ -234,7 +245,7 @@ impl Case {
                 format!("{first} and {} more were not found: what they change is not known", others.len()),
             ),
         };
-        Some(Self { conditions: vec![(None, leave)], note: Some(note) })
+        Some(Self { conditions: vec![Condition { when, shown: Shown::Noted(note) }] })
     }
 
     /// The finding as one that holds in this case only, with the severity that the user gave its rule; `None` when that is not
@@ -261,27 +272,15 @@ impl Case {
         finding.certainty = Certainty::Maybe;
         // What helps on one path may harm on another.
         finding.fixes.clear();
-        finding.message = format!("{}, when {}", finding.message, self.in_words());
-        Some((overridden, self.mark(finding)))
-    }
-
-    fn in_words(&self) -> String {
-        let cases: Vec<&str> = self.conditions.iter().map(|(_, case)| case.as_str()).collect();
-        cases.join(" and ")
-    }
-
-    /// Marks the conditions.
-    fn mark(&self, mut finding: Finding) -> Finding {
-        if let Some(note) = &self.note {
-            return finding.note(note.clone());
-        }
-        for (range, case) in &self.conditions {
-            finding = match range {
-                Some(range) => finding.also(range.clone(), format!("when {case}")),
-                None => finding.note(format!("the condition is in another file: {case}")),
+        let cases: Vec<&str> = self.conditions.iter().map(|condition| condition.when.as_str()).collect();
+        finding.message = format!("{}, when {}", finding.message, cases.join(" and "));
+        for Condition { when, shown } in &self.conditions {
+            finding = match shown {
+                Shown::Marked(range) => finding.also(range.clone(), format!("when {when}")),
+                Shown::Noted(note) => finding.note(note.clone()),
             };
         }
-        finding
+        Some((overridden, finding))
     }
 }
 
@@ -294,19 +293,18 @@ pub(crate) struct Rules<'r> {
     pub(crate) active: &'r [(&'static RuleEntry, Option<Severity>)],
 }
 
-fn condition(
-    choice: Choice,
-    program: &Program<'_>,
-    environment: Environment<'_>,
-) -> (Option<Range<u32>>, String) {
-    let unnamed = || (None, "one of several ways is taken".to_owned());
+fn condition(choice: Choice, program: &Program<'_>, environment: Environment<'_>) -> Condition {
+    let elsewhere = |when: String| {
+        let note = format!("the condition is in another file: {when}");
+        Condition { when, shown: Shown::Noted(note) }
+    };
+    let unnamed = || elsewhere("one of several ways is taken".to_owned());
     let Some(file) = program.file(choice.at.file) else { return unnamed() };
     let Some(place) = file.loaded.place(choice.at.block, environment.dialect) else { return unnamed() };
     let text = |range: &Range<u32>| {
         file.loaded.slice(place.base + range.start..place.base + range.end).trim().to_owned()
     };
-    let range = (choice.at.file == 0).then(|| place.range());
-    let case = match decided(&place) {
+    let when = match decided(&place) {
         Some((condition, when_holds)) => {
             let holds = (choice.way == 0) == (when_holds == 0);
             comparison(&place.table, condition, holds, &text).unwrap_or_else(|| {
@@ -316,7 +314,11 @@ fn condition(
         }
         None => format!("way {} of `{}` is taken", choice.way + 1, text(&place.block().range)),
     };
-    (range, case)
+    if choice.at.file == 0 {
+        Condition { when, shown: Shown::Marked(place.range()) }
+    } else {
+        elsewhere(when)
+    }
 }
 
 /// The condition that a block decides by, and which way it leads when it holds.

@@ -334,17 +334,14 @@ impl<T: Copy> Planner<T> {
     }
 
     fn rest(&mut self, each: &mut impl FnMut(&Span<T>)) {
-        if let Some((mut last, meeting)) = self.open.take() {
-            if let (Meeting::Rounded { .. }, Corners::Rounded(rounding)) =
-                (meeting, &self.machine.control.corners)
-                && rounding.overlaps
-            {
-                // The control was ready to let the next move overlap.
-                last.keep(OVERLAPPED);
-            }
-            self.lay(&last, Ending::Stop, each);
+        if let (Some((last, Meeting::Rounded { .. })), Corners::Rounded(rounding)) =
+            (&mut self.open, &self.machine.control.corners)
+            && rounding.overlaps
+        {
+            // The control was ready to let the next move overlap.
+            last.keep(OVERLAPPED);
         }
-        self.run_all(each);
+        self.end(each);
     }
 
     /// The axes come to rest where the control knows ahead that they will.

@@ -758,10 +758,10 @@ impl<'t> References<'t> {
 
 /// What a block with a code, or the head of a program, is to lines of data.
 fn data_mark(table: &BlockTable, block: &Block, base: u32, dialect: &Dialect<'_>) -> Option<DataMark> {
-    if !dialect.has_data_codes() || !block.flags.intersects(NO_ROW) {
+    if !dialect.has_data_codes() || is_row(block) {
         return None;
     }
-    if is_statement(block) {
+    if may_be_among_rows(block) {
         return Some(DataMark {
             kind: DataMarkKind::Statement,
             code: CodeIx::NONE,
@@ -793,22 +793,14 @@ fn is_in(ranges: &[Range<u32>], at: u32) -> bool {
     ranges.get(after).is_some_and(|range| range.contains(&at))
 }
 
-/// What a row of data does not have.
-const NO_ROW: BlockFlags = BlockFlags::CODE.union(BlockFlags::PROGRAM_NUMBER).union(BlockFlags::STATEMENT);
+/// May it be among rows where lines of data are open: one of them, or a macro statement, which is executed?
+pub(crate) fn may_be_among_rows(block: &Block) -> bool {
+    !block.flags.intersects(BlockFlags::CODE | BlockFlags::PROGRAM_NUMBER)
+}
 
 /// Is it a row where lines of data are open?
 fn is_row(block: &Block) -> bool {
-    !block.flags.intersects(NO_ROW)
-}
-
-/// Is it a macro statement and nothing that shows that rows are over?
-fn is_statement(block: &Block) -> bool {
-    block.flags.intersection(NO_ROW) == BlockFlags::STATEMENT
-}
-
-/// May it be among rows: one of them, or a macro statement?
-pub(crate) fn may_be_among_rows(block: &Block) -> bool {
-    is_row(block) || is_statement(block)
+    may_be_among_rows(block) && !block.flags.contains(BlockFlags::STATEMENT)
 }
 
 /// Does the code call another program, or return to the one that called?

@@ -4,7 +4,7 @@
 //! project.
 
 use std::path::{Path, PathBuf};
-use std::{env, fs};
+use std::{env, fs, io};
 
 use crate::skips::skip;
 
@@ -53,6 +53,18 @@ pub fn programs() -> Option<Vec<CorpusProgram>> {
     Some(read(&index, &folder))
 }
 
+/// The text of a program of the corpus, or of its first lines with an end of their own: `folder/program.ngc:120`.
+///
+/// # Errors
+/// The program cannot be read, or what is behind the last `:` is not a number.
+pub fn part(folder: &Path, part: &str) -> io::Result<Vec<u8>> {
+    let Some((name, lines)) = part.rsplit_once(':') else { return fs::read(folder.join(part)) };
+    let lines: usize = lines.parse().map_err(|error| io::Error::new(io::ErrorKind::InvalidInput, error))?;
+    let text = fs::read(folder.join(name))?;
+    let some: Vec<&[u8]> = text.split(|byte| *byte == b'\n').take(lines).collect();
+    Ok([&some.join(&b'\n')[..], b"\nM2\n"].concat())
+}
+
 /// The programs that an index lists: tab-separated, the first line names the columns.
 fn read(index: &str, folder: &Path) -> Vec<CorpusProgram> {
     let mut lines = index.lines();
@@ -79,9 +91,21 @@ fn read(index: &str, folder: &Path) -> Vec<CorpusProgram> {
 
 #[cfg(test)]
 mod tests {
+    use std::fs;
     use std::path::Path;
 
-    use super::read;
+    use super::{part, read};
+
+    #[test]
+    fn a_part_of_the_corpus_ends_after_its_lines() {
+        let corpus = tempfile::tempdir().unwrap();
+        fs::write(corpus.path().join("a.ngc"), "G21\nG1 X1 F100\nX2\nM2\n").unwrap();
+        let text = |name| String::from_utf8(part(corpus.path(), name).unwrap()).unwrap();
+        assert_eq!(text("a.ngc:2"), "G21\nG1 X1 F100\nM2\n");
+        assert_eq!(text("a.ngc"), "G21\nG1 X1 F100\nX2\nM2\n");
+        assert!(part(corpus.path(), "b.ngc").is_err());
+        assert!(part(corpus.path(), "a.ngc:two").is_err());
+    }
 
     #[test]
     fn the_index_names_its_columns() {

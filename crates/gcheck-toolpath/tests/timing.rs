@@ -118,17 +118,19 @@ fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fixtures/timing")
 }
 
-/// The programs of our own, or those of the corpus; none of these without `GCHECK_CORPUS`.
+/// The programs of our own, or those of the corpus; none of these where there is no corpus.
 fn rows(of_corpus: bool) -> Vec<Row> {
-    let corpus = corpus::folder();
+    let corpus_folder = corpus::folder();
     let table = std::fs::read_to_string(folder().join("measured.tsv")).unwrap();
     let mut rows = Vec::new();
     for line in table.lines().skip(1) {
         let [program, acceleration, seconds] = line.split('\t').collect::<Vec<_>>()[..] else {
             panic!("{line}")
         };
-        let text = match (program.strip_prefix("corpus/"), &corpus) {
-            (Some(part), Some(corpus)) if of_corpus => part_of_corpus(corpus, part),
+        let text = match (program.strip_prefix("corpus/"), &corpus_folder) {
+            (Some(part), Some(folder)) if of_corpus => {
+                String::from_utf8_lossy(&corpus::part(folder, part).unwrap()).into_owned()
+            }
             (None, _) if !of_corpus => text_of(&folder().join(format!("{program}.ngc"))),
             _ => continue,
         };
@@ -143,14 +145,6 @@ fn rows(of_corpus: bool) -> Vec<Row> {
 
 fn text_of(path: &Path) -> String {
     String::from_utf8_lossy(&std::fs::read(path).unwrap()).into_owned()
-}
-
-/// A program of the corpus, or its first lines, as `cargo xtask timing` cuts it: `folder/program.ngc:120`.
-fn part_of_corpus(corpus: &Path, part: &str) -> String {
-    let Some((path, lines)) = part.rsplit_once(':') else { return text_of(&corpus.join(part)) };
-    let text = text_of(&corpus.join(path));
-    let lines: Vec<&str> = text.split('\n').take(lines.parse().unwrap()).collect();
-    lines.join("\n") + "\nM2\n"
 }
 
 fn sums(rows: &[Row]) -> BTreeMap<u32, (f64, f64, f64)> {

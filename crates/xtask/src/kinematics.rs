@@ -8,7 +8,7 @@ use std::process::{Command, ExitCode};
 
 use anyhow::{Context as _, bail, ensure};
 
-use crate::workspace;
+use crate::{headless, workspace};
 
 const SCRIPT: &str = include_str!("kinematics/follow.py");
 const TABLE: &str = "fixtures/kinematics/measured.tsv";
@@ -19,8 +19,7 @@ pub(crate) fn run(arguments: &[String]) -> anyhow::Result<ExitCode> {
         bail!("kinematics takes no arguments");
     }
     let folder = tempfile::tempdir()?;
-    let script = folder.path().join("follow.py");
-    fs::write(&script, SCRIPT)?;
+    let script = headless::write(folder.path(), "follow.py", SCRIPT)?;
     let output = Command::new("python3").arg(&script).output().context("`python3` does not start")?;
     ensure!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let table = workspace::root().join(TABLE);

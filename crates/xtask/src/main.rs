@@ -21,6 +21,8 @@ mod dist;
 mod fuzz;
 mod generate;
 #[cfg(feature = "product")]
+mod headless;
+#[cfg(feature = "product")]
 mod kinematics;
 #[cfg(feature = "product")]
 mod measure;
@@ -33,6 +35,7 @@ mod precision;
 mod product;
 mod test;
 mod tidy;
+#[cfg(feature = "product")]
 mod timing;
 mod workspace;
 
@@ -105,7 +108,10 @@ fn main() -> ExitCode {
         "kinematics" => kinematics::run(rest),
         #[cfg(not(feature = "product"))]
         "kinematics" => product::rerun("kinematics", rest, false),
+        #[cfg(feature = "product")]
         "timing" => timing::run(rest),
+        #[cfg(not(feature = "product"))]
+        "timing" => product::rerun("timing", rest, false),
         #[cfg(feature = "product")]
         "measure" => measure::run(rest),
         #[cfg(not(feature = "product"))]

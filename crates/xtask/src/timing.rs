@@ -17,9 +17,10 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode, Output};
 
 use anyhow::{Context as _, bail, ensure};
+use gcheck_testkit::corpus;
 use serde_json::Value;
 
-use crate::workspace;
+use crate::{headless, workspace};
 
 const PLANNER: &str = include_str!("timing/planner.py");
 const FOLDER: &str = "fixtures/timing";
@@ -148,8 +149,7 @@ impl Planner {
         let command = if let Ok(command) = env::var("GCHECK_TIMING") {
             command.split_whitespace().map(str::to_owned).collect()
         } else {
-            let script = folder.path().join("planner.py");
-            fs::write(&script, PLANNER)?;
+            let script = headless::write(folder.path(), "planner.py", PLANNER)?;
             vec!["python3".to_owned(), script.to_string_lossy().into_owned()]
         };
         Ok(Self { command, folder })
@@ -168,7 +168,7 @@ impl Planner {
 
 /// The programs of these names; all of the folder, and those of the corpus in the table, without names.
 fn programs(asked_for: &[&str], measured: &Measured, parts: &Path) -> anyhow::Result<Vec<(String, PathBuf)>> {
-    let corpus = env::var_os("GCHECK_CORPUS").map(PathBuf::from);
+    let folder = env::var_os("GCHECK_CORPUS").map(PathBuf::from);
     let mut names: Vec<String> = asked_for.iter().map(|name| (*name).to_owned()).collect();
     if names.is_empty() {
         for entry in fs::read_dir(workspace::root().join(FOLDER))? {
@@ -177,7 +177,7 @@ fn programs(asked_for: &[&str], measured: &Measured, parts: &Path) -> anyhow::Re
                 names.extend(path.file_stem().map(|stem| stem.to_string_lossy().into_owned()));
             }
         }
-        if corpus.is_some() {
+        if folder.is_some() {
             names.extend(
                 measured.keys().map(|(name, _)| name.clone()).filter(|name| name.starts_with("corpus/")),
             );
@@ -188,33 +188,19 @@ fn programs(asked_for: &[&str], measured: &Measured, parts: &Path) -> anyhow::Re
     let path = |(index, name): (usize, String)| {
         let path = match name.strip_prefix("corpus/") {
             Some(part) => {
-                let corpus =
-                    corpus.as_deref().context("GCHECK_CORPUS does not name the folder of the corpus")?;
+                let folder =
+                    folder.as_deref().context("GCHECK_CORPUS does not name the folder of the corpus")?;
                 let path = parts.join(format!("part-{index}.ngc"));
-                fs::write(&path, part_of_corpus(corpus, part)?)?;
+                let text = corpus::part(folder, part).with_context(|| format!("{part} cannot be read"))?;
+                fs::write(&path, text)?;
                 path
             }
             None => workspace::root().join(FOLDER).join(format!("{name}.ngc")),
         };
-        ensure!(path.is_file(), "there is no program {}", path.display());
+        ensure!(path.is_file(), "no such program: {}", path.display());
         Ok((name, path))
     };
     names.into_iter().enumerate().map(path).collect()
-}
-
-/// The text of a program of the corpus, or of its first lines: `folder/program.ngc:120`. The test `timing` cuts it as well.
-fn part_of_corpus(corpus: &Path, part: &str) -> anyhow::Result<Vec<u8>> {
-    let (path, lines) = match part.rsplit_once(':') {
-        Some((path, lines)) => {
-            (path, Some(lines.parse::<usize>().with_context(|| format!("{part}: lines"))?))
-        }
-        None => (part, None),
-    };
-    let path = corpus.join(path);
-    let text = fs::read(&path).with_context(|| format!("there is no program {}", path.display()))?;
-    let Some(lines) = lines else { return Ok(text) };
-    let some: Vec<&[u8]> = text.split(|byte| *byte == b'\n').take(lines).collect();
-    Ok([&some.join(&b'\n')[..], b"\nM2\n"].concat())
 }
 
 /// Program and seconds of a line that the planner's command prints.
@@ -265,16 +251,6 @@ mod tests {
         assert_eq!(speeds(cycles).unwrap(), "seconds\tspeed\n0.000\t0.00\n0.002\t50.00\n");
         assert_eq!(speeds("1 0 0 0\n2 0 0 0\n").unwrap_err().to_string(), "nothing moves");
         assert_eq!(speeds("1 0 0 0\noverrun\n").unwrap_err().to_string(), "`overrun` is not a position");
-    }
-
-    #[test]
-    fn a_part_of_the_corpus_ends_after_its_lines() {
-        let corpus = tempfile::tempdir().unwrap();
-        fs::write(corpus.path().join("a.ngc"), "G21\nG1 X1 F100\nX2\nM2\n").unwrap();
-        let text = |part| String::from_utf8(part_of_corpus(corpus.path(), part).unwrap()).unwrap();
-        assert_eq!(text("a.ngc:2"), "G21\nG1 X1 F100\nM2\n");
-        assert_eq!(text("a.ngc"), "G21\nG1 X1 F100\nX2\nM2\n");
-        assert!(part_of_corpus(corpus.path(), "b.ngc").is_err());
     }
 
     #[test]

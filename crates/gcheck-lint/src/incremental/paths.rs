@@ -139,6 +139,16 @@ pub(crate) struct Inputs<'g> {
     pub(crate) enough: u32,
 }
 
+/// What one round of bringing chains up to date works with.
+struct Round<'r, 'w, 'c> {
+    watchers: &'r mut Watchers<'w, 'c>,
+    /// What the rules have found since it was taken last.
+    found: &'r RefCell<Findings>,
+    /// All rules say what they remember.
+    remembers: bool,
+    work: &'r mut Work,
+}
+
 /// How much was executed, and how much was not.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Work {
@@ -192,18 +202,13 @@ impl Paths {
             self.as_if_kept = None;
         }
         let remembers = watchers.remembers_all();
-        self.follow_chains(inputs, &mut watchers, &found, remembers, collector, work)?;
+        let mut round = Round { watchers: &mut watchers, found: &found, remembers, work };
+        self.follow_chains(inputs, &mut round, collector)?;
         self.unsure |= !remembers && self.chains.iter().any(|chain| chain.segments.len() > 1);
-        let left_some_out = self.update_partitions(inputs, &mut watchers, &found, remembers, work)?;
+        let left_some_out = self.update_partitions(inputs, &mut round)?;
         let results: Vec<FlowResult> = self.chains.iter().map(|chain| chain.result(inputs.layout)).collect();
-        let first = results.first().filter(|_| !inputs.options.assumes);
-        let as_if_kept = first.and_then(|first| Case::of_missing_programs(&first.assumptions));
-        if as_if_kept.is_some() {
-            self.update_as_if_kept(inputs, &mut watchers, &found, remembers, work)?;
-        } else {
-            self.as_if_kept = None;
-        }
-        let at_ends_of_cases = self.follow_ends_of_cases(&mut watchers, &found, inputs.layout)?;
+        let as_if_kept = self.update_as_if_kept(inputs, results.first(), &mut round)?;
+        let at_ends_of_cases = self.follow_ends_of_cases(&mut round, inputs.layout)?;
         found.take();
         watchers.forget_made();
         let at_ends = self.follow_ends(&mut watchers, inputs.layout)?;
@@ -235,17 +240,14 @@ impl Paths {
     fn follow_chains(
         &mut self,
         inputs: &Inputs<'_>,
-        watchers: &mut Watchers<'_, '_>,
-        found: &RefCell<Findings>,
-        remembers: bool,
+        round: &mut Round<'_, '_, '_>,
         collector: &mut Collector<'_>,
-        work: &mut Work,
     ) -> Result<(), Broken> {
         for index in 0..self.chains.len() {
             let Some(chain) = self.chains.get_mut(index) else { break };
             loop {
-                let offers = remembers && !self.unsure;
-                let went_back = match advance(chain, inputs, watchers, found, offers, work) {
+                let offers = round.remembers && !self.unsure;
+                let went_back = match advance(chain, inputs, round, offers) {
                     Err(Broken::Enough) => {
                         // What holds with one position of block delete only, shows when all were looked at.
                         if let [only] = self.chains.as_slice() {
@@ -268,7 +270,7 @@ impl Paths {
                 self.unsure = true;
                 chain.segments.clear();
             }
-            if chain.work() >= inputs.fuel && work.kept > 0 {
+            if chain.work() >= inputs.fuel && round.work.kept > 0 {
                 return Err(Broken::Useless);
             }
         }
@@ -304,21 +306,20 @@ impl Paths {
     /// What the rules find at the ends of the analyses of single cases, in their order.
     fn follow_ends_of_cases(
         &self,
-        watchers: &mut Watchers<'_, '_>,
-        found: &RefCell<Findings>,
+        round: &mut Round<'_, '_, '_>,
         layout: &Layout,
     ) -> Result<Vec<Findings>, Broken> {
         let follow = |chain: &Chain| {
-            watchers.restart(Scope::OneWay);
-            watchers.forget_made();
-            found.take();
+            round.watchers.restart(Scope::OneWay);
+            round.watchers.forget_made();
+            round.found.take();
             if let Some(end) = chain.end.as_ref().filter(|_| !chain.is_given_up()) {
-                if !end.restore(watchers, layout) {
+                if !end.restore(round.watchers, layout) {
                     return Err(Broken::Useless);
                 }
-                watchers.followed();
+                round.watchers.followed();
             }
-            Ok(found.take())
+            Ok(round.found.take())
         };
         self.partitions.iter().chain(&self.as_if_kept).map(follow).collect()
     }
@@ -343,10 +344,7 @@ impl Paths {
     fn update_partitions(
         &mut self,
         inputs: &Inputs<'_>,
-        watchers: &mut Watchers<'_, '_>,
-        found: &RefCell<Findings>,
-        offers: bool,
-        work: &mut Work,
+        round: &mut Round<'_, '_, '_>,
     ) -> Result<bool, Broken> {
         let Some(first) = self.chains.first() else { return Ok(false) };
         let mut partitions = Partitions::default();
@@ -360,7 +358,7 @@ impl Paths {
             let chain = || Chain::new(first.skip, Scope::OneWay, named(&choices, inputs.layout));
             let fuel = inputs.fuel.min(begins.saturating_add(left));
             let inputs = Inputs { fuel, enough: u32::MAX, ..*inputs };
-            let chain = follow_apart(kept, chain, &inputs, watchers, found, offers, work)?;
+            let chain = follow_apart(kept, chain, &inputs, round)?;
             left = left.saturating_sub(chain.work().saturating_sub(begins));
             if left == 0 {
                 partitions.leave_rest();
@@ -371,22 +369,23 @@ impl Paths {
         Ok(partitions.left_some_out())
     }
 
-    /// Follows all paths as if programs that are not here left what the file sets as it was.
+    /// Follows all paths as if programs that are not here left what the file sets as it was. The case, if `first`, the result
+    /// for all paths, says that such a program was called.
     fn update_as_if_kept(
         &mut self,
         inputs: &Inputs<'_>,
-        watchers: &mut Watchers<'_, '_>,
-        found: &RefCell<Findings>,
-        offers: bool,
-        work: &mut Work,
-    ) -> Result<(), Broken> {
-        let Some(first) = self.chains.first() else { return Ok(()) };
+        first: Option<&FlowResult>,
+        round: &mut Round<'_, '_, '_>,
+    ) -> Result<Option<Case>, Broken> {
         let kept = self.as_if_kept.take();
-        let chain = || Chain::new(first.skip, Scope::OneWay, Vec::new());
+        let first = first.filter(|_| !inputs.options.assumes);
+        let case = first.and_then(|first| Case::of_missing_programs(&first.assumptions));
+        let (Some(case), Some(all_paths)) = (case, self.chains.first()) else { return Ok(None) };
+        let chain = || Chain::new(all_paths.skip, Scope::OneWay, Vec::new());
         let options = Options { keeps_what_was_set: true, ..inputs.options };
         let inputs = Inputs { options, enough: u32::MAX, ..*inputs };
-        self.as_if_kept = Some(follow_apart(kept, chain, &inputs, watchers, found, offers, work)?);
-        Ok(())
+        self.as_if_kept = Some(follow_apart(kept, chain, &inputs, round)?);
+        Ok(Some(case))
     }
 
     /// Adds what holds in one case only; with what was found at the ends.
@@ -454,21 +453,18 @@ fn follow_apart(
     kept: Option<Chain>,
     new: impl FnOnce() -> Chain,
     inputs: &Inputs<'_>,
-    watchers: &mut Watchers<'_, '_>,
-    found: &RefCell<Findings>,
-    offers: bool,
-    work: &mut Work,
+    round: &mut Round<'_, '_, '_>,
 ) -> Result<Chain, Broken> {
     let kept = kept.filter(|chain| !chain.is_used_up);
     let is_kept = kept.is_some();
     let mut chain = kept.unwrap_or_else(new);
-    let went_back = advance(&mut chain, inputs, watchers, found, offers, work)?;
+    let went_back = advance(&mut chain, inputs, round, round.remembers)?;
     if is_kept && (went_back || chain.is_given_up()) {
         return Err(Broken::Useless);
     }
     if went_back {
         chain.segments.clear();
-        advance(&mut chain, inputs, watchers, found, false, work)?;
+        advance(&mut chain, inputs, round, false)?;
     }
     chain.is_used_up = went_back || chain.is_given_up();
     Ok(chain)
@@ -641,15 +637,14 @@ fn take_over(
     at
 }
 
-/// Brings a chain up to date. True when execution came back over a checkpoint.
+/// Brings a chain up to date, cut into segments if it `offers` checkpoints. True when execution came back over one.
 fn advance(
     chain: &mut Chain,
     inputs: &Inputs<'_>,
-    watchers: &mut Watchers<'_, '_>,
-    found: &RefCell<Findings>,
+    round: &mut Round<'_, '_, '_>,
     offers: bool,
-    work: &mut Work,
 ) -> Result<bool, Broken> {
+    let Round { watchers, found, work, .. } = round;
     let layout = inputs.layout;
     let file = inputs.program.file(0).ok_or(Broken::Useless)?;
     let mut old: Vec<Option<Segment>> = std::mem::take(&mut chain.segments).into_iter().map(Some).collect();
@@ -694,7 +689,7 @@ fn advance(
         let fuel = inputs.fuel.saturating_sub(chain.work());
         let choices = chain.choices(layout).ok_or(Broken::Useless)?;
         let mut recorder = Recorder {
-            watchers: &mut *watchers,
+            watchers,
             file: &file,
             layout,
             found,

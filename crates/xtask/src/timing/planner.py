@@ -9,37 +9,14 @@ each cycle of a millisecond.
 """
 
 import argparse
-import json
 import os
-import shutil
-import subprocess
 import sys
-import tempfile
+
+import headless
 
 SPEED = 200
 
-INI = """[EMC]
-VERSION = 1.1
-MACHINE = timing
-DEBUG = 0
-[DISPLAY]
-DISPLAY = ./run_programs.py
-[TASK]
-TASK = milltask
-CYCLE_TIME = 0.001
-[RS274NGC]
-PARAMETER_FILE = timing.var
-[EMCMOT]
-EMCMOT = motmod
-COMM_TIMEOUT = 4.0
-SERVO_PERIOD = 1000000
-[EMCIO]
-EMCIO = io
-CYCLE_TIME = 0.100
-TOOL_TABLE = timing.tbl
-[HAL]
-HALFILE = timing.hal
-[TRAJ]
+INI = """[TRAJ]
 COORDINATES = X Y Z
 LINEAR_UNITS = mm
 ANGULAR_UNITS = degree
@@ -52,9 +29,6 @@ NO_FORCE_HOMING = 1
 KINEMATICS = trivkins coordinates=XYZ
 JOINTS = 3
 """
-
-LIMITS = "MAX_VELOCITY = {speed}\nMAX_ACCELERATION = {accel}\nMIN_LIMIT = -10000\nMAX_LIMIT = 10000\n"
-JOINT = "TYPE = LINEAR\nFERROR = 10\nMIN_FERROR = 10\nHOME = 0\nHOME_SEARCH_VEL = 0\nHOME_LATCH_VEL = 0\nHOME_SEQUENCE = 0\n"
 
 HAL = """loadrt trivkins coordinates=XYZ
 loadrt motmod servo_period_nsec=1000000 num_joints=3
@@ -80,20 +54,8 @@ net prepare iocontrol.0.tool-prepare => iocontrol.0.tool-prepared
 net change iocontrol.0.tool-change => iocontrol.0.tool-changed
 """
 
-RUN_PROGRAMS = r'''#!/usr/bin/python3
-import json, os, subprocess, time, linuxcnc
-# No program stands for as long, in seconds.
+RUN_PROGRAMS = r'''# No program pauses for so long, in seconds.
 STALLED = 15
-job = json.load(open("job.json"))
-command, status, errors = linuxcnc.command(), linuxcnc.stat(), linuxcnc.error_channel()
-def do(act, *arguments, wait=5):
-    act(*arguments)
-    command.wait_complete(wait)
-time.sleep(1)
-do(command.state, linuxcnc.STATE_ESTOP_RESET)
-do(command.state, linuxcnc.STATE_ON)
-for joint in range(3):
-    do(command.home, joint)
 time.sleep(0.5)
 with open("out.jsonl", "w") as out:
     for program in job["programs"]:
@@ -157,49 +119,25 @@ def main():
     parser.add_argument("--limit", type=float, default=200.0)
     parser.add_argument("--sample")
     options = parser.parse_args()
-    if not shutil.which("linuxcnc"):
-        sys.exit("linuxcnc is not installed (Debian: linuxcnc-uspace)")
-    limits = LIMITS.format(speed=SPEED, accel=options.accel)
+    headless.need()
     ini = INI.format(accel=options.accel, twice=2 * options.accel)
-    ini += "".join(f"[AXIS_{axis}]\n{limits}[JOINT_{joint}]\n{limits}{JOINT}" for joint, axis in enumerate("XYZ"))
+    ini += headless.sections("XYZ", speed=SPEED, accel=options.accel, off=10)
     job = {
         "programs": [os.path.abspath(program) for program in options.programs],
         "sample": os.path.abspath(options.sample) if options.sample else None,
         "limit": options.limit,
+        "joints": 3,
     }
     try:
         # On a busy machine the control would wait for its turn, and programs would take longer.
         os.sched_setscheduler(0, os.SCHED_FIFO, os.sched_param(20))
     except PermissionError:
         print("the control has no priority: other work on this machine makes programs take longer", file=sys.stderr)
-    with tempfile.TemporaryDirectory(prefix="gcheck-timing-") as folder:
-        files = {
-            "timing.ini": ini,
-            "timing.hal": HAL,
-            "run_programs.py": RUN_PROGRAMS,
-            "timing.tbl": "T1 P1 Z0 D6\n",
-            "timing.var": "5220\t1.0\n",
-            "job.json": json.dumps(job),
-        }
-        for name, text in files.items():
-            path = os.path.join(folder, name)
-            with open(path, "w") as file:
-                file.write(text)
-            os.chmod(path, 0o777 if name == "run_programs.py" else 0o666)
-        os.chmod(folder, 0o777)
-        # The real-time part gives up the rights of root for those of this user, nobody.
-        environment = dict(os.environ, RTAPI_UID="65534", RTAPI_FIFO_PATH=os.path.join(folder, "fifo"))
-        environment.pop("DISPLAY", None)
-        run = subprocess.run(
-            ["linuxcnc", "-r", "timing.ini"],
-            cwd=folder, env=environment, capture_output=True, text=True, stdin=subprocess.DEVNULL,
-        )
-        out = os.path.join(folder, "out.jsonl")
-        lines = open(out).read() if os.path.exists(out) else ""
-        sys.stdout.write(lines)
-        if lines.count("\n") != len(options.programs):
-            sys.stderr.write((run.stdout + run.stderr)[-2000:])
-            sys.exit(1)
+    lines, said = headless.run(ini, HAL, RUN_PROGRAMS, job, tools="T1 P1 Z0 D6\n", out="out.jsonl")
+    sys.stdout.write(lines)
+    if lines.count("\n") != len(options.programs):
+        sys.stderr.write(said[-2000:])
+        sys.exit(1)
 
 
 main()

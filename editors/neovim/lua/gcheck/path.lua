@@ -10,7 +10,7 @@ local uv = vim.uv or vim.loop
 
 --- Bytes of a request that are read.
 local MOST = 8192
---- Milliseconds after the last change until the page is made anew.
+--- Milliseconds after the last change until the page is made again.
 local QUIET = 400
 
 --- The server, its secrets and what it shows.

@@ -120,7 +120,7 @@ impl RefusedByMode {
             if role == Role::Compensation && is_ended_by_number(cx, mode) {
                 continue;
             }
-            for finding in codes.iter().filter_map(|code| judge(cx, role, mode, *code)) {
+            for finding in codes.iter().filter_map(|code| refusal(cx, role, mode, *code)) {
                 self.told = Some(cx.origin().at);
                 report.add(finding);
             }
@@ -128,8 +128,8 @@ impl RefusedByMode {
     }
 }
 
-/// A code of the block under a mode that may refuse it.
-fn judge(cx: &PathCx<'_>, role: Role, mode: CodeIx, refused: CodeIx) -> Option<Finding> {
+/// The finding for a code under a mode that refuses it.
+fn refusal(cx: &PathCx<'_>, role: Role, mode: CodeIx, refused: CodeIx) -> Option<Finding> {
     let (of_mode, code) = (cx.control().code_at(mode)?, cx.control().code_at(refused)?);
     let says_so = if forbids(of_mode, code) {
         of_mode.entry()
