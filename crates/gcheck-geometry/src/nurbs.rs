@@ -100,7 +100,8 @@ impl Bezier {
             let [leaves, arrives] = [begin, end].map(|t| self.direction_at(t, to - from));
             let joint = joint(from, leaves, to, arrives);
             let middle = self.point_at(f64::midpoint(begin, end));
-            // The joint lies beside the curve where its neighbour does: by what it is off across the chord.
+            // The joint lies beside the curve where its neighbour does: by what it is off across the chord. Along the chord nothing is measured,
+            // so a curve that turns back may be cut short at its turn.
             let across = Vector2::new(-(to - from).y, (to - from).x).try_normalize(0.0);
             off = off.max(across.map_or(0.0, |across| (joint - middle).dot(&across).abs()));
             arcs.push(touching(from, leaves, joint));

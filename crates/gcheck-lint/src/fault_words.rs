@@ -308,7 +308,7 @@ pub fn alarm(number: i64, text: Option<&str>) -> Words {
 pub fn out_of_fuel(blocks: u64) -> Words {
     let blocks = if blocks == 1 { "1 block".to_owned() } else { format!("{blocks} blocks") };
     Words::new(format!("the program had not ended after {blocks}; here gcheck stopped executing it"))
-        .why("a loop may never end, or repeats give very many moves")
+        .why("a loop may never end, or repeats give very many moves, which count as blocks too")
         .help("`--fuel BLOCKS` allows more")
 }
 

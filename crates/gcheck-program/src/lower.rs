@@ -124,6 +124,7 @@ impl<'c> Dialect<'c> {
             }
         }
         let is_bound = |letter: &Letter| letters.get(letter.index()).is_some_and(|facts| !facts.free);
+        let corners = [Letter::CORNER_R, Letter::CORNER_C, Letter::CORNER_A];
         let is_quiet = |letter: &Letter| {
             letters.get(letter.index()).is_some_and(LetterFacts::is_quiet)
                 && !matches!(letter.ascii(), b'G' | b'M' | b'N' | b'O')
@@ -139,7 +140,7 @@ impl<'c> Dialect<'c> {
             control,
             profile: profile(control),
             quiet,
-            bound: (0..=u8::MAX).filter_map(Letter::new).filter(is_bound).collect(),
+            bound: (0..=u8::MAX).filter_map(Letter::new).chain(corners).filter(is_bound).collect(),
             points: quiet.and(control.axes().or(LetterSet::of("IJKR"))),
             letters,
             integers_take_point: control.numbers().integers_take_point,

@@ -26,6 +26,7 @@ pub(crate) mod feed;
 pub(crate) mod five_axis;
 pub(crate) mod lasting;
 pub(crate) mod live_tool;
+pub(crate) mod loop_conditions;
 pub(crate) mod mode_left_on;
 pub(crate) mod modes;
 pub(crate) mod notation;

@@ -417,7 +417,7 @@ const SAMPLED_AT: f64 = 1_000.0;
 const WAY: f64 = 0.05;
 
 #[test]
-fn speeds_along_the_path_are_those_that_were_sampled() {
+fn the_way_gone_is_the_one_that_was_sampled() {
     let mut names: Vec<String> = std::fs::read_dir(folder().join("speeds"))
         .unwrap()
         .map(|entry| entry.unwrap().path().file_stem().unwrap().to_string_lossy().into_owned())

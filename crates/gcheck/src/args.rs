@@ -234,7 +234,7 @@ pub struct CheckOptions {
     /// The block delete switch: whether blocks with `/` are skipped; every position is looked at without it
     #[arg(long, value_enum, value_name = "on|off")]
     pub block_skip: Option<Switch>,
-    /// Blocks of a program that may be executed; by default 2,000,000, and 64 more for each block of the program
+    /// Blocks of a program that may be executed, moves of repeats and cycles included; by default 2,000,000, and 64 more for each block of the program
     #[arg(long, value_name = "BLOCKS", default_value_t = FUEL, hide_default_value = true)]
     pub fuel: u64,
     /// Files checked at a time; the number of processors without it
@@ -341,7 +341,7 @@ pub struct Conditions {
     /// The optional stop switch: whether `M1` stops
     #[arg(long, value_enum, value_name = "on|off", default_value_t)]
     pub optional_stop: Switch,
-    /// Blocks of a program that may be executed
+    /// Blocks of a program that may be executed; moves of repeats and cycles count as blocks, too
     #[arg(long, value_name = "BLOCKS", default_value_t = FUEL)]
     pub fuel: u64,
 }

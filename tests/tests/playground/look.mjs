@@ -116,8 +116,8 @@ try {
   seen.workersBefore = await page.evaluate(() => window.workers.length);
   seen.panicAnswer = await page.evaluate(() => new Promise((answered) => {
     const worker = window.workers.at(-1), post = worker.postMessage.bind(worker);
-    // The next question panics in its place.
-    worker.postMessage = ({ id }) => post({ id, ask: "panic" });
+    // The next check panics in its place; a question about the text before may still be under way.
+    worker.postMessage = (message) => post(message.ask === "check" ? { id: message.id, ask: "panic" } : message);
     const field = document.getElementById("text"), problem = document.getElementById("problem");
     new MutationObserver(() => { if (!problem.hidden) answered(problem.textContent); }).observe(problem, { attributes: true, childList: true });
     field.value += "\n";
@@ -129,8 +129,9 @@ try {
 
   // A question that has no answer in time is given up, and the next one has its answer.
   await page.evaluate(() => {
-    const worker = window.workers.at(-1);
-    worker.postMessage = () => {};
+    const worker = window.workers.at(-1), post = worker.postMessage.bind(worker);
+    // No check has an answer.
+    worker.postMessage = (message) => { if (message.ask !== "check") post(message); };
   });
   await page.locator("#text").fill("O2\nG0 X1.\nM30\n");
   await page.locator("#problem").waitFor({ state: "visible" });

@@ -67,8 +67,12 @@ impl<D: Domain> ToolState<D> {
         *length = Position::UNKNOWN;
     }
 
-    /// Takes back what [`Self::forget`] took away, as far as it is not as at the start.
+    /// Takes back what [`Self::forget`] took away, as far as it is not as at the start. Where a tool is called and not in the
+    /// spindle, the program may be there to put it in.
     pub(super) fn keep_what_was_set(&mut self, before: &Self, start: &Self) {
+        if !before.selected.same(&start.selected) && !before.selected.same(&before.number) {
+            return;
+        }
         if !before.selected.same(&start.selected) {
             self.selected = before.selected.clone();
         }

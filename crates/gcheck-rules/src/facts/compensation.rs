@@ -2,8 +2,8 @@
 //!
 //! Knows: its effects, the plane in which it acts. Must not know: any rule, how the path is offset.
 
-use gcheck_controls::{CodeIx, Effect, Letter};
-use gcheck_engine::{Axis, Event, Role};
+use gcheck_controls::{Code, CodeIx, Effect, Letter};
+use gcheck_engine::{Abstract, Axis, Domain, Event, Role};
 
 use crate::facts::boundary::{Boundary, boundary_range};
 use crate::{Finding, PathCx, RuleMeta};
@@ -24,6 +24,19 @@ pub(crate) fn is_on(effect: Effect) -> bool {
 pub(crate) fn is_compensated(cx: &PathCx<'_>) -> bool {
     let on = cx.state().effect(Role::Compensation, cx.model);
     on.is_some_and(|effect| effect != Effect::CompensationOff)
+}
+
+/// The number of no offset, which ends compensation as its own code does on some controls.
+const NO_OFFSET: &str = "D0";
+
+/// Does the number of no offset end this compensation?
+pub(crate) fn ends_by_number(code: Code<'_>) -> bool {
+    code.entry().cancelled_by.iter().any(|item| item == NO_OFFSET)
+}
+
+/// Has the number of no offset ended the compensation whose code is in effect?
+pub(crate) fn is_ended_by_number(cx: &PathCx<'_>, mode: CodeIx) -> bool {
+    cx.code_of(mode).is_some_and(ends_by_number) && Abstract::known(cx.state().d()) == Some(0.0)
 }
 
 /// Is the cutter left of the path? `None` while compensation is off, or not known, or along vectors.

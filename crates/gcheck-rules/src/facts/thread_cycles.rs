@@ -1,8 +1,9 @@
 //! The words of a threading cycle of several passes: which word is the height, the first cut, the lead, and their lengths.
 //!
-//! Knows: the forms of one block and of two. Must not know: any rule, where the tool is.
+//! Knows: the forms of one block and of two, where the tool is when the cycle starts. Must not know: any rule, what was turned.
 
 use gcheck_controls::{Effect, LetterSet};
+use gcheck_engine::Axis;
 use gcheck_program::Word;
 
 use crate::PathCx;
@@ -66,4 +67,23 @@ pub(crate) fn length(cx: &PathCx<'_>, word: &Word) -> Option<f64> {
         && cx.word('J').is_some()
         && cx.state().is_diameter(cx.model)?;
     Some(number * step * units.in_mm() / if counts_twice { 2.0 } else { 1.0 })
+}
+
+/// Radii of the start and of the root, and the height: millimetres. The tool still is where the cycle of the block starts.
+pub(crate) fn radii(cx: &PathCx<'_>, height: &Word) -> Option<[f64; 3]> {
+    let start = cx.state().position().get(Axis::X)?;
+    let half = if cx.state().is_diameter(cx.model)? { 2.0 } else { 1.0 };
+    let unit = cx.state().units(cx.model)?.in_mm() / half;
+    let root = match cx.known_number('X') {
+        Some(x) => x * unit,
+        None => start + cx.known_number('U')? * unit,
+    };
+    let is_plain = start > 0.0 && root > 0.0;
+    length(cx, height).filter(|_| is_plain).map(|height| [start, root, height])
+}
+
+/// Does a word of the block make the thread a taper, as far as is known?
+pub(crate) fn is_tapered(cx: &PathCx<'_>) -> bool {
+    let taper = ['R', 'I'].into_iter().find(|letter| cx.word(*letter).is_some());
+    taper.is_some_and(|letter| cx.known_number(letter) != Some(0.0))
 }

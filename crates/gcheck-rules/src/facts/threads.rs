@@ -3,6 +3,7 @@
 //! Knows: how shops write threads (`M6X1`, `1/4-20`), and which comments belong to a tool or a block. Must not know: any rule,
 //! how a thread is cut.
 
+use gcheck_controls::{Effect, Letter};
 use gcheck_engine::{Abstract, At, Domain};
 use gcheck_program::BlockFlags;
 
@@ -70,7 +71,7 @@ pub(crate) fn thread_in_block(cx: &PathCx<'_>, at: At, wanted: Wanted) -> Option
 }
 
 /// The thread that the entry of the tool in a list at the head of the program names.
-pub(crate) fn thread_in_list(cx: &PathCx<'_>) -> Option<Thread> {
+pub(crate) fn thread_in_list(cx: &PathCx<'_>, wanted: Wanted) -> Option<Thread> {
     let tool = Abstract::known(cx.state().tool()).and_then(whole)?;
     let file = cx.program.file(0)?;
     let mut found: Option<Thread> = None;
@@ -84,7 +85,7 @@ pub(crate) fn thread_in_list(cx: &PathCx<'_>) -> Option<Thread> {
         let text = file.loaded.chunk_text(place.chunk);
         let text = text.get(block.range.start as usize..block.range.end as usize).unwrap_or_default();
         for entry in entries(text).filter(|(number, _)| *number == tool) {
-            let Some((name, pitch)) = thread_in(entry.1, Wanted::Tap) else { continue };
+            let Some((name, pitch)) = thread_in(entry.1, wanted) else { continue };
             // Two entries of one tool: a list for another machine, or of two set-ups.
             if found.as_ref().is_some_and(|thread| thread.pitch.to_bits() != pitch.to_bits()) {
                 return None;
@@ -99,6 +100,59 @@ pub(crate) fn thread_in_list(cx: &PathCx<'_>) -> Option<Thread> {
 pub(crate) fn names_unread_thread(cx: &PathCx<'_>, at: At) -> bool {
     comments_in(cx, at)
         .is_some_and(|text| is_thread_of_another_form(&text) && thread_in(&text, Wanted::Written).is_none())
+}
+
+/// Comments above an operation are not further away than this: blocks.
+const ABOVE: u32 = 6;
+/// The title of a program is in its first blocks.
+const TITLE: u32 = 3;
+
+/// The thread that a comment names, and whether only the title does: the nearest comment counts.
+pub(crate) fn named_thread(cx: &PathCx<'_>, changed: Option<At>) -> Option<(Thread, bool)> {
+    let here = cx.origin().at;
+    let begin = changed.filter(|at| at.file == here.file).map_or(0, |at| at.block);
+    let is_alone =
+        |at: &At| cx.place_of(*at).is_some_and(|place| place.table.words(place.block()).is_empty());
+    let above = (begin..here.block).rev().take(ABOVE as usize).map(|block| At { block, ..here });
+    // The nearest comment that names a thread counts, whether it can be read or not.
+    let named = |at: At| {
+        let thread = thread_in_block(cx, at, Wanted::Written);
+        (thread.is_some() || names_unread_thread(cx, at)).then_some(thread)
+    };
+    let of_operation = above.filter(is_alone).find_map(named);
+    let is_beside_tool = |at: &At| Some(*at) == changed || is_alone(at);
+    let of_tool = || {
+        let changed = changed.filter(|at| at.file == 0)?;
+        let before = changed.block.checked_sub(1).map(|block| At { block, ..changed });
+        if let Some(thread) = thread_of_tool(cx, changed, Wanted::Written) {
+            return Some(Some(thread));
+        }
+        [Some(changed), before, Some(changed.next())]
+            .into_iter()
+            .flatten()
+            .filter(is_beside_tool)
+            .find_map(named)
+            .or_else(|| thread_in_list(cx, Wanted::Written).map(Some))
+    };
+    let is_title = |at: &At| {
+        let letters = cx.place_of(*at).map(|place| place.block().letters);
+        letters.is_some_and(|letters| letters.contains(Letter::of('O')))
+    };
+    let title = || {
+        let blocks = (0..TITLE).map(|block| At { block, ..here });
+        let mut named = blocks.filter(|at| is_title(at) || is_alone(at)).filter_map(named);
+        // A title with two threads does not tell which one is cut.
+        named.next().filter(|_| named.next().is_none())
+    };
+    // The size of a tap alone stands for its coarse pitch.
+    let of_tap = || {
+        let changed = changed.filter(|_| cx.has_effect(|effect| effect == Effect::RigidTap))?;
+        Some(Some(thread_of_tool(cx, changed, Wanted::Tap)?))
+    };
+    match named(here).or(of_operation).or_else(of_tap).or_else(of_tool) {
+        Some(thread) => thread.map(|thread| (thread, false)),
+        None => title()?.map(|thread| (thread, true)),
+    }
 }
 
 /// Is there a word that looks like a thread?
@@ -133,6 +187,24 @@ fn pieces(upper: &str) -> impl Iterator<Item = &str> {
     parts.filter(|piece| !piece.is_empty())
 }
 
+/// `M30 X 1.5` as one word.
+fn joined(upper: &str) -> String {
+    let words: Vec<&str> = upper.split(' ').collect();
+    let is_size = |word: &str| word.strip_prefix('M').is_some_and(|size| number(size).is_some());
+    let mut text = String::with_capacity(upper.len());
+    for (ix, word) in words.iter().enumerate() {
+        let beside = |ix: usize| words.get(ix).copied().unwrap_or_default();
+        let is_before = *word == "X" && ix > 0 && is_size(beside(ix - 1));
+        let is_after = ix > 1 && beside(ix - 1) == "X" && is_size(beside(ix - 2));
+        let is_pitch = |word: &str| word.starts_with(|c: char| c.is_ascii_digit());
+        if !(is_before && is_pitch(beside(ix + 1)) || is_after && is_pitch(word)) && ix > 0 {
+            text.push(' ');
+        }
+        text.push_str(word);
+    }
+    text
+}
+
 /// A drill for a tap, and a thread that is milled, are not taps. Several starts have a lead of several pitches.
 const OTHERS: [&str; 20] = [
     "DRILL",
@@ -163,7 +235,7 @@ const THREADS: [&str; 10] =
 
 /// The one thread that a comment names, and its pitch in millimetres.
 fn thread_in(comment: &str, wanted: Wanted) -> Option<(String, f64)> {
-    let upper = comment.to_ascii_uppercase();
+    let upper = joined(&comment.to_ascii_uppercase());
     let is_letter = |c: char| c.is_ascii_alphanumeric();
     let has = |names: &[&str]| upper.split(|c: char| !is_letter(c)).any(|word| names.contains(&word));
     // A holder or an insert may be named after the thread that it was bought for.
@@ -193,8 +265,11 @@ fn thread_in(comment: &str, wanted: Wanted) -> Option<(String, f64)> {
         if is_alone && has_own_pitch {
             continue;
         }
+        let of_turns = || turns_to_the_inch(piece, all.get(ix + 1).copied());
         if let Some(pitch) = metric(piece).or_else(|| inch(piece)).filter(|_| is_written) {
             found.push((piece.to_owned(), pitch));
+        } else if let Some(turns) = of_turns() {
+            found.push((format!("{turns} TPI"), 25.4 / turns));
         }
     }
     match found.as_slice() {
@@ -207,12 +282,25 @@ fn thread_in(comment: &str, wanted: Wanted) -> Option<(String, f64)> {
     }
 }
 
-/// `P1.25`, `1.25MM`, `X` before a number, `FINE`: a word that may give the pitch of a thread whose size is another word.
+/// `12 TPI`, `12TPI`.
+fn turns_to_the_inch(piece: &str, after: Option<&str>) -> Option<f64> {
+    let turns = match piece.strip_suffix("TPI") {
+        Some(turns) => turns,
+        None => Some(piece).filter(|_| after == Some("TPI"))?,
+    };
+    number(turns).filter(|turns| (1.0..=120.0).contains(turns))
+}
+
+/// A word that may give the pitch of a thread whose size is another word: `P1.25`, `X1`, `1MM`, `FINE`, any number from the finest pitch to the
+/// coarsest.
 fn may_be_pitch(piece: &str) -> bool {
-    let number = piece.trim_start_matches(['P', 'X']).trim_end_matches(|c: char| c.is_ascii_alphabetic());
-    let is_number = self::number(number).is_some();
+    const PITCHES: std::ops::RangeInclusive<f64> = 0.2..=6.0;
+    let number = piece.trim_start_matches(|c: char| c.is_ascii_alphabetic() || matches!(c, '-' | '/' | '*'));
+    let name = piece.strip_suffix(number).unwrap_or_default();
+    let number = number.strip_suffix("MM").or_else(|| number.strip_suffix('P')).unwrap_or(number);
+    let is_named = matches!(name, "" | "P" | "X" | "PITCH" | "-" | "/" | "*");
     matches!(piece, "X" | "FINE" | "MF" | "PITCH" | "EXTRAFINE")
-        || is_number && (number.contains('.') || piece.starts_with('P'))
+        || is_named && self::number(number).is_some_and(|pitch| PITCHES.contains(&pitch))
 }
 
 /// `M6X1`, `M10-1.25`, `M8` with its coarse pitch.
@@ -336,8 +424,17 @@ mod tests {
             ("(M10 SPIRAL POINT TAP P1.25)", None),
             ("(M10 TAP 1.25MM)", None),
             ("(M10 TAP 1.25P)", None),
-            ("(TAP M10 X 1)", None),
+            ("(TAP M10 X 1)", Some(1.0)),
             ("(M6 FINE TAP)", None),
+            ("(TAP M8 1MM)", None),
+            ("(TAP M8 - 1)", None),
+            ("(M8 X1 TAP)", None),
+            ("(TAP M8 P 1)", None),
+            ("(TAP M8 P=1)", None),
+            ("(TAP M8 PITCH1)", None),
+            ("(TAP M8 /1)", None),
+            ("(TAP M10 1,25)", None),
+            ("(M10 TAP 6H)", Some(1.5)),
         ] {
             assert_eq!(thread_in(comment, Wanted::Tap).map(|(_, pitch)| pitch), expected, "{comment}");
         }
@@ -364,6 +461,10 @@ mod tests {
             ("(THREAD TOOL CHANGED 10-24)", None),
             ("(THREAD 10-24)", Some(25.4 / 24.0)),
             ("(10-24 UNC)", Some(25.4 / 24.0)),
+            ("(THREAD M30 X 1.5)", Some(1.5)),
+            ("(T2 THREAD M26 X 1.5, T3 GROOVE)", Some(1.5)),
+            ("(THREAD 12 TPI)", Some(25.4 / 12.0)),
+            ("(1/2-13 THREAD 13TPI)", Some(25.4 / 13.0)),
             ("(M30X2 TWIN)", None),
             ("(M30X2 2-START)", None),
             ("(M30X2 DOUBLE LEAD)", None),

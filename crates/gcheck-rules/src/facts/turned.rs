@@ -385,6 +385,12 @@ impl Turned {
         along.map(|(radius, _)| radius).min_by(f64::total_cmp)
     }
 
+    /// The end away from the chuck of all that was cut along Z into the part.
+    pub(crate) fn front(&self) -> Option<f64> {
+        let deep = self.cuts.iter().filter(|cut| is_deep(cut.ends[0], cut.ends[1]));
+        deep.map(Cut::front).max_by(f64::total_cmp)
+    }
+
     /// Cuts from outside that came by this level, with the radius that each has there.
     fn outside(&self, z: f64) -> impl Iterator<Item = (f64, &Cut)> {
         let is_outside = |cut: &&Cut| cut.side != Side::Inside && !cut.is_centre();

@@ -53,6 +53,7 @@ pub(crate) mod cycles {
     pub(crate) mod back_bore_r_above_z;
     pub(crate) mod bore_shift_very_long;
     pub(crate) mod bore_without_shift;
+    pub(crate) mod cycle_before_its_place;
     pub(crate) mod cycle_begins_below_r;
     pub(crate) mod cycle_dwell_missing;
     pub(crate) mod cycle_ended_in_subprogram;
@@ -84,12 +85,16 @@ pub(crate) mod cycles {
     pub(crate) mod pocket_outline_unfit;
     pub(crate) mod pocket_start_outside;
     pub(crate) mod pocket_without_compensation;
+    pub(crate) mod roughing_in_one_pass;
     pub(crate) mod tap_moves_sideways;
     pub(crate) mod tapped_hole_not_drilled;
     pub(crate) mod tapping_feed_off_pitch;
+    pub(crate) mod thread_beside_part;
+    pub(crate) mod thread_height_off_pitch;
     pub(crate) mod thread_lead_changes;
     pub(crate) mod thread_lead_off_pitch;
     pub(crate) mod thread_numbers_contradict;
+    pub(crate) mod thread_off_turned_diameter;
     pub(crate) mod thread_pass_too_deep;
     pub(crate) mod thread_start_below_crest;
     pub(crate) mod turning_profile_first_block;
@@ -134,6 +139,7 @@ pub(crate) mod flow {
     pub(crate) mod jump_into_loop;
     pub(crate) mod jump_to_missing_block;
     pub(crate) mod loop_condition_unchanged;
+    pub(crate) mod loop_not_entered_again;
     pub(crate) mod return_outside_subroutine;
     pub(crate) mod subprogram_without_return;
     pub(crate) mod unreachable_block;
@@ -239,6 +245,7 @@ pub(crate) mod modal {
 pub(crate) mod motion {
     pub(crate) mod axis_words_without_motion_mode;
     pub(crate) mod contour_control_left_on;
+    pub(crate) mod contour_in_air;
     pub(crate) mod corner_before_rapid;
     pub(crate) mod corner_does_not_fit;
     pub(crate) mod curve_not_complete;
@@ -280,12 +287,14 @@ pub(crate) mod motion {
     pub(crate) mod rapid_plunge;
     pub(crate) mod rapid_sideways_and_down;
     pub(crate) mod rapid_through_bore_wall;
+    pub(crate) mod rapid_to_another_offset_at_depth;
     pub(crate) mod rapid_under_turned_surface;
     pub(crate) mod rapid_with_feed;
     pub(crate) mod reference_point_never_set;
     pub(crate) mod reference_return_through_point;
     pub(crate) mod retract_left_out;
     pub(crate) mod return_level_for_feed_mode;
+    pub(crate) mod stray_coordinate;
     pub(crate) mod thread_into_shoulder;
     pub(crate) mod thread_left_along;
     pub(crate) mod thread_without_lead;
@@ -332,6 +341,7 @@ pub(crate) mod probing {
     pub(crate) mod shift_of_axis_not_probed;
     pub(crate) mod spindle_turns_while_probing;
     pub(crate) mod touch_code_without_probing;
+    pub(crate) mod touch_of_another_axis;
     pub(crate) mod touch_read_without_probing;
     pub(crate) mod touches_do_not_meet;
 }
@@ -543,6 +553,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &cycles::back_bore_r_above_z::RULE,
     &cycles::bore_shift_very_long::RULE,
     &cycles::bore_without_shift::RULE,
+    &cycles::cycle_before_its_place::RULE,
     &cycles::cycle_begins_below_r::RULE,
     &cycles::cycle_dwell_missing::RULE,
     &cycles::cycle_ended_in_subprogram::RULE,
@@ -574,12 +585,16 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &cycles::pocket_outline_unfit::RULE,
     &cycles::pocket_start_outside::RULE,
     &cycles::pocket_without_compensation::RULE,
+    &cycles::roughing_in_one_pass::RULE,
     &cycles::tap_moves_sideways::RULE,
     &cycles::tapped_hole_not_drilled::RULE,
     &cycles::tapping_feed_off_pitch::RULE,
+    &cycles::thread_beside_part::RULE,
+    &cycles::thread_height_off_pitch::RULE,
     &cycles::thread_lead_changes::RULE,
     &cycles::thread_lead_off_pitch::RULE,
     &cycles::thread_numbers_contradict::RULE,
+    &cycles::thread_off_turned_diameter::RULE,
     &cycles::thread_pass_too_deep::RULE,
     &cycles::thread_start_below_crest::RULE,
     &cycles::turning_profile_first_block::RULE,
@@ -618,6 +633,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &flow::jump_into_loop::RULE,
     &flow::jump_to_missing_block::RULE,
     &flow::loop_condition_unchanged::RULE,
+    &flow::loop_not_entered_again::RULE,
     &flow::return_outside_subroutine::RULE,
     &flow::subprogram_without_return::RULE,
     &flow::unreachable_block::RULE,
@@ -708,6 +724,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &modal::word_in_skipped_block::RULE,
     &motion::axis_words_without_motion_mode::RULE,
     &motion::contour_control_left_on::RULE,
+    &motion::contour_in_air::RULE,
     &motion::corner_before_rapid::RULE,
     &motion::corner_does_not_fit::RULE,
     &motion::curve_not_complete::RULE,
@@ -749,12 +766,14 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &motion::rapid_plunge::RULE,
     &motion::rapid_sideways_and_down::RULE,
     &motion::rapid_through_bore_wall::RULE,
+    &motion::rapid_to_another_offset_at_depth::RULE,
     &motion::rapid_under_turned_surface::RULE,
     &motion::rapid_with_feed::RULE,
     &motion::reference_point_never_set::RULE,
     &motion::reference_return_through_point::RULE,
     &motion::retract_left_out::RULE,
     &motion::return_level_for_feed_mode::RULE,
+    &motion::stray_coordinate::RULE,
     &motion::thread_into_shoulder::RULE,
     &motion::thread_left_along::RULE,
     &motion::thread_without_lead::RULE,
@@ -795,6 +814,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &probing::shift_of_axis_not_probed::RULE,
     &probing::spindle_turns_while_probing::RULE,
     &probing::touch_code_without_probing::RULE,
+    &probing::touch_of_another_axis::RULE,
     &probing::touch_read_without_probing::RULE,
     &probing::touches_do_not_meet::RULE,
     &program::ambiguous_jump_target::RULE,

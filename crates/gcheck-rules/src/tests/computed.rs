@@ -65,7 +65,7 @@ fn a_mistake_is_found_whether_its_words_are_written_or_computed() {
     };
     let shown: String = silent.into_iter().map(line).collect();
     expect![[r#"
-        6219 words
+        6444 words
         allowance-into-contour: F G X Z
         blank-inside-number: G Y
         block-number-not-first: G
@@ -107,7 +107,11 @@ fn a_mistake_is_found_whether_its_words_are_written_or_computed() {
         polar-word-refused: @ ^
         rapid-between-cuts: G X Z
         rapid-through-bore-wall: X
+        roughing-in-one-pass: G X
         sign-not-accepted: F
+        thread-beside-part: P
+        thread-height-off-pitch: P T
+        thread-off-turned-diameter: P
         thread-start-below-crest: K P
         thread-without-lead: G
         tilt-without-orientation: J M

@@ -61,15 +61,15 @@ fn a_cycle_without_its_depth() {
         "haas-mill",
         &format!("{HEAD}G81 X0. Y0. Z#0 R.1 F10.\nG80\nM30\n"),
         expect![[r#"
-        6 error cycle-word-missing: canned cycle without `Z` (`G81`)
-    "#]],
+            7 error cycle-word-missing: canned cycle without `Z` (`G81`)
+        "#]],
     );
     check_told(
         "fanuc-mill",
         &format!("{HEAD}G81 X1. Y1. Z#0 R.1 F10.\nG80\nM30\n"),
         expect![[r#"
-        6 warning cycle-word-missing: canned cycle without `Z` (`G81`)
-    "#]],
+            7 warning cycle-word-missing: canned cycle without `Z` (`G81`)
+        "#]],
     );
 }
 

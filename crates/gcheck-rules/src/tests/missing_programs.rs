@@ -89,3 +89,14 @@ fn what_it_says() {
     "#]]
     .assert_eq(&found.iter().map(words).collect::<String>());
 }
+
+/// `T` before a call is an argument of many programs that change the tool.
+#[test]
+fn a_tool_that_is_called_before_it_may_be_put_in() {
+    check_call(
+        START,
+        "T2\nM98 P9001",
+        "S1000 M3\nG90 G54 G0 X10. Y10.\nG43 H2 Z5.\nG1 Z-1. F100.",
+        &expect![[""]],
+    );
+}

@@ -202,7 +202,10 @@ impl Drawing {
             );
         }
         if self.turned {
-            notes.push("the drawing does not turn the work with its rotary axes; a page does so for one axis (Rotary axis under Options)".into());
+            notes.push(
+                "the picture shows the work without its rotary turns; an `.html` page can turn it with one axis (Rotary axis, under Options)"
+                    .into(),
+            );
         }
         if self.posted > 0 {
             notes.push(

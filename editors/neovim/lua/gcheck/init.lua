@@ -59,7 +59,7 @@ function M.config(root)
     root_dir = root,
     capabilities = M.options.capabilities,
     settings = { gcheck = M.options.settings },
-    -- Known from the first moment, also where the editor cannot be asked.
+    -- The server has the settings from its first moment, also in editors that it cannot ask.
     init_options = M.options.settings,
     on_attach = M.options.on_attach,
   }
@@ -121,7 +121,7 @@ function M.setup(options)
         end
       end,
       settings = { gcheck = M.options.settings },
-      -- Known from the first moment, also where the editor cannot be asked.
+      -- The server has the settings from its first moment, also in editors that it cannot ask.
       init_options = M.options.settings,
       capabilities = M.options.capabilities,
       on_attach = M.options.on_attach,

@@ -1,8 +1,8 @@
 -- `:GcheckPath`: the page of `gcheck plot` in a browser, which follows the cursor.
 --
 -- The page comes from a port of this machine alone, behind an address that works once: the browser that opens it first gets a cookie, and
--- nothing is given without that cookie. What asks under another name than the address has (a page of the network that a name
--- leads here) gets nothing either.
+-- nothing is given without that cookie. Requests whose `Host` is not this address are refused as well: a web page whose name leads to
+-- this machine gets nothing.
 
 local M = {}
 
@@ -181,9 +181,13 @@ end
 
 --- Makes the page of the buffer as it is, saved or not, and calls `done` with what the program said against it, if anything.
 local function make_page(buffer, done)
+  local mine = state
+  mine.asked = mine.asked + 1
+  local number = mine.asked
+  local new = mine.folder .. "/new-" .. number .. ".html"
   local name = vim.api.nvim_buf_get_name(buffer)
   local title = vim.fn.fnamemodify(name, ":t")
-  local command = { require("gcheck").command()[1], "plot", "--quiet", "--stdin-filename", title, "-", "-o", state.new }
+  local command = { require("gcheck").command()[1], "plot", "--quiet", "--stdin-filename", title, "-", "-o", new }
   local said = {}
   local is_started, job = pcall(vim.fn.jobstart, command, {
     cwd = vim.fn.fnamemodify(name, ":h"),
@@ -191,10 +195,19 @@ local function make_page(buffer, done)
       vim.list_extend(said, lines)
     end,
     on_exit = function()
-      -- The program says by its exit code what it says of the run; the page is there or it is not.
-      local is_made = state and uv.fs_stat(state.new) ~= nil
+      -- The session was ended, or another one was begun: its folder is gone.
+      if state ~= mine then
+        return
+      end
+      -- A later text is on its way.
+      if number ~= mine.asked then
+        uv.fs_unlink(new)
+        return
+      end
+      -- The exit code tells about the run, so only the file shows whether the page was made.
+      local is_made = uv.fs_stat(new) ~= nil
       if is_made then
-        uv.fs_rename(state.new, state.file)
+        uv.fs_rename(new, mine.file)
       end
       done(not is_made and table.concat(said, "\n") or nil)
     end,
@@ -273,7 +286,7 @@ function M.stop()
       end
     end
   end, 50)
-  vim.fn.delete(vim.fn.fnamemodify(old.file, ":h"), "rf")
+  vim.fn.delete(old.folder, "rf")
 end
 
 --- Shows the toolpath of the buffer that is shown in a browser, and lets it follow the cursor.
@@ -293,8 +306,10 @@ function M.show()
     host = "127.0.0.1:" .. port,
     token = secret(),
     buffer = vim.api.nvim_get_current_buf(),
+    folder = folder,
     file = folder .. "/page.html",
-    new = folder .. "/new.html",
+    --- How many times the page was asked for.
+    asked = 0,
     listeners = {},
     timer = uv.new_timer(),
     group = vim.api.nvim_create_augroup("gcheck_path", { clear = true }),

@@ -133,7 +133,8 @@ impl PathRule for BarFedBeforeCutoff {
             return;
         }
         let (deepest, outside) = self.cut.as_ref().map_or((0.0, 0.0), |cut| (cut.z, cut.x));
-        if goes_in(travel) && travel.from.raw(Axis::X) >= outside - SLACK {
+        // A tool in a bore begins inside of what was turned; without a hole there is none.
+        if goes_in(travel) && (travel.from.raw(Axis::X) >= outside - SLACK || self.hole >= 0.0) {
             self.groove = Some(z);
         }
         let is_in_groove = self.groove.is_some_and(|groove| (groove - z).abs() < SLACK);
@@ -148,7 +149,8 @@ impl PathRule for BarFedBeforeCutoff {
             // from inside a bore, or deep into a part with a hole.
             self.cut = None;
         } else if z < deepest && goes_along(travel) {
-            let x = travel.from.raw(Axis::X).max(travel.to.raw(Axis::X));
+            // On its way out of the part a tool goes on into the air.
+            let x = travel.from.raw(Axis::X).min(travel.to.raw(Axis::X));
             self.cut = Some(DeepestCut { z, x, bytes: cx.range() });
         }
     }
@@ -236,6 +238,9 @@ mod tests {
                | ^^^^^^^^^ warning[bar-fed-before-cutoff] the bar is fed with the turned part still on it
         "#]],
         );
+        // A blade begins nearer to the centre than the turning tool ended, in the air beside the part.
+        let out = "T101\nG0 X0.65 Z0.1\nG1 Z-0.9 F0.008\nX1.2 Z-0.92\nG0 X4.\nT808\nG0 X1.05 Z-0.868\nG1 X-0.02 F0.0025\n";
+        check_rule(&RULE, "haas-lathe", &program("", out), &expect![[""]]);
         // In several strokes from outside it is one.
         let pecks = "G1 X0.4 F0.0025\nG0 X0.5\nG1 X-0.02 F0.0025\n";
         check_rule(&RULE, "haas-lathe", &program("", pecks), &expect![[""]]);

@@ -5,7 +5,7 @@ use gcheck_engine::{At, Ending, Fact, Role};
 
 use crate::declare::declare_rule;
 use crate::facts::boundary::{Boundary, boundary, ends_at_tape_mark};
-use crate::facts::compensation::{is_on, left_on_finding};
+use crate::facts::compensation::{is_ended_by_number, is_on, left_on_finding};
 use crate::facts::modes::{ActiveMode, left_on};
 use crate::{PathCx, PathRule, Report, Run, Severity, Watch, limit};
 use crate::{Remembers, remembers};
@@ -81,6 +81,9 @@ impl PathRule for CompensationLeftOn {
 impl CompensationLeftOn {
     fn judge(&mut self, cx: &PathCx<'_>, place: Boundary, report: &mut Report<'_>) {
         let Some(ActiveMode::Certain(code)) = left_on(cx, Role::Compensation, is_on) else { return };
+        if is_ended_by_number(cx, code) {
+            return;
+        }
         let set_by = cx.definitions().set_by(Fact::Mode(Role::Compensation));
         if set_by.is_some() && set_by == self.told {
             return;
@@ -117,6 +120,9 @@ impl CompensationLeftOn {
     fn judge_stop(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
         let Some(refusals) = refused_at_end(cx) else { return };
         let Some(ActiveMode::Certain(code)) = left_on(cx, Role::Compensation, is_on) else { return };
+        if is_ended_by_number(cx, code) {
+            return;
+        }
         let set_by = cx.definitions().set_by(Fact::Mode(Role::Compensation));
         if set_by.is_some() && set_by == self.told {
             return;
@@ -159,6 +165,16 @@ mod tests {
 
     use super::RULE;
     use crate::testing::{World, check_rule, findings, only, words};
+
+    #[test]
+    fn the_number_of_no_offset_ends_it() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G20 G90 G54 G0 X0. Y0. S900 M3\nG43 H1 Z0.1\nG41 D1 G1 X0.5 F20.\nX1.\nG1 D0 X2.\nG0 Z1.\nM30\n",
+            &expect![[""]],
+        );
+    }
 
     #[test]
     fn a_control_that_refuses_it_makes_it_an_error() {

@@ -4,7 +4,7 @@ use gcheck_controls::{CodeIx, Effect, LastingFrom, Letter, Need, WordEntry};
 use gcheck_engine::{Abstract, At, Domain, Event, Fact, Role};
 
 use crate::declare::declare_rule;
-use crate::facts::compensation::{begins, is_on};
+use crate::facts::compensation::{begins, ends_by_number, is_on};
 use crate::facts::feed::goes_by_feed;
 use crate::{Finding, PathCx, PathRule, Report, Run, Uses, Watch};
 use crate::{Remembers, remembers};
@@ -165,11 +165,8 @@ fn size_taken_away(cx: &PathCx<'_>, at: At) -> Finding {
             "give the tool's offset number, or end the compensation with `{off}` away from the part"
         ));
     let code = cx.state().mode(Role::Compensation).only().and_then(|code| cx.code_of(code));
-    match code
-        .map(gcheck_controls::Code::entry)
-        .filter(|entry| entry.cancelled_by.iter().any(|item| item == "D0"))
-    {
-        Some(entry) => finding.note(format!("`D0` ends `{name}` as `{off}` does  [{}]", entry.source)),
+    match code.filter(|code| ends_by_number(*code)) {
+        Some(code) => finding.note(format!("`D0` ends `{name}` as `{off}` does  [{}]", code.entry().source)),
         None => finding,
     }
 }

@@ -131,19 +131,28 @@ impl CycleWordMissing {
         let (name, entry) = (code.number(), code.entry());
         let is = word.map_or("", |word| word.is.as_str());
         let confidence = word.and_then(|word| word.confidence).unwrap_or(entry.confidence);
-        let range = cx.word_range(|word| word.code.is_some() && cx.model.effect(word.code) == code.effect());
+        // A word whose variable is empty counts for nothing.
+        let written = cx.find_word(cx.origin().at, |word| word.letter == letter);
+        let help = match &written {
+            Some(_) => format!("give the variable of `{letter}` a value before this block"),
+            None => format!("give `{letter}` in the block that begins the cycle"),
+        };
+        let label = match (&written, is) {
+            (Some(_), _) => format!("`{letter}` counts for nothing: its variable is empty"),
+            (None, "") => format!("`{letter}` is missing"),
+            (None, is) => format!("`{letter}` is missing: {is}"),
+        };
+        let range = written.unwrap_or_else(|| {
+            cx.word_range(|word| word.code.is_some() && cx.model.effect(word.code) == code.effect())
+        });
         report.add(
             cx.finding(&META, range, format!("canned cycle without `{letter}` (`{name}`)"))
-                .label(if is.is_empty() {
-                    format!("`{letter}` is missing")
-                } else {
-                    format!("`{letter}` is missing: {is}")
-                })
+                .label(label)
                 .note(format!(
                     "`{name}` ({}) needs `{letter}` in its first block  [{}]",
                     entry.title, entry.source
                 ))
-                .help(format!("give `{letter}` in the block that begins the cycle"))
+                .help(help)
                 .at_most(severity.min(limit(confidence)))
                 .at_most(if lasts { Severity::Warning } else { Severity::Error }),
         );
@@ -156,6 +165,19 @@ mod tests {
 
     use super::RULE;
     use crate::testing::check_rule;
+
+    #[test]
+    fn a_word_whose_variable_is_empty() {
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "G21 G90 T1 M6\nG0 G54 X0. Y0. S900 M3\nG43 H1 Z5.\n#1=-5.\n#2=#0\nG81 Z#1 R#2 F100.\nG80\nM30\n",
+            &expect![[r#"
+                6 | G81 Z#1 R#2 F100.
+                  |         ^^^ warning[cycle-word-missing] canned cycle without `R` (`G81`)
+            "#]],
+        );
+    }
 
     #[test]
     fn the_radius_of_an_arc_is_no_plane_of_a_cycle() {

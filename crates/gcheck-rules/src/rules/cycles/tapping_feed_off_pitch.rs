@@ -118,7 +118,7 @@ impl PathRule for TappingFeedOffPitch {
         let of_tool = || {
             thread_of_tool(cx, changed, Wanted::Tap)
                 .or_else(|| thread_of_tool(cx, changed, Wanted::Written))
-                .or_else(|| thread_in_list(cx))
+                .or_else(|| thread_in_list(cx, Wanted::Tap))
         };
         let Some(thread) = own().or_else(of_tool) else { return };
         let pitch = gcheck_geometry::Mm(thread.pitch);

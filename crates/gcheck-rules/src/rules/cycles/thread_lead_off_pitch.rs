@@ -2,13 +2,13 @@
 
 use std::collections::BTreeSet;
 
-use gcheck_controls::{Effect, Letter, LetterSet, Unpointed};
+use gcheck_controls::{Effect, LetterSet, Unpointed};
 use gcheck_engine::{At, Fact, Units};
 use gcheck_geometry::Mm;
 
 use crate::declare::declare_rule;
 use crate::facts::cutting::is_thread;
-use crate::facts::threads::{Thread, Wanted, names_unread_thread, thread_in_block, thread_of_tool, trimmed};
+use crate::facts::threads::{named_thread, trimmed};
 use crate::facts::units;
 use crate::{Finding, FollowedCx, PathCx, PathRule, Report, Run, Uses, Watch};
 use crate::{Remembers, remembers};
@@ -107,7 +107,7 @@ impl PathRule for ThreadLeadOffPitch {
             return;
         }
         let Some(units) = cx.state().units(cx.model) else { return };
-        let Some((thread, is_title)) = thread(cx, changed) else { return };
+        let Some((thread, is_title)) = named_thread(cx, changed) else { return };
         let fits = |units: Units| {
             let right = thread.pitch / units.in_mm();
             (lead - right).abs() <= right * SLACK
@@ -172,58 +172,6 @@ fn lead(cx: &PathCx<'_>) -> Option<(char, f64)> {
         word.shape.point || word.is_computed() || cx.control().numbers().unpointed == Unpointed::AsWritten;
     let lead = cx.known_number(letter).filter(|lead| is_clear && *lead > 0.0)?;
     Some((letter, lead))
-}
-
-/// Comments above an operation are not further away than this: blocks.
-const ABOVE: u32 = 6;
-/// The title of a program is in its first blocks.
-const HEAD: u32 = 3;
-
-/// The thread that a comment names, and whether only the title does: the nearest comment counts.
-fn thread(cx: &PathCx<'_>, changed: Option<At>) -> Option<(Thread, bool)> {
-    let here = cx.origin().at;
-    let begin = changed.filter(|at| at.file == here.file).map_or(0, |at| at.block);
-    let is_alone =
-        |at: &At| cx.place_of(*at).is_some_and(|place| place.table.words(place.block()).is_empty());
-    let above = (begin..here.block).rev().take(ABOVE as usize).map(|block| At { block, ..here });
-    // The nearest comment that names a thread counts, whether it can be read or not.
-    let named = |at: At| {
-        let thread = thread_in_block(cx, at, Wanted::Written);
-        (thread.is_some() || names_unread_thread(cx, at)).then_some(thread)
-    };
-    let of_operation = above.filter(is_alone).find_map(named);
-    let is_beside_tool = |at: &At| Some(*at) == changed || is_alone(at);
-    let of_tool = || {
-        let changed = changed.filter(|at| at.file == 0)?;
-        let before = changed.block.checked_sub(1).map(|block| At { block, ..changed });
-        if let Some(thread) = thread_of_tool(cx, changed, Wanted::Written) {
-            return Some(Some(thread));
-        }
-        [Some(changed), before, Some(changed.next())]
-            .into_iter()
-            .flatten()
-            .filter(is_beside_tool)
-            .find_map(named)
-    };
-    let is_title = |at: &At| {
-        let letters = cx.place_of(*at).map(|place| place.block().letters);
-        letters.is_some_and(|letters| letters.contains(Letter::of('O')))
-    };
-    let title = || {
-        let blocks = (0..HEAD).map(|block| At { block, ..here });
-        let mut named = blocks.filter(|at| is_title(at) || is_alone(at)).filter_map(named);
-        // A title with two threads does not tell which one is cut.
-        named.next().filter(|_| named.next().is_none())
-    };
-    // The size of a tap alone stands for its coarse pitch.
-    let of_tap = || {
-        let changed = changed.filter(|_| cx.has_effect(|effect| effect == Effect::RigidTap))?;
-        Some(Some(thread_of_tool(cx, changed, Wanted::Tap)?))
-    };
-    match named(here).or(of_operation).or_else(of_tap).or_else(of_tool) {
-        Some(thread) => thread.map(|thread| (thread, false)),
-        None => title()?.map(|thread| (thread, true)),
-    }
 }
 
 #[cfg(test)]

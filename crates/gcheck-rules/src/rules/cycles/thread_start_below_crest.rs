@@ -1,10 +1,9 @@
 //! A threading cycle that starts lower than its words put the crest of the thread.
 
-use gcheck_engine::Axis;
 use gcheck_geometry::Mm;
 
 use crate::declare::declare_rule;
-use crate::facts::thread_cycles::{is_cycle, length, words};
+use crate::facts::thread_cycles::{is_cycle, is_tapered, radii, words};
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 
 declare_rule! {
@@ -73,11 +72,10 @@ impl PathRule for ThreadStartBelowCrest {
         if words.height.is_computed() {
             return;
         }
-        let taper = ['R', 'I'].into_iter().find(|letter| cx.word(*letter).is_some());
-        if taper.is_some_and(|letter| cx.known_number(letter) != Some(0.0)) {
+        if is_tapered(cx) {
             return;
         }
-        let Some([start, root, height]) = numbers(cx, &words.height) else { return };
+        let Some([start, root, height]) = radii(cx, &words.height) else { return };
         let crest = if start > root { root + height } else { root - height };
         let lacks = (crest - start) * (crest - root).signum();
         if height <= SLACK || (start - root).abs() < SLACK || lacks < height * ROUNDED + SLACK {
@@ -119,19 +117,6 @@ impl PathRule for ThreadStartBelowCrest {
                 .help(format!("check `{letter}` and X of the thread, or start {side} X {}", shown(crest))),
         );
     }
-}
-
-/// Radii of the start and of the root, and the height: millimetres.
-fn numbers(cx: &PathCx<'_>, height: &gcheck_program::Word) -> Option<[f64; 3]> {
-    let start = cx.state().position().get(Axis::X)?;
-    let half = if cx.state().is_diameter(cx.model)? { 2.0 } else { 1.0 };
-    let unit = cx.state().units(cx.model)?.in_mm() / half;
-    let root = match cx.known_number('X') {
-        Some(x) => x * unit,
-        None => start + cx.known_number('U')? * unit,
-    };
-    let is_plain = start > 0.0 && root > 0.0;
-    length(cx, height).filter(|_| is_plain).map(|height| [start, root, height])
 }
 
 #[cfg(test)]

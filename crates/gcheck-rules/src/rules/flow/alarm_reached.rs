@@ -185,7 +185,7 @@ fn abort_of(cx: &PathCx<'_>, comment: &str) -> Option<(String, String)> {
 fn text_of(cx: &PathCx<'_>) -> Option<String> {
     let file = cx.program.file(cx.origin().at.file)?;
     let line = file.loaded.line_from(cx.range().start);
-    let assigned = line.split_once("3000").map_or(line, |(_, assigned)| assigned);
+    let assigned = line.split_once("#3000").map_or(line, |(_, assigned)| assigned);
     let (_, rest) = assigned.split_once('(')?;
     let (text, _) = rest.split_once(')')?;
     let text = text.trim();
@@ -247,7 +247,7 @@ mod tests {
         let found = findings(
             &only(&RULE),
             "haas-mill",
-            "O1\nN10 (CHECK TOOL) #3000=5 (TOOL BROKEN)\nM30\n",
+            "O1\nN3000 (CHECK TOOL) #3000=5 (TOOL BROKEN)\nM30\n",
             &World::default(),
         );
         expect![[r#"

@@ -5,9 +5,10 @@ use std::ops::Range;
 
 use gcheck_controls::Effect;
 use gcheck_engine::At;
-use gcheck_program::{BlockFlags, ExprIx, OKeyword, Op, Place, StatementKind, Target};
+use gcheck_program::{BlockFlags, ExprIx, OKeyword, Place, StatementKind, Target};
 
 use crate::declare::declare_rule;
+use crate::facts::loop_conditions::{Asked, is_the_machines, loop_at};
 use crate::facts::usage::blocks_with;
 use crate::{Finding, FinishCx, PathCx, PathRule, Report, Run, Watch};
 use crate::{Remembers, remembers};
@@ -94,8 +95,9 @@ impl PathRule for LoopConditionUnchanged {
             if self.endless.contains(&at) || cx.is_never_reached(at.next()) {
                 continue;
             }
-            if let Some((condition, body)) = loop_at(cx, at, &place)
-                && is_unchanged(cx, &place, condition, body)
+            let Some(file) = cx.program.file(0) else { return };
+            if let Some((condition, end)) = loop_at(file.loaded.flow_graph(), at, &place)
+                && is_unchanged(cx, &place, condition, at.block + 1..end)
             {
                 report.add(finding(place.range()));
             }
@@ -103,59 +105,11 @@ impl PathRule for LoopConditionUnchanged {
     }
 }
 
-/// The condition and the blocks of a loop that begins here.
-fn loop_at(cx: &FinishCx<'_>, at: At, place: &Place) -> Option<(ExprIx, Range<u32>)> {
-    let file = cx.program.file(0)?;
-    let graph = file.loaded.flow_graph();
-    // A jump before the loop's statement would be its exit.
-    place.table.statements(place.ix).find_map(|statement| match &statement.kind {
-        StatementKind::Do { condition: Some(condition), .. } => {
-            Some((*condition, at.block + 1..graph.end_of(at.block)?))
-        }
-        StatementKind::OWord { keyword: OKeyword::While, arguments, .. } => {
-            let links = graph.o_word(at.block)?;
-            // The `while` at the end of a `do` has its body before it.
-            if links.head.is_some() {
-                return None;
-            }
-            Some((StatementKind::arguments(arguments).next()?, at.block + 1..links.end?))
-        }
-        _ => None,
-    })
-}
-
-/// Variables of a condition.
-#[derive(Default)]
-struct Asked {
-    numbers: HashSet<u32>,
-    names: HashSet<String>,
-}
-
 /// Do the blocks neither set a variable of the condition nor call, jump or end?
 fn is_unchanged(cx: &FinishCx<'_>, place: &Place, condition: ExprIx, body: Range<u32>) -> bool {
     let Some(file) = cx.program.file(0) else { return false };
-    let mut asked = Asked::default();
-    for op in place.table.ops(place.table.expr(condition)) {
-        match op {
-            // What the machine changes by itself: positions, timers, inputs.
-            Op::Variable(number) if is_the_machines(cx, *number) => return false,
-            Op::Variable(0) | Op::Number(_) | Op::Negate | Op::Binary(_) | Op::Call(..) => {}
-            Op::Variable(number) => {
-                asked.numbers.insert(*number);
-            }
-            Op::Named { start, end } => {
-                let name = key(file.loaded.chunk_text(place.chunk), &(*start..*end));
-                if is_system_name(cx, &name) {
-                    return false;
-                }
-                asked.names.insert(name);
-            }
-            Op::Indirect => return false,
-        }
-    }
-    if asked.numbers.is_empty() && asked.names.is_empty() {
-        return false;
-    }
+    let text = file.loaded.chunk_text(place.chunk);
+    let Some(asked) = Asked::of(cx.control(), cx.model, place, condition, text) else { return false };
     // A loop of this length is not written by hand.
     if body.len() > 5_000 {
         return false;
@@ -172,14 +126,11 @@ fn may_change(cx: &FinishCx<'_>, place: &Place, asked: &Asked, text: &str) -> bo
         return true;
     }
     let statement_may = place.table.statements(place.ix).any(|statement| match &statement.kind {
-        StatementKind::Assign { target, .. } => match target {
-            Target::Variable(number) => {
-                // An alarm or a stop is an exit; so is what the control does with its own variables.
-                asked.numbers.contains(number) || is_the_machines(cx, *number)
-            }
-            Target::Named(range) => asked.names.contains(&key(text, range)),
-            Target::Computed(_) | Target::Invalid => true,
-        },
+        // An alarm or a stop is an exit; so is what the control does with its own variables.
+        StatementKind::Assign { target, .. } => {
+            let is_own = matches!(target, Target::Variable(number) if is_the_machines(cx.model, *number));
+            is_own || asked.is_set_by(target, text)
+        }
         StatementKind::Goto { .. } => true,
         StatementKind::OWord { keyword, .. } => {
             matches!(keyword, OKeyword::Call | OKeyword::Break | OKeyword::Return | OKeyword::EndSub)
@@ -208,31 +159,6 @@ fn may_change(cx: &FinishCx<'_>, place: &Place, asked: &Asked, text: &str) -> bo
             )
     };
     statement_may || place.table.words(place.block()).iter().any(word_may)
-}
-
-fn is_the_machines(cx: &FinishCx<'_>, number: u32) -> bool {
-    let [_, last_local] = cx.model.semantics().locals;
-    let is_common = (100..1000).contains(&number);
-    number > last_local && !is_common
-}
-
-fn is_system_name(cx: &FinishCx<'_>, name: &str) -> bool {
-    name.starts_with("_ini[")
-        || name.starts_with("_hal[")
-        || cx.control().named_parameter(name).is_some()
-        || cx
-            .model
-            .semantics()
-            .system_variables
-            .iter()
-            .any(|variable| variable.name.as_ref().is_some_and(|n| n.eq_ignore_ascii_case(name)))
-}
-
-/// A parameter's name as the control compares names.
-fn key(text: &str, range: &Range<u32>) -> String {
-    let name = text.get(range.start as usize..range.end as usize).unwrap_or_default();
-    let name = name.trim_start_matches("#<").trim_end_matches('>');
-    name.chars().filter(|c| !c.is_whitespace()).flat_map(char::to_lowercase).collect()
 }
 
 fn finding(range: Range<u32>) -> Finding {

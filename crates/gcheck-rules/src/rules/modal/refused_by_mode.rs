@@ -1,10 +1,10 @@
 //! A code that a mode which is on refuses.
 
 use gcheck_controls::{Code, CodeIx, Effect};
-use gcheck_engine::{Abstract, At, Domain, Event, Fact, Role};
+use gcheck_engine::{At, Event, Fact, Role};
 
 use crate::declare::declare_rule;
-use crate::facts::compensation::limits_reading_ahead;
+use crate::facts::compensation::{is_ended_by_number, limits_reading_ahead};
 use crate::facts::five_axis::{is_along_tool, is_along_vectors};
 use crate::facts::modes::forbids;
 use crate::{Finding, PathCx, PathRule, Remembers, Report, Run, Uses, Watch, limit, remembers};
@@ -13,8 +13,8 @@ declare_rule! {
     /// A code is in a block while a mode is on that does not allow it: a rapid move under polar coordinate interpolation, a round
     /// pocket under cutter compensation.
     ///
-    /// What is refused under five-axis modes, by probing, in a plane and by limits of reading ahead has rules of its own, and
-    /// `cycle-left-on` reports what comes in a cycle.
+    /// Under polar coordinate interpolation these are also planes and drilling cycles. What is refused under five-axis modes, by probing, by
+    /// a plane, and by limits of reading ahead has rules of its own; so has a plane under cutter compensation.
     ///
     /// ## Why it matters
     /// The control stops with an alarm at the block, with the tool at the part.
@@ -153,12 +153,6 @@ fn refusal(cx: &PathCx<'_>, role: Role, mode: CodeIx, refused: CodeIx) -> Option
         finding = finding.help(format!("end `{name}` before it (`{end}`)"));
     }
     Some(cx.resting_on(finding, Fact::Mode(role), &format!("`{name}`")))
-}
-
-/// Did the number of no offset end the mode, as `D0` does on some controls?
-fn is_ended_by_number(cx: &PathCx<'_>, mode: CodeIx) -> bool {
-    let ends = |code: Code<'_>| code.entry().cancelled_by.iter().any(|item| item == "D0");
-    cx.code_of(mode).is_some_and(ends) && Abstract::known(cx.state().d()) == Some(0.0)
 }
 
 /// Is it a mode of its own that requires another code of the mode's group: `G12.1` after `G40`?

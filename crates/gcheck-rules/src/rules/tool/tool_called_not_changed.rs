@@ -122,7 +122,7 @@ impl PathRule for ToolCalledNotChanged {
                         .finding(
                             &META,
                             range.clone(),
-                            format!("tool {tool} is called and never changed in (`T{tool}`)"),
+                            format!("tool {tool} is called (`T{tool}`) and never put in"),
                         )
                         .help("change the tool with `M6`, or remove the call");
                     self.called =
@@ -186,9 +186,9 @@ mod tests {
             "T1 M6\nT5\nG1 X1. F10.\nT7\nM6\nT4\nG1 X2.\nM30\n",
             &expect![[r#"
                 2 | T5
-                  | ^^ info[tool-called-not-changed] tool 5 is called and never changed in (`T5`)
+                  | ^^ info[tool-called-not-changed] tool 5 is called (`T5`) and never put in
                 6 | T4
-                  | ^^ info[tool-called-not-changed] tool 4 is called and never changed in (`T4`)
+                  | ^^ info[tool-called-not-changed] tool 4 is called (`T4`) and never put in
             "#]],
         );
     }
@@ -201,7 +201,7 @@ mod tests {
             "T2 M6\nT3\nG43 H3 Z1.\nG1 X1. F10.\nM30\n",
             &expect![[r#"
                 2 | T3
-                  | ^^ warning[tool-called-not-changed] tool 3 is called and never changed in (`T3`)
+                  | ^^ warning[tool-called-not-changed] tool 3 is called (`T3`) and never put in
             "#]],
         );
     }

@@ -7,6 +7,7 @@ use gcheck_engine::Role;
 use gcheck_program::BlockFlags;
 
 use crate::declare::declare_rule;
+use crate::facts::turning::profile_blocks;
 use crate::facts::word_sets::read_by_modes;
 use crate::{PathCx, PathRule, Report, Run, Severity, Uses, Watch, limit};
 
@@ -75,18 +76,28 @@ impl PathRule for WordPassedOver {
         } else {
             ("ignores a word that no code reads", Severity::Info)
         };
+        // The first and the last block of a profile: what was meant is a roughing cycle, of another control or system of codes.
+        let profile = LetterSet::of("PQ");
+        let names_profile = profile.without(unread).is_empty() && profile_blocks(cx).is_some();
+        let severity = if names_profile { severity.max(Severity::Warning) } else { severity };
         for letter in unread.iter() {
             let Some(entry) = control.letter(letter) else { continue };
             let Some(range) = cx.find_word(cx.origin().at, |word| word.letter == letter) else { continue };
             let rules = control.block_rules();
-            report.add(
-                cx.finding(&META, range, format!("nothing reads `{letter}` in this block"))
-                    .label(entry.is.as_str())
-                    .note(format!("this control {does}  [{}]", rules.source))
-                    .help(format!("remove `{letter}`, or add the code that it belongs to"))
-                    .at_most(severity)
-                    .at_most(limit(rules.confidence)),
-            );
+            let finding = cx
+                .finding(&META, range, format!("nothing reads `{letter}` in this block"))
+                .label(entry.is.as_str())
+                .note(format!("this control {does}  [{}]", rules.source))
+                .at_most(severity)
+                .at_most(limit(rules.confidence));
+            report.add(if names_profile {
+                let cycle = cx.name_of_effect(Effect::RoughAlongZ).unwrap_or_default();
+                finding
+                    .note("`P` and `Q` name blocks of the program, as those of a roughing cycle do, and nothing is roughed here")
+                    .help(format!("on this control the roughing cycle is `{cycle}`"))
+            } else {
+                finding.help(format!("remove `{letter}`, or add the code that it belongs to"))
+            });
         }
     }
 }
@@ -223,6 +234,23 @@ mod tests {
             3 | G11 G0 X1. Q2.
               |            ^^^ info[word-passed-over] nothing reads `Q` in this block
         "#]],
+        );
+    }
+
+    #[test]
+    fn a_roughing_cycle_of_another_system() {
+        check_rule(
+            &RULE,
+            "fanuc-lathe-c",
+            "G71 G90\nG0 X64. Z2.\nG71 U2. R1.\nG71 P100 Q200 U.4 W.1 F.3\nN100 G0 X26.\nG1 Z-20.\nN200 X62.\nM30\n",
+            &expect![[r#"
+                3 | G71 U2. R1.
+                  |         ^^^ info[word-passed-over] nothing reads `R` in this block
+                4 | G71 P100 Q200 U.4 W.1 F.3
+                  |     ^^^^ warning[word-passed-over] nothing reads `P` in this block
+                4 | G71 P100 Q200 U.4 W.1 F.3
+                  |          ^^^^ warning[word-passed-over] nothing reads `Q` in this block
+            "#]],
         );
     }
 

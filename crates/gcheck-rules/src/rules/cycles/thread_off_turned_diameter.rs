@@ -1,0 +1,186 @@
+//! A thread outside that is cut on a diameter to which the part was not turned.
+
+use gcheck_engine::{Event, TravelKind};
+use gcheck_geometry::Mm;
+
+use crate::declare::declare_rule;
+use crate::facts::thread_cycles::{is_cycle, is_tapered, radii, words};
+use crate::facts::turned::{SLACK, Turned, spot};
+use crate::facts::turning::is_turned;
+use crate::{MakeShared, PathCx, PathRule, Remembers, Report, Run, Uses, Watch, remembers};
+
+declare_rule! {
+    /// The root of an outside thread and twice its height give the diameter of its crest. The program has turned the part to another
+    /// diameter there, by more than the thread's shape explains.
+    ///
+    /// Tapered threads and bores are not judged.
+    ///
+    /// ## Why it matters
+    /// If the part is larger, the first pass cuts as deep as the difference, and the insert breaks. If it is smaller, the thread has no
+    /// crests, and the nut does not hold. Mostly two digits of `X` are exchanged, in the cycle or in the contour.
+    ///
+    /// ## Reported
+    /// ```nc,reported,fanuc-lathe
+    /// G21 G99 T0101
+    /// G97 S900 M3
+    /// G0 X34. Z2.
+    /// X29.8
+    /// G1 Z-30. F0.2
+    /// X36.
+    /// G0 Z5.
+    /// T0404
+    /// G0 X34. Z5.
+    /// G76 P020060 Q100 R0.05
+    /// G76 X26.18 Z-25. P920 Q300 F1.5
+    /// M30
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,fanuc-lathe
+    /// G21 G99 T0101
+    /// G97 S900 M3
+    /// G0 X34. Z2.
+    /// X29.8
+    /// G1 Z-30. F0.2
+    /// X36.
+    /// G0 Z5.
+    /// T0404
+    /// G0 X34. Z5.
+    /// G76 P020060 Q100 R0.05
+    /// G76 X28.16 Z-25. P920 Q300 F1.5
+    /// M30
+    /// ```
+    rule "thread-off-turned-diameter" in "cycles" {
+        summary: "thread that does not fit the diameter to which the part was turned",
+        severity: Warning,
+        tier: Path,
+        since: "0.1.0",
+        run: Run::Path {
+            watch: Watch::BLOCKS.union(Watch::MOVES),
+            make: || Box::new(ThreadOffTurnedDiameter::default()),
+        },
+    }
+}
+
+#[derive(Default, Clone, PartialEq)]
+struct ThreadOffTurnedDiameter {
+    /// Radii of the start and of the root, and the height, of the cycle of this block, before its first pass.
+    thread: Option<[f64; 3]>,
+}
+
+remembers!(ThreadOffTurnedDiameter);
+
+/// The part of the height by which a crest is flattened or left larger, at most.
+const FLAT: f64 = 0.4;
+
+impl PathRule for ThreadOffTurnedDiameter {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
+    fn shares(&self) -> Option<MakeShared> {
+        Some(Turned::shared)
+    }
+
+    fn concerns(&self, program: &Uses<'_>) -> bool {
+        is_turned(program) && program.may(is_cycle)
+    }
+
+    fn block(&mut self, cx: &PathCx<'_>, _: &mut Report<'_>) {
+        self.thread = None;
+        let is_judged =
+            cx.has_effect(is_cycle) && !cx.is_malformed() && cx.is_on_every_path() && !is_tapered(cx);
+        // The form that names the peak counts from its drive line.
+        let words =
+            words(cx).filter(|words| is_judged && cx.word('J').is_none() && !words.height.is_computed());
+        self.thread = words.and_then(|words| radii(cx, &words.height));
+    }
+
+    fn moved(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
+        let Event::Travel(travel) = event else { return };
+        if travel.kind != TravelKind::Thread {
+            return;
+        }
+        let Some([start, root, height]) = self.thread.take() else { return };
+        let Some(turned) = Turned::of(cx).filter(|turned| turned.knows(cx)) else { return };
+        let middle = f64::midpoint(spot(&travel.from)[1], spot(&travel.programmed)[1]);
+        let Some(outside) = turned.outside_along(middle).filter(|_| start > root) else { return };
+        let crest = root + height;
+        let off = outside - crest;
+        if off.abs() <= height * FLAT + SLACK || outside < root * 0.5 {
+            return;
+        }
+        let is_diameter = cx.state().is_diameter(cx.model) == Some(true);
+        let shown = |radius: f64| cx.shown(Mm(if is_diameter { radius * 2.0 } else { radius }));
+        let message = if off > 0.0 {
+            "the thread is cut on a part that is larger than its crest"
+        } else {
+            "the thread is cut on a part that is smaller than its crest"
+        };
+        let comes_of_it = if off > 0.0 {
+            format!("the first passes cut {} too deep", cx.shown(Mm(off)))
+        } else {
+            format!("the crests of the thread lack {}", cx.shown(Mm(-off)))
+        };
+        let mut finding = cx
+            .finding(&META, cx.effect_range(is_cycle), message)
+            .label(format!("root X {} + twice the height is X {}", shown(root), shown(crest)))
+            .note(comes_of_it)
+            .help(format!(
+                "check `X` and the height of the thread, and the X {} of the contour",
+                shown(outside)
+            ));
+        if let Some((_, cut)) = turned.least_outside(middle) {
+            finding =
+                finding.also(cut.bytes.clone(), format!("the part is turned to X {} here", shown(outside)));
+        }
+        report.add(finding);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::check_rule;
+
+    fn shaft(turned: &str, start: &str, thread: &str) -> String {
+        format!(
+            "G21 G18 G99 T0101\nG97 S900 M3\nG0 X{start} Z2.\nX{turned}\nG1 Z-30. F0.2\nX36.\nG0 Z5.\nT0404\nG0 X{start} Z5.\nG76 P020060 Q100 R0.05\nG76 {thread} Z-25. P920 Q300 F1.5\nM30\n"
+        )
+    }
+
+    #[test]
+    fn the_part_is_larger_or_smaller_than_the_crest() {
+        check_rule(&RULE, "fanuc-lathe", &shaft("29.8", "34.", "X28.16"), &expect![[""]]);
+        check_rule(
+            &RULE,
+            "fanuc-lathe",
+            &shaft("29.8", "34.", "X26.18"),
+            &expect![[r#"
+            11 | G76 X26.18 Z-25. P920 Q300 F1.5
+               | ^^^ warning[thread-off-turned-diameter] the thread is cut on a part that is larger than its crest
+        "#]],
+        );
+        check_rule(
+            &RULE,
+            "fanuc-lathe",
+            &shaft("28.9", "34.", "X28.16"),
+            &expect![[r#"
+            11 | G76 X28.16 Z-25. P920 Q300 F1.5
+               | ^^^ warning[thread-off-turned-diameter] the thread is cut on a part that is smaller than its crest
+        "#]],
+        );
+    }
+
+    #[test]
+    fn what_was_not_turned_is_not_known() {
+        let program = "G21 G18 G99 T0404\nG97 S900 M3\nG0 X34. Z5.\nG76 P020060 Q100 R0.05\nG76 X26.18 Z-25. P920 Q300 F1.5\nM30\n";
+        check_rule(&RULE, "fanuc-lathe", program, &expect![[""]]);
+    }
+
+    #[test]
+    fn a_taper_is_not_judged() {
+        check_rule(&RULE, "fanuc-lathe", &shaft("29.8", "34.", "X26.18 R-1."), &expect![[""]]);
+    }
+}

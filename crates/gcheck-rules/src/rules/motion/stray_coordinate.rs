@@ -1,0 +1,198 @@
+//! A point of a path in three or more axes of which one coordinate is far from those before and after it.
+
+use std::ops::Range;
+
+use gcheck_engine::{Axis, Event, Position, TravelKind};
+use gcheck_geometry::Mm;
+
+use crate::declare::declare_rule;
+use crate::{PathCx, PathRule, Remembers, Report, Run, Watch, remembers};
+
+declare_rule! {
+    /// A path is cut in three or more axes. At one of its points all coordinates lie between those of the points before and after it, but one
+    /// lies far outside.
+    ///
+    /// Paths in two axes are not judged: a tip of a letter looks the same.
+    ///
+    /// ## Why it matters
+    /// The tool goes across the part and back in the time of a short step. A sign is missing, two digits are exchanged, or the point is in the wrong
+    /// place.
+    ///
+    /// ## Reported
+    /// ```nc,reported,haas-mill
+    /// G21 G90 G54 G0 X0. Y0. S5000 M3
+    /// G43 H1 Z5.
+    /// G1 Z-1. F300.
+    /// X1. Y0.2 Z-1.1
+    /// X2. Y0.4 Z-1.2
+    /// X3. Y60. Z-1.3
+    /// X4. Y0.8 Z-1.4
+    /// X5. Y1. Z-1.5
+    /// G0 Z50.
+    /// M30
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,haas-mill
+    /// G21 G90 G54 G0 X0. Y0. S5000 M3
+    /// G43 H1 Z5.
+    /// G1 Z-1. F300.
+    /// X1. Y0.2 Z-1.1
+    /// X2. Y0.4 Z-1.2
+    /// X3. Y0.6 Z-1.3
+    /// X4. Y0.8 Z-1.4
+    /// X5. Y1. Z-1.5
+    /// G0 Z50.
+    /// M30
+    /// ```
+    rule "stray-coordinate" in "motion" {
+        summary: "one coordinate of a point is far from its neighbours",
+        severity: Warning,
+        tier: Path,
+        since: "0.1.0",
+        run: Run::Path { watch: Watch::MOVES, make: || Box::new(StrayCoordinate::default()) },
+    }
+}
+
+#[derive(Default, Clone, PartialEq)]
+struct StrayCoordinate {
+    /// The last two points of cuts that follow each other.
+    before: [Option<Point>; 2],
+}
+
+remembers!(StrayCoordinate: before);
+
+#[derive(Clone, PartialEq)]
+struct Point {
+    at: Position,
+    bytes: Range<u32>,
+}
+
+remembers!(Point: bytes);
+
+/// So many times as far as its neighbours are apart a coordinate is far off.
+const TIMES: f64 = 6.0;
+/// Nearer coordinates are not far off: millimetres, degrees.
+const NEAR: f64 = 1.0;
+/// Coordinates that differ by less are one.
+const SAME: f64 = 1e-6;
+
+impl PathRule for StrayCoordinate {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
+    fn moved(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
+        let Event::Travel(travel) = event else {
+            self.before = [None, None];
+            return;
+        };
+        let cuts = travel.kind == TravelKind::Feed && !travel.expanded;
+        // A path may begin where the tool came to at rapid.
+        let begins = travel.kind == TravelKind::Rapid && !travel.expanded;
+        if !cuts && !begins {
+            self.before = [None, None];
+            return;
+        }
+        let point = Point { at: travel.programmed, bytes: cx.range() };
+        if begins {
+            self.before = [None, Some(point)];
+            return;
+        }
+        if let [Some(first), Some(middle)] = &self.before
+            && let Some(axis) = stray(&first.at, &middle.at, &point.at)
+        {
+            report.add(finding(cx, axis, first, middle, &point));
+            // The next point would look stray beside this one.
+            self.before = [None, Some(point)];
+            return;
+        }
+        let [_, last] = std::mem::take(&mut self.before);
+        self.before = [last, Some(point)];
+    }
+}
+
+/// The axis in which the middle point alone is far from the other two, which two or more other axes pass on their way.
+fn stray(first: &Position, middle: &Position, last: &Position) -> Option<Axis> {
+    let mut passed = 0;
+    let mut found = None;
+    let mut longest: f64 = 0.0;
+    for axis in Axis::ALL {
+        let [from, at, to] = [first, middle, last].map(|point| point.raw(axis));
+        let [into, out] = [at - from, to - at];
+        // An axis that the program has not moved yet is nowhere.
+        let is_still = into.abs() < SAME && out.abs() < SAME;
+        if is_still || from.is_nan() && at.is_nan() && to.is_nan() {
+            continue;
+        }
+        if into.is_nan() || out.is_nan() {
+            return None;
+        }
+        if into * out > 0.0 {
+            passed += 1;
+            longest = longest.max((to - from).abs());
+        } else if found.is_none() {
+            found = Some((axis, into.abs().min(out.abs()), (to - from).abs()));
+        } else {
+            return None;
+        }
+    }
+    let (axis, off, apart) = found?;
+    let is_rotary = axis.is_rotary();
+    // Millimetres and degrees are not compared.
+    let step = if is_rotary { apart } else { apart.max(longest) };
+    (passed >= 2 && off > NEAR && off > step * TIMES).then_some(axis)
+}
+
+fn finding(cx: &PathCx<'_>, axis: Axis, first: &Point, middle: &Point, last: &Point) -> crate::Finding {
+    let shown = |point: &Point| {
+        let value = point.at.raw(axis);
+        if axis.is_rotary() { format!("{value}°") } else { cx.shown(Mm(value)) }
+    };
+    let name = axis.name();
+    cx.finding(&META, middle.bytes.clone(), format!("`{name}` of this point is far from its neighbours"))
+        .label(format!(
+            "{name} {}, between {name} {} and {name} {}",
+            shown(middle),
+            shown(first),
+            shown(last)
+        ))
+        .note("all other axes pass from one neighbour to the other")
+        .help(format!("check sign, digits and point of `{name}`"))
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::check_rule;
+
+    fn blade(third: &str) -> String {
+        format!(
+            "G20 G17 G40 G49 G80 G90 G94\nT1 M6\nG0 G90 G54 X1.25 Y-0.4 S8000 M3\nG143 H1 X1.25 Y-0.4 Z3. A0. B0.\nG0 X1.25 Y-0.4 Z2.2 A-14.8 B8.15\nG1 G93 X1.2412 Y-0.3871 Z2.1034 A-14.8 B8.15 F42.\nX1.2178 Y-0.3624 Z2.0812 A-14.2 B8.6 F38.\n{third} F38.\nX1.1544 Y-0.3102 Z2.0377 A-12.7 B9.7 F36.\nG94\nG0 X1.1544 Y-0.3102 Z3. A-12.7 B9.7\nM30\n"
+        )
+    }
+
+    #[test]
+    fn five_axes() {
+        check_rule(&RULE, "haas-mill", &blade("X1.1903 Y-0.3415 Z2.0621 A-13.5 B9.1"), &expect![[""]]);
+        check_rule(&RULE, "haas-mill", &blade("X1.9103 Y-0.3415 Z2.0621 A-13.5 B9.1"), &expect![[r#"
+            8 | X1.9103 Y-0.3415 Z2.0621 A-13.5 B9.1 F38.
+              | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[stray-coordinate] `X` of this point is far from its neighbours
+        "#]]);
+        check_rule(&RULE, "haas-mill", &blade("X1.1903 Y-0.3415 Z2.0621 A13.5 B9.1"), &expect![[r#"
+            8 | X1.1903 Y-0.3415 Z2.0621 A13.5 B9.1 F38.
+              | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[stray-coordinate] `A` of this point is far from its neighbours
+        "#]]);
+    }
+
+    #[test]
+    fn letters_have_tips() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G21 G90 G54 G0 X0. Y0. S5000 M3\nG43 H1 Z5.\nG1 Z-1. F300.\nX1. Y0.2\nX2. Y60.\nX3. Y0.3\nX4. Y0.4\nG0 Z50.\nM30\n",
+            &expect![[""]],
+        );
+    }
+}
