@@ -15,7 +15,7 @@ declare_rule! {
     /// and the touch along that axis is never read.
     ///
     /// ## Why it matters
-    /// The number is where the probe stood, not where the part is: depths and offsets that are computed from it have nothing to do with
+    /// The number is where the probe was, not where the part is: depths and offsets that are computed from it have nothing to do with
     /// the part. Mostly the last digit of the variable is wrong.
     ///
     /// ## Reported
@@ -131,7 +131,7 @@ impl TouchOfAnotherAxis {
         report.add(
             cx.finding(&META, bytes, message)
                 .label(format!(
-                    "where the probe stood in `{axis}`; nothing reads `#{right}`, the touch along `{probed}`"
+                    "where the probe was in `{axis}`; nothing reads `#{right}`, the touch along `{probed}`"
                 ))
                 .help(format!("read `#{right}`, or probe along `{axis}`")),
         );
