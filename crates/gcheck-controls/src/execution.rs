@@ -358,6 +358,48 @@ impl Effect {
         matches!(self, Self::MachineCoordinates | Self::ReturnReference(_))
     }
 
+    /// An operation of its own, to which the axis words of its block belong, and not to the motion mode.
+    pub const fn owns_axes(self) -> bool {
+        use Effect as E;
+        matches!(
+            self,
+            E::ThreadCycle
+                | E::FinishProfile
+                | E::RoughAlongZ
+                | E::RoughAlongX
+                | E::RepeatPattern
+                | E::GrooveFace
+                | E::GrooveDiameter
+                | E::CircularPocketClockwise
+                | E::CircularPocketCounterClockwise
+                | E::GeneralPocket
+                | E::BoltCircle
+                | E::BoltArc
+                | E::BoltLine
+                | E::Engrave
+                | E::BarFeed
+                | E::Skip
+                | E::ProbeDiameter
+                | E::ProbeLength
+                | E::ProbeOffset
+                | E::ProbeCentre
+                | E::TapHere
+                | E::LeftTapHere
+                | E::ReturnReference(_)
+                | E::ReturnFromReference
+                | E::WriteOffsets
+                | E::LocalShift
+                | E::SetPosition
+                | E::ScalingOn
+                | E::RotationOn
+                | E::MirrorOn
+                | E::MirrorOff
+                | E::CylinderMapping
+                | E::MacroCall
+                | E::MacroModal
+        )
+    }
+
     /// Starts the spindle, either way round; with coolant too.
     pub const fn starts_spindle(self) -> bool {
         matches!(

@@ -52,5 +52,5 @@ pub use state::{
     Transform, Variables, Way, Ways,
 };
 pub use step::look::{Look, Trial};
-pub use step::{Ending, Options, owns_axes};
+pub use step::{Ending, Options};
 pub use value::*;

@@ -225,30 +225,44 @@ fn scaled_kinds(control: &Control) -> [Option<WordKind>; Letter::COUNT] {
     scaled
 }
 
-impl<'c> Model<'c> {
-    /// Prepares a control.
-    pub fn new(control: &'c Control) -> Self {
-        let semantics = control.semantics();
-        let phases = control.phases();
-        let rank = |name: &str| Rank(phases.iter().position(|p| p == name).unwrap_or(phases.len()) as u8);
-        let across: Vec<CodeNumber> =
-            semantics.cycles.across.iter().filter_map(|name| CodeNumber::parse(name)).collect();
-        let millimetre_distances: Vec<CodeNumber> =
-            semantics.millimetre_distances.iter().filter_map(|name| CodeNumber::parse(name)).collect();
-        let codes: Vec<CodeModel> = control
-            .codes()
-            .map(|code| CodeModel {
-                effect: code.effect(),
-                role: Role::of(code.effect()),
-                rank: rank(&code.entry().phase),
-                group: code.group_ix(),
-                modal: code.group().modal,
-                takes_axes: code.entry().takes_axes,
-                across: across.contains(&code.number()),
-                millimetre_distances: millimetre_distances.contains(&code.number()),
-            })
-            .collect();
-        let increments: Vec<(Letter, Axis)> = semantics
+/// The place of a phase in the control's order within a block.
+fn rank(control: &Control, phase: &str) -> Rank {
+    let phases = control.phases();
+    Rank(phases.iter().position(|p| p == phase).unwrap_or(phases.len()) as u8)
+}
+
+fn numbers_of(names: &[String]) -> Vec<CodeNumber> {
+    names.iter().filter_map(|name| CodeNumber::parse(name)).collect()
+}
+
+fn codes_of(control: &Control) -> Vec<CodeModel> {
+    let semantics = control.semantics();
+    let across = numbers_of(&semantics.cycles.across);
+    let millimetre_distances = numbers_of(&semantics.millimetre_distances);
+    let model = |code: gcheck_controls::Code<'_>| CodeModel {
+        effect: code.effect(),
+        role: Role::of(code.effect()),
+        rank: rank(control, &code.entry().phase),
+        group: code.group_ix(),
+        modal: code.group().modal,
+        takes_axes: code.entry().takes_axes,
+        across: across.contains(&code.number()),
+        millimetre_distances: millimetre_distances.contains(&code.number()),
+    };
+    control.codes().map(model).collect()
+}
+
+/// The axes of a control, and the addresses that move them.
+struct MachineAxes {
+    axes: Vec<Axis>,
+    letters: LetterSet,
+    by_letter: [Option<(Axis, bool)>; Letter::COUNT],
+}
+
+impl MachineAxes {
+    fn of(control: &Control) -> Self {
+        let increments: Vec<(Letter, Axis)> = control
+            .semantics()
             .increments
             .iter()
             .filter_map(|(letter, axis)| Some((Letter::parse(letter)?, Axis::of(Letter::parse(axis)?)?)))
@@ -258,18 +272,28 @@ impl<'c> Model<'c> {
             .into_iter()
             .filter(|axis| control.axes().contains(axis.letter()) && !is_increment(axis))
             .collect();
-        let axis_letters: LetterSet = axes
+        let letters: LetterSet = axes
             .iter()
             .map(|axis| axis.letter())
             .chain(increments.iter().map(|(letter, _)| *letter))
             .collect();
-        let mut axis_of = [None; Letter::COUNT];
+        let mut by_letter = [None; Letter::COUNT];
         let named = axes.iter().map(|axis| (axis.letter(), (*axis, false)));
         for (letter, entry) in named.chain(increments.iter().map(|(letter, axis)| (*letter, (*axis, true)))) {
-            if let Some(slot) = axis_of.get_mut(letter.index()) {
+            if let Some(slot) = by_letter.get_mut(letter.index()) {
                 *slot = Some(entry);
             }
         }
+        Self { axes, letters, by_letter }
+    }
+}
+
+impl<'c> Model<'c> {
+    /// Prepares a control.
+    pub fn new(control: &'c Control) -> Self {
+        let semantics = control.semantics();
+        let rank = |name: &str| rank(control, name);
+        let axes = MachineAxes::of(control);
         let argument_letters = semantics
             .argument_letters
             .iter()
@@ -284,9 +308,9 @@ impl<'c> Model<'c> {
             tool_rank: rank("tool-select"),
             motion_rank: rank("motion"),
             scaled: scaled_kinds(control),
-            axis_of,
-            axes,
-            axis_letters,
+            axis_of: axes.by_letter,
+            axes: axes.axes,
+            axis_letters: axes.letters,
             corners: CornerWords::default(),
             lasting: lasting_letters(control),
             argument_letters,
@@ -294,25 +318,17 @@ impl<'c> Model<'c> {
             named: FxHashMap::default(),
             defaults: [CodeIx::NONE; Role::COUNT],
             at_end: Vec::new(),
-            has_millimetre_distances: !millimetre_distances.is_empty(),
+            has_millimetre_distances: !numbers_of(&semantics.millimetre_distances).is_empty(),
             cycle_cancel: CodeIx::NONE,
             cycles_are_motion: false,
-            codes,
+            codes: codes_of(control),
         };
         model.index_system_variables(&semantics.system_variables);
         model.cycle_cancel = model.code_with(Effect::CycleCancel);
         if let Some(cut) = control.code_at(model.code_with(Effect::Linear)) {
             model.corners = CornerWords::of(&cut.entry().words, model.axis_letters);
         }
-        let group = |effect| model.code(model.code_with(effect)).map(|code| code.group);
-        // A control without cycles says by its cancelling code alone that no motion mode is left.
-        let cancel = control.code_at(model.cycle_cancel);
-        let ends_motion =
-            cancel.is_some_and(|code| code.entry().cancels.iter().any(|item| item == "@motion"));
-        model.cycles_are_motion = match group(Effect::CycleDrill) {
-            Some(drilling) => Some(drilling) == group(Effect::Linear),
-            None => ends_motion,
-        };
+        model.cycles_are_motion = model.has_cycles_as_motion();
         let code_of =
             |name: &String| CodeNumber::parse(name).map(|n| control.code_ix(n)).filter(|ix| ix.is_some());
         model.at_end = semantics.at_end.iter().filter_map(code_of).collect();
@@ -325,6 +341,19 @@ impl<'c> Model<'c> {
             }
         }
         model
+    }
+
+    /// Are canned cycles and motion one modal group?
+    fn has_cycles_as_motion(&self) -> bool {
+        let group = |effect| self.code(self.code_with(effect)).map(|code| code.group);
+        match group(Effect::CycleDrill) {
+            Some(drilling) => Some(drilling) == group(Effect::Linear),
+            // A control without cycles says by its cancelling code alone that no motion mode is left.
+            None => {
+                let cancel = self.control.code_at(self.cycle_cancel);
+                cancel.is_some_and(|code| code.entry().cancels.iter().any(|item| item == "@motion"))
+            }
+        }
     }
 
     /// The control.

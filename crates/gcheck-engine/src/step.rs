@@ -11,6 +11,7 @@ pub(crate) mod contract;
 pub(crate) mod corner;
 mod cycle;
 mod cylinder;
+mod effects;
 mod flow_control;
 mod lathe;
 pub(crate) mod look;
@@ -20,6 +21,7 @@ mod motion;
 mod o_words;
 mod offsets;
 mod operation;
+mod order;
 pub(crate) mod past_alarm;
 pub(crate) mod plain;
 mod probe;
@@ -39,13 +41,14 @@ use gcheck_program::{
 };
 use rustc_hash::FxHashMap;
 
+use self::order::{Action, Parts};
 use crate::assumption::{Assumption, Assumptions, Unsettled};
 use crate::cycles::Stroke;
 use crate::event::{Event, Units};
 use crate::fault::{Fault, ValueFault};
 use crate::lattice::Lattice;
 use crate::machine::Machine;
-use crate::model::{Model, Rank, Role};
+use crate::model::{Model, Role};
 use crate::observer::Observer;
 use crate::origin::{At, Origin, origin_of};
 use crate::program::{Program, ProgramFile};
@@ -776,67 +779,19 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
                 Ok(())
             };
         }
-        let mut actions: [(Rank, Action); MOST_ACTIONS] = [(Rank(u8::MAX), Action::Motion); MOST_ACTIONS];
-        let mut count = 0;
-        let mut add = |rank: Rank, action: Action| {
-            if let Some(slot) = actions.get_mut(count) {
-                *slot = (rank, action);
-                count += 1;
-            }
-        };
-        let mut moves = present.intersects(self.model.axis_letters) || present.intersects(POLAR) || turns;
-        // Some codes share their axis words with a motion beside them.
-        let mut names_motion = false;
-        let mut taken = names_unknown;
-        let mut macro_call = false;
+        let moves = present.intersects(self.model.axis_letters) || present.intersects(POLAR) || turns;
+        let mut parts = Parts::new(moves, names_unknown);
         for ix in codes {
-            let Some(code) = self.model.code(*ix) else { continue };
             if self.model.contracts.get(ix.index()).is_some_and(|contract| contract.first_only) {
                 let first = *ix;
                 let done = self.code(first, place, words, state);
                 return self.past(done, Action::Code(first), state);
             }
-            match code.effect {
-                Effect::MachineCoordinates => {
-                    self.machine_coordinates = true;
-                    moves |= present.intersects(self.model.axis_letters);
-                    continue;
-                }
-                Effect::MacroCall | Effect::MacroModal => macro_call = true,
-                Effect::None
-                    if self.model.control().code_at(*ix).is_some_and(gcheck_controls::Code::is_user) =>
-                {
-                    taken = true;
-                }
-                _ => {}
-            }
-            taken |= code.takes_axes || owns_axes(code.effect);
-            let is_motion = matches!(code.role, Some(Role::Motion | Role::Cycle));
-            let cancels = code.effect == Effect::CycleCancel;
-            moves |= is_motion && !cancels;
-            names_motion |= is_motion && !cancels;
-            add(if is_motion { self.model.motion_rank } else { code.rank }, Action::Code(*ix));
+            self.machine_coordinates |= self.model.effect(*ix) == Effect::MachineCoordinates;
+            parts.add_code(*ix, present, self.model);
         }
-        if !macro_call {
-            for (letter, rank, action) in [
-                (Letter::of('F'), self.model.feed_rank, Action::Feed),
-                (Letter::of('S'), self.model.speed_rank, Action::Speed),
-                (Letter::of('T'), self.model.tool_rank, Action::Tool),
-            ] {
-                if present.contains(letter) {
-                    add(rank, action);
-                }
-            }
-            if moves && (!taken || names_motion && (names_unknown || self.refuses_incomplete())) {
-                add(self.model.motion_rank, Action::Motion);
-            }
-        }
-        let actions = actions.get_mut(..count).unwrap_or_default();
-        // Stable: codes of one phase act in text order, and a motion code before the motion.
-        // The end of a cycle goes before the motion that takes its place.
-        let cancels = |action: &Action| matches!(action, Action::Code(ix) if *ix == self.model.cycle_cancel);
-        actions.sort_by_key(|(rank, action)| (*rank, !cancels(action)));
-        for (_, action) in actions.iter().copied() {
+        parts.add_words(present, names_unknown || self.refuses_incomplete(), self.model);
+        for action in parts.in_order(self.model) {
             let done = match action {
                 Action::Code(code) => self.code(code, place, words, state),
                 Action::Feed => self.feed_word(state),
@@ -1001,20 +956,11 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
         let semantics = self.model.semantics();
         let bottom = self.stack.len();
         for (index, op) in ops.iter().enumerate() {
+            let asks_whether_it_exists = matches!(ops.get(index + 1), Some(Op::Call(Function::Exists, _)));
             let result = match op {
                 // `EXISTS[#<name>]` asks whether reading it would be a fault.
-                Op::Named { .. } | Op::Variable(_) | Op::Indirect
-                    if matches!(ops.get(index + 1), Some(Op::Call(Function::Exists, _))) =>
-                {
-                    let exists = match op {
-                        Op::Named { start, end } => self.has_name(self.name(place, (*start, *end)), state),
-                        Op::Variable(number) => Some(self.check_number(*number).is_ok()),
-                        _ => {
-                            let number = self.stack.pop().unwrap_or_else(D::unknown);
-                            let number = D::known(&number);
-                            number.map(|n| variable_number(n).is_ok_and(|n| self.check_number(n).is_ok()))
-                        }
-                    };
+                Op::Named { .. } | Op::Variable(_) | Op::Indirect if asks_whether_it_exists => {
+                    let exists = self.exists(place, op, state);
                     Ok(exists.map_or_else(D::unknown, |exists| D::number(f64::from(u8::from(exists)))))
                 }
                 Op::Number(number) => Ok(D::number(*number)),
@@ -1029,32 +975,19 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
                     }
                 }
                 Op::Indirect => {
-                    let number = self.stack.pop().unwrap_or_else(D::unknown);
+                    let number = self.operand();
                     self.read_indirect(&number, state)
                 }
                 Op::Negate => {
-                    let value = self.stack.pop().unwrap_or_else(D::unknown);
+                    let value = self.operand();
                     Ok(D::negate(&value))
                 }
                 Op::Binary(op) => {
-                    let right = self.stack.pop().unwrap_or_else(D::unknown);
-                    let left = self.stack.pop().unwrap_or_else(D::unknown);
+                    let right = self.operand();
+                    let left = self.operand();
                     D::binary(*op, &left, &right, semantics).map_err(Fault::Value)
                 }
-                Op::Call(Function::Exists, _) => Ok(self.stack.pop().unwrap_or_else(D::unknown)),
-                Op::Call(Function::Atan, 2) if semantics.atan_takes_one => {
-                    let divisor = self.stack.pop().unwrap_or_else(D::unknown);
-                    let number = self.stack.pop().unwrap_or_else(D::unknown);
-                    D::call(Function::Atan, std::slice::from_ref(&number), semantics)
-                        .and_then(|angle| D::binary(BinaryOp::Divide, &angle, &divisor, semantics))
-                        .map_err(Fault::Value)
-                }
-                Op::Call(function, count) => {
-                    let from = self.stack.len().saturating_sub(usize::from(*count)).max(bottom);
-                    let result = D::call(*function, self.stack.get(from..).unwrap_or_default(), semantics);
-                    self.stack.truncate(from);
-                    result.map_err(Fault::Value)
-                }
+                Op::Call(function, count) => self.call_function(*function, *count, bottom),
             };
             match result {
                 Ok(value) => self.stack.push(value),
@@ -1064,9 +997,47 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
                 }
             }
         }
-        let value = self.stack.pop().unwrap_or_else(D::unknown);
+        let value = self.operand();
         self.stack.truncate(bottom);
         Ok(value)
+    }
+
+    /// Takes the uppermost value of the expression under way.
+    fn operand(&mut self) -> D::Value {
+        self.stack.pop().unwrap_or_else(D::unknown)
+    }
+
+    /// Would reading what this operation names be no fault?
+    fn exists(&mut self, place: &Place, op: &Op, state: &State<D>) -> Option<bool> {
+        match op {
+            Op::Named { start, end } => self.has_name(self.name(place, (*start, *end)), state),
+            Op::Variable(number) => Some(self.check_number(*number).is_ok()),
+            _ => {
+                let number = D::known(&self.operand());
+                number.map(|n| variable_number(n).is_ok_and(|n| self.check_number(n).is_ok()))
+            }
+        }
+    }
+
+    /// A function of the uppermost `count` values, as far as they are above the `bottom` of the expression.
+    fn call_function(&mut self, function: Function, count: u8, bottom: usize) -> Step<D::Value> {
+        let semantics = self.model.semantics();
+        match (function, count) {
+            (Function::Exists, _) => Ok(self.operand()),
+            (Function::Atan, 2) if semantics.atan_takes_one => {
+                let divisor = self.operand();
+                let number = self.operand();
+                D::call(Function::Atan, std::slice::from_ref(&number), semantics)
+                    .and_then(|angle| D::binary(BinaryOp::Divide, &angle, &divisor, semantics))
+                    .map_err(Fault::Value)
+            }
+            _ => {
+                let from = self.stack.len().saturating_sub(usize::from(count)).max(bottom);
+                let result = D::call(function, self.stack.get(from..).unwrap_or_default(), semantics);
+                self.stack.truncate(from);
+                result.map_err(Fault::Value)
+            }
+        }
     }
 
     fn read_variable(&mut self, number: u32, state: &State<D>) -> Step<D::Value> {
@@ -1578,19 +1549,6 @@ pub(crate) enum Count {
     Unknown,
 }
 
-/// A part of a block that acts at its place in the order.
-#[derive(Debug, Clone, Copy)]
-enum Action {
-    Code(CodeIx),
-    Feed,
-    Speed,
-    Tool,
-    Motion,
-}
-
-/// Codes of a block, and `F`, `S`, `T` and the motion.
-const MOST_ACTIONS: usize = 28;
-
 /// Blocks whose form may be refused.
 const FORM: BlockFlags = BlockFlags::LABEL
     .union(BlockFlags::LONG_LINE)
@@ -1640,48 +1598,6 @@ fn opposite(op: BinaryOp) -> Option<BinaryOp> {
         BinaryOp::LessEqual => BinaryOp::Greater,
         _ => return None,
     })
-}
-
-/// Axis words belong to the operation, not to the motion mode.
-pub fn owns_axes(effect: Effect) -> bool {
-    use Effect as E;
-    matches!(
-        effect,
-        E::ThreadCycle
-            | E::FinishProfile
-            | E::RoughAlongZ
-            | E::RoughAlongX
-            | E::RepeatPattern
-            | E::GrooveFace
-            | E::GrooveDiameter
-            | E::CircularPocketClockwise
-            | E::CircularPocketCounterClockwise
-            | E::GeneralPocket
-            | E::BoltCircle
-            | E::BoltArc
-            | E::BoltLine
-            | E::Engrave
-            | E::BarFeed
-            | E::Skip
-            | E::ProbeDiameter
-            | E::ProbeLength
-            | E::ProbeOffset
-            | E::ProbeCentre
-            | E::TapHere
-            | E::LeftTapHere
-            | E::ReturnReference(_)
-            | E::ReturnFromReference
-            | E::WriteOffsets
-            | E::LocalShift
-            | E::SetPosition
-            | E::ScalingOn
-            | E::RotationOn
-            | E::MirrorOn
-            | E::MirrorOff
-            | E::CylinderMapping
-            | E::MacroCall
-            | E::MacroModal
-    )
 }
 
 /// How numbers without decimal point count on this machine.

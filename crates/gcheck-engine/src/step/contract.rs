@@ -522,7 +522,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 _ => {}
             }
             let reads_all = self.contract_of(*ix).is_some_and(|contract| contract.reads_all);
-            takes_axes |= code.takes_axes || super::owns_axes(code.effect) || reads_all;
+            takes_axes |= code.takes_axes || code.effect.owns_axes() || reads_all;
         }
         let present = self.words.present();
         if takes_axes || cancels {
@@ -579,7 +579,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         for ix in codes {
             let Some(code) = self.model.code(*ix) else { continue };
             let reads_all = self.contract_of(*ix).is_some_and(|contract| contract.reads_all);
-            taken |= code.takes_axes || super::owns_axes(code.effect) || reads_all;
+            taken |= code.takes_axes || code.effect.owns_axes() || reads_all;
         }
         if acting == Acting::Nothing {
             if (polar || present.intersects(self.model.axis_letters)) && !taken {

@@ -351,7 +351,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// Is a code one of the machine's switches, beside which the axes stay where they are?
     fn is_function(&self, ix: CodeIx, effect: Effect) -> bool {
         let code = self.model.control().code_at(ix);
-        let moves = super::owns_axes(effect)
+        let moves = effect.owns_axes()
             || matches!(
                 effect,
                 Effect::CallProgram | Effect::CallLocal | Effect::Return | Effect::JumpUnlessInput

@@ -1,23 +1,22 @@
-//! Codes: what each effect changes.
+//! Codes: what a code does to the modes, and what the modes' own effects change.
 //!
-//! Knows: modes and which handler an effect has. Must not know: motion.
+//! Knows: modes and the order around an effect. Must not know: motion, which handler an effect has (`effects.rs`).
 
 use gcheck_controls::{CodeIx, Effect, Letter, LocalShift};
-use gcheck_geometry::{Arrangement, Degrees, Mm, Plane};
+use gcheck_geometry::{Arrangement, Degrees, Mm};
 use gcheck_program::{Place, Word};
 
-use super::{Count, Ending, Executor, Flow, Step};
+use super::effects::CodeInBlock;
+use super::{Count, Executor, Step};
 use crate::assumption::Assumption;
-use crate::event::{
-    Coolant, Event, FeedMode, Override, PathMode, Smoothing, Spindle, Stop, Travel, TravelKind, Units,
-};
+use crate::event::{Coolant, Event, FeedMode, Override, PathMode, Smoothing, Spindle, Travel, TravelKind};
 use crate::fault::{CompensationFault, Fault};
 use crate::lattice::{Flat, Lattice, Perhaps};
 use crate::model::Role;
 use crate::observer::Observer;
 use crate::polar_plane::PolarPlane;
 use crate::position::{Axis, Position};
-use crate::state::{Blending, CoolantState, ModalCalls, State, TiltedPlane};
+use crate::state::{Blending, CoolantState, State, TiltedPlane};
 use crate::value::{Domain, Truth};
 
 impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
@@ -48,7 +47,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 self.switch(role, ix, code.modal || role == Role::Mirror, state);
             }
         }
-        self.effect(code.effect, ix, place, words, state)?;
+        self.effect(CodeInBlock { effect: code.effect, ix, place, words }, state)?;
         if let Some((machine, followed)) = before
             && (followed || state.follows_rotary(&machine, self.model, self.machine))
         {
@@ -164,217 +163,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         }
     }
 
-    #[expect(
-        clippy::too_many_lines,
-        reason = "one arm for each effect: the table that ties codes to handlers"
-    )]
-    fn effect(
-        &mut self,
-        effect: Effect,
-        ix: CodeIx,
-        place: &Place,
-        words: &[Word],
-        state: &mut State<D>,
-    ) -> Step {
-        use Effect as E;
-        match effect {
-            E::PlaneXy => self.emit(state, Event::Plane(Plane::Xy)),
-            E::PlaneZx => self.emit(state, Event::Plane(Plane::Zx)),
-            E::PlaneYz => self.emit(state, Event::Plane(Plane::Yz)),
-            E::PlaneSecondary => self.emit(state, Event::SecondaryPlane),
-            E::Inch => self.emit(state, Event::Units(Units::Inch)),
-            E::Millimetre => self.emit(state, Event::Units(Units::Mm)),
-            E::FeedInverseTime => self.feed_mode(FeedMode::InverseTime, state),
-            E::FeedPerMinute => self.feed_mode(FeedMode::PerMinute, state),
-            E::FeedPerRevolution => self.feed_mode(FeedMode::PerRevolution, state),
-            E::ExactPath => self.path_mode(PathMode::ExactPath, state),
-            E::ExactStop => self.path_mode(PathMode::ExactStop, state),
-            E::PathBlending => self.blending(state),
-            E::ExactStopOnce => self.emit(state, Event::ExactStop),
-            E::Smoothing => self.smoothing(state),
-            E::ContourControl => self.contour_control(Letter::of('Q'), Some(Letter::of('R')), state),
-            E::LookAheadControl => self.contour_control(Letter::of('P'), None, state),
-            E::SurfaceSpeed | E::ConstantSpeed => self.spindle_mode(effect, state)?,
-            E::CompensationOff => self.compensation_off(state)?,
-            E::CompensationLeft
-            | E::CompensationRight
-            | E::CompensationLeftByDiameter
-            | E::CompensationRightByDiameter
-            | E::CompensationVector => self.compensation_on(effect, state)?,
-            E::LengthOff
-            | E::LengthPlus
-            | E::LengthMinus
-            | E::LengthFromBlock
-            | E::LengthAdd
-            | E::LengthFiveAxis
-            | E::ToolCentrePoint => self.length_code(effect, state)?,
-            E::WorkOffset(number) => self.select_work_offset(Some(number), state),
-            E::WorkOffsetByP(first) => {
-                let number = match self.count(Letter::of('P'))? {
-                    Some(Count::Known(p)) if p > 0 => {
-                        u16::try_from(p).ok().and_then(|p| first.checked_add(p - 1))
-                    }
-                    Some(Count::Known(_)) => return Err(Fault::WordRange(Letter::of('P'))),
-                    Some(Count::Unknown) => None,
-                    None => return Err(Fault::MissingWord(Letter::of('P'))),
-                };
-                self.select_work_offset(number, state);
-            }
-            E::ScalingOn | E::ScalingOff | E::RotationOn | E::RotationOff | E::MirrorOn | E::MirrorOff => {
-                self.transform_code(effect, state)?;
-                if effect == E::RotationOff {
-                    self.end_tilted_plane(ix, state);
-                }
-            }
-            E::CylinderMapping => self.cylinder(ix, state)?,
-            E::PolarInterpolationOn | E::PolarInterpolationOff => {
-                self.polar_interpolation(ix, effect == E::PolarInterpolationOn, state)?;
-            }
-            E::DynamicOffsetOn => self.assume_code_unless_described(ix),
-            E::TiltedPlaneOn | E::TiltedPlaneOff => {
-                self.tilted_plane(ix, effect == E::TiltedPlaneOn, state);
-            }
-            E::SquareToPlane => self.turn_square(ix, state),
-
-            E::Dwell => self.dwell(state)?,
-            E::WriteOffsets => self.write_offsets(ix, state)?,
-            E::LocalShift => self.local_shift(state)?,
-            E::SetPosition => self.set_position(state)?,
-            E::SpeedLimitOrSetPosition => {
-                if self.words.has(Letter::of('S')) {
-                    self.limit_speed(state);
-                } else {
-                    self.set_position(state)?;
-                }
-            }
-            E::ClearShift => self.clear_shift(state, false),
-            E::SuspendShift => self.clear_shift(state, true),
-            E::RestoreShift => self.restore_shift(state),
-            E::TapHere | E::LeftTapHere => self.tap_here(effect == E::TapHere, state)?,
-            E::ReturnReference(number) => self.return_reference(number, state)?,
-            E::ReturnFromReference => self.return_from_reference(state)?,
-            E::StoreReference(number) => self.store_reference(number, state),
-
-            E::Skip => self.skip_move(state)?,
-            E::ProbeDiameter | E::ProbeLength | E::ProbeOffset | E::ProbeCentre => {
-                self.measure(effect, state)?;
-            }
-
-            E::KeepTouch => state.probe.kept = state.touched(),
-
-            E::FinishProfile | E::RoughAlongZ | E::RoughAlongX | E::RepeatPattern => {
-                self.profile_cycle(effect, ix, state)?;
-            }
-            E::GrooveFace | E::GrooveDiameter => self.groove_cycle(effect, state)?,
-            E::ThreadCycle => self.thread_cycle(state)?,
-            E::CircularPocketClockwise | E::CircularPocketCounterClockwise => {
-                self.circular_pocket(effect, state)?;
-            }
-            E::GeneralPocket => self.general_pocket(state)?,
-            E::BoltCircle | E::BoltArc | E::BoltLine => self.bolt_pattern(effect, state)?,
-            E::Engrave => self.engrave(ix, state)?,
-            E::BarFeed => self.bar_feed(ix, words, state)?,
-            E::NurbsClose => self.nurbs_close(state)?,
-
-            E::MacroCall | E::MacroModal => self.macro_call(effect, ix, place, words, state)?,
-            E::MacroModalOff => state.calls.modal = ModalCalls::off(),
-            E::CallProgram | E::CallLocal => self.call_code(effect, state)?,
-            E::Return => {
-                let label = self.words.get(Letter::of('P'));
-                self.flow = Some(Flow::Return { label });
-            }
-            E::JumpUnlessInput => self.jump_unless_input(state)?,
-
-            E::Stop => {
-                self.flush_compensation(state)?;
-                self.switch_off_at_stop(false, state)?;
-                self.emit(state, Event::Stop(Stop::Program));
-            }
-            E::OptionalStop => {
-                if !self.options.optional_stop {
-                    self.assumptions.insert(Assumption::OptionalStop);
-                }
-                self.flush_compensation(state)?;
-                self.switch_off_at_stop(true, state)?;
-                self.emit(state, Event::Stop(Stop::Optional));
-            }
-            E::PalletStop => {
-                self.flush_compensation(state)?;
-                self.emit(state, Event::PalletChange);
-                self.emit(state, Event::Stop(Stop::Pallet));
-            }
-            E::ProgramEnd | E::ProgramEndWithPallet => {
-                self.end_program(effect == E::ProgramEndWithPallet, state)?;
-                self.flow = Some(Flow::End(Ending::Program));
-            }
-            E::SaveModes | E::SaveModesUntilReturn => {
-                self.save_modes(effect == E::SaveModesUntilReturn, state);
-            }
-            E::ForgetModes => {
-                if let Some(kept) = state.calls.kept_mut() {
-                    kept.saved = Perhaps::No;
-                }
-            }
-            E::RestoreModes => self.restore_modes(state)?,
-            E::UserCommand => self.user_command(ix, state),
-            E::AskOperator => self.ask_operator(state)?,
-
-            E::SpindleClockwise => self.spindle(Spindle::Clockwise, state)?,
-            E::SpindleCounterClockwise => self.spindle(Spindle::CounterClockwise, state)?,
-            E::SpindleClockwiseWithCoolant => {
-                self.spindle(Spindle::Clockwise, state)?;
-                self.coolant(Coolant::Flood, true, state);
-            }
-            E::SpindleCounterClockwiseWithCoolant => {
-                self.spindle(Spindle::CounterClockwise, state)?;
-                self.coolant(Coolant::Flood, true, state);
-            }
-            E::SpindleStop => self.spindle(Spindle::Stopped, state)?,
-            E::SpindleOrient => self.orient(state)?,
-            E::LiveToolOn => state.spindle.live_tool = Truth::True,
-            E::LiveToolOff => state.spindle.live_tool = Truth::False,
-            E::ToolChange => self.tool_change(state)?,
-            E::SetToolNumber => self.set_tool_number(state)?,
-            E::MistOn => self.coolant(Coolant::Mist, true, state),
-            E::FloodOn => self.coolant(Coolant::Flood, true, state),
-            E::ThroughCoolantOn => self.coolant(Coolant::Through, true, state),
-            E::ThroughCoolantOff => {
-                if self.model.semantics().through_off_stops_spindle
-                    && state.spindle() != Some(Spindle::Stopped)
-                {
-                    self.spindle(Spindle::Stopped, state)?;
-                }
-                self.coolant(Coolant::Through, false, state);
-            }
-            E::CoolantOff => {
-                self.coolant(Coolant::Mist, false, state);
-                self.coolant(Coolant::Flood, false, state);
-            }
-            E::OverridesOn | E::OverridesOff => {
-                let on = effect == E::OverridesOn;
-                state.feed.overridable = on.into();
-                state.spindle.overridable = on.into();
-                state.cycle.feed_override_on = Truth::False;
-                self.emit(state, Event::Override { kind: Override::Feed, on });
-                self.emit(state, Event::Override { kind: Override::Speed, on });
-            }
-            E::FeedOverride | E::SpeedOverride | E::AdaptiveFeed | E::FeedStopInput => {
-                self.switch_override(effect, state);
-            }
-            E::OutputOnWithMove | E::OutputOffWithMove | E::OutputOn | E::OutputOff => {
-                self.digital_output(effect, state)?;
-            }
-            E::AnalogOutput | E::AnalogOutputWithMove => self.analog_output(effect, state)?,
-            E::WaitForInput => self.wait_for_input(state)?,
-            E::ChuckClamp => self.chuck(true, state),
-            E::ChuckUnclamp => self.chuck(false, state),
-            // Modes that only later blocks read, and interpolation, which happens with the block's axis words.
-            _ => {}
-        }
-        Ok(())
-    }
-
-    fn feed_mode(&mut self, mode: FeedMode, state: &mut State<D>) {
+    pub(super) fn feed_mode(&mut self, mode: FeedMode, state: &mut State<D>) {
         self.emit(state, Event::FeedMode(mode));
         if self.model.semantics().feed_mode_clears_feed {
             state.feed.clear();
@@ -388,7 +177,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         self.emit(state, Event::PathMode(mode));
     }
 
-    fn blending(&mut self, state: &mut State<D>) {
+    pub(super) fn blending(&mut self, state: &mut State<D>) {
         let not_below_zero = |number: f64| if number < 0.0 { 0.0 } else { number };
         let tolerance = self.words.number(Letter::of('P')).map_or(0.0, not_below_zero);
         let naive = self.words.number(Letter::of('Q')).filter(|q| *q >= 0.0 || q.is_nan());
@@ -397,7 +186,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         self.path_mode(mode, state);
     }
 
-    fn smoothing(&mut self, state: &mut State<D>) {
+    pub(super) fn smoothing(&mut self, state: &mut State<D>) {
         let unit = self.unit(state);
         let given = self.words.number(Letter::of('E'));
         let tolerance = given.filter(|e| *e > 0.0).map(|e| Mm(e * unit));
@@ -416,7 +205,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         self.emit(state, Event::Smoothing(smoothing));
     }
 
-    fn contour_control(&mut self, switch: Letter, letter: Option<Letter>, state: &mut State<D>) {
+    pub(super) fn contour_control(&mut self, switch: Letter, letter: Option<Letter>, state: &mut State<D>) {
         let Some(switched) = self.words.number(switch) else { return };
         let written = letter.and_then(|letter| self.raw(letter, state));
         let on = switched > 0.0;
@@ -438,7 +227,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         }
     }
 
-    fn switch_override(&mut self, effect: Effect, state: &mut State<D>) {
+    pub(super) fn switch_override(&mut self, effect: Effect, state: &mut State<D>) {
         let on = self.words.number(Letter::of('P')).is_none_or(|p| p != 0.0);
         let truth = if on { Truth::True } else { Truth::False };
         let kind = match effect {
@@ -492,7 +281,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     /// What a stop of the program switches off. An optional one does so only if the operator's switch is on, which an analysis
     /// of all paths leaves open.
-    fn switch_off_at_stop(&mut self, optional: bool, state: &mut State<D>) -> Step {
+    pub(super) fn switch_off_at_stop(&mut self, optional: bool, state: &mut State<D>) -> Step {
         let semantics = self.model.semantics();
         if !semantics.stop_switches_off {
             return Ok(());
@@ -538,7 +327,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     }
 
     /// What a code does with the rotary axes is an assumption on a machine whose rotary axes nobody described.
-    fn assume_code_unless_described(&mut self, ix: CodeIx) {
+    pub(super) fn assume_code_unless_described(&mut self, ix: CodeIx) {
         let table = matches!(
             self.machine.kinematics.map(|kinematics| kinematics.arrangement),
             Some(Arrangement::TableTable)
@@ -549,7 +338,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     }
 
     /// X and a rotary axis make the moves of a flat plane, or no longer do.
-    fn polar_interpolation(&mut self, ix: CodeIx, on: bool, state: &mut State<D>) -> Step {
+    pub(super) fn polar_interpolation(&mut self, ix: CodeIx, on: bool, state: &mut State<D>) -> Step {
         let rules = self.model.semantics().polar_interpolation;
         let Some((rules, rotary)) =
             rules.and_then(|rules| Some((rules, Axis::of(Letter::of(rules.rotary))?)))
@@ -583,7 +372,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     }
 
     /// Some controls end a tilted plane and a rotation with one code.
-    fn end_tilted_plane(&mut self, ix: CodeIx, state: &mut State<D>) {
+    pub(super) fn end_tilted_plane(&mut self, ix: CodeIx, state: &mut State<D>) {
         let group = |ix: CodeIx| self.model.code(ix).map(|code| code.group);
         let tilts =
             |code: CodeIx| self.model.effect(code) == Effect::TiltedPlaneOn && group(code) == group(ix);
@@ -596,7 +385,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     }
 
     /// A tilted plane by origin and Euler angles, or none; other ways to give one are not followed.
-    fn tilted_plane(&mut self, ix: CodeIx, on: bool, state: &mut State<D>) {
+    pub(super) fn tilted_plane(&mut self, ix: CodeIx, on: bool, state: &mut State<D>) {
         if !on {
             state.mapping.tilted = Perhaps::No;
             return;
@@ -616,7 +405,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     }
 
     /// The rotary axes turn to where the tool is square to the plane in effect; the linear axes stand still.
-    fn turn_square(&mut self, ix: CodeIx, state: &mut State<D>) {
+    pub(super) fn turn_square(&mut self, ix: CodeIx, state: &mut State<D>) {
         let mut machine = state.machine(self.model, self.machine);
         let from = machine.abc();
         let ways = self.machine.kinematics.zip(state.upward());
@@ -695,7 +484,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         state.points.lose();
     }
 
-    fn user_command(&mut self, ix: CodeIx, state: &mut State<D>) {
+    pub(super) fn user_command(&mut self, ix: CodeIx, state: &mut State<D>) {
         let number = self.model.control().code_at(ix).map_or(0, |code| code.number().tenths() / 10);
         let p = self.words.number(Letter::of('P')).unwrap_or(0.0);
         let q = self.words.number(Letter::of('Q')).unwrap_or(0.0);
@@ -703,7 +492,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     }
 
     /// What the operator answers is not known.
-    fn ask_operator(&mut self, state: &mut State<D>) -> Step {
+    pub(super) fn ask_operator(&mut self, state: &mut State<D>) -> Step {
         match self.count(Letter::of('P'))? {
             Some(Count::Known(number)) => self.write_plain(number, D::unknown(), state),
             Some(Count::Unknown) => state.variables.forget(),

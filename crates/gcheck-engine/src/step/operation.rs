@@ -11,8 +11,8 @@ use super::lathe::profile::ProfileBlocks;
 use super::{Count, Executor, Step};
 use crate::assumption::Assumption;
 use crate::cycles::{
-    CircularPocket, CycleError, GeneralPocket, ProfileSegment, Stroke, bolt_arc, bolt_circle, bolt_line,
-    circular_pocket, general_pocket,
+    CircularPocket, CycleError, GeneralPocket, PocketPlan, ProfileSegment, Stroke, bolt_arc, bolt_circle,
+    bolt_line, circular_pocket, general_pocket,
 };
 use crate::event::{Clearing, Event, TravelKind};
 use crate::fault::{CycleFault, Fault};
@@ -84,8 +84,53 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     pub(super) fn general_pocket(&mut self, state: &mut State<D>) -> Step {
         let target = self.target(state)?;
         let letter = Letter::of('P');
-        let needed = |letter: char| Fault::Cycle(CycleFault::Missing(Letter::of(letter)));
         let Some(program) = self.count(letter)? else { return Err(Fault::MissingWord(letter)) };
+        let words = self.pocket_words(&target, state)?;
+        let checked = self.check_feed(state);
+        if state.is_incremental(self.model) != Some(false) {
+            return self.pockets_by_increments(&target, state).and(checked);
+        }
+        let mut start = target;
+        start.set(Axis::Z, state.position().raw(Axis::Z));
+        let outline = self.outline(program, &start, state)?;
+        let plan = outline
+            .as_ref()
+            .and_then(|outline| outline.segments.as_ref())
+            .map_or(Err(CycleError::Unknown), |segments| general_pocket(segments, &words));
+        let compensation = state.mode(Role::Compensation).only().unwrap_or(CodeIx::NONE);
+        let mut strokes = Vec::new();
+        let mut cleared = None;
+        if let Ok(plan) = &plan {
+            let (x, y) = words.start;
+            cleared = Some(clearing(plan, &words, compensation));
+            strokes.push(Stroke::Rapid(start.xyz()));
+            strokes.push(Stroke::Rapid([x, y, words.r]));
+            strokes.extend(plan.levels.iter().map(|level| Stroke::Feed([x, y, *level])));
+        }
+        let mut end = start;
+        end.set(Axis::Z, words.r.0);
+        // Compensation belongs to the walls, and is ended by a move afterwards.
+        let held = self.hold_compensation(state)?;
+        let over_hole = plan.as_ref().ok().map(|plan| plan.end);
+        let mut outcome = self.carry_out(&strokes, plan.map(|plan| plan.end), Plane::Xy, end, state);
+        if outcome.is_ok()
+            && let Some((cleared, over_hole)) = cleared.zip(over_hole)
+        {
+            self.emit(state, Event::Cleared(Clearing { at: *state.actual(), ..cleared }));
+            self.assumptions.insert(Assumption::PocketEnd);
+            outcome = self.carry_out(&[Stroke::Rapid(over_hole)], Ok(over_hole), Plane::Xy, end, state);
+        }
+        Self::release_compensation(held.without_path(), state);
+        if let Some(outline) = outline {
+            state.modes.put(Role::Distance, outline.distance);
+        }
+        outcome?;
+        checked
+    }
+
+    /// The words of `G150`, with the radius of the tool where the pocket is compensated for it.
+    fn pocket_words(&mut self, target: &Position, state: &mut State<D>) -> Step<GeneralPocket> {
+        let needed = |letter: char| Fault::Cycle(CycleFault::Missing(Letter::of(letter)));
         if !self.words.has(Letter::of('Z')) {
             return Err(needed('Z'));
         }
@@ -118,57 +163,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if self.compensates(state) {
             words.tool_radius = Mm(self.pocket_tool_radius(state)?);
         }
-        let checked = self.check_feed(state);
-        if state.is_incremental(self.model) != Some(false) {
-            return self.pockets_by_increments(&target, state).and(checked);
-        }
-        let mut start = target;
-        start.set(Axis::Z, state.position().raw(Axis::Z));
-        let outline = self.outline(program, &start, state)?;
-        let plan = outline
-            .as_ref()
-            .and_then(|outline| outline.segments.as_ref())
-            .map_or(Err(CycleError::Unknown), |segments| general_pocket(segments, &words));
-        let compensation = state.mode(Role::Compensation).only().unwrap_or(CodeIx::NONE);
-        let mut strokes = Vec::new();
-        let mut cleared = None;
-        if let Ok(plan) = &plan {
-            let (x, y) = words.start;
-            let depth = words.r - words.bottom;
-            let length = plan.cut_length - depth;
-            cleared = Some(Clearing {
-                from: plan.low,
-                to: plan.high,
-                levels: plan.levels.len() as u32,
-                length,
-                seconds: length / words.feed,
-                counter_clockwise: plan.counter_clockwise,
-                compensation,
-                at: Position::UNKNOWN,
-            });
-            strokes.push(Stroke::Rapid(start.xyz()));
-            strokes.push(Stroke::Rapid([x, y, words.r]));
-            strokes.extend(plan.levels.iter().map(|level| Stroke::Feed([x, y, *level])));
-        }
-        let mut end = start;
-        end.set(Axis::Z, r);
-        // Compensation belongs to the walls, and is ended by a move afterwards.
-        let held = self.hold_compensation(state)?;
-        let over_hole = plan.as_ref().ok().map(|plan| plan.end);
-        let mut outcome = self.carry_out(&strokes, plan.map(|plan| plan.end), Plane::Xy, end, state);
-        if outcome.is_ok()
-            && let Some((cleared, over_hole)) = cleared.zip(over_hole)
-        {
-            self.emit(state, Event::Cleared(Clearing { at: *state.actual(), ..cleared }));
-            self.assumptions.insert(Assumption::PocketEnd);
-            outcome = self.carry_out(&[Stroke::Rapid(over_hole)], Ok(over_hole), Plane::Xy, end, state);
-        }
-        Self::release_compensation(held.without_path(), state);
-        if let Some(outline) = outline {
-            state.modes.put(Role::Distance, outline.distance);
-        }
-        outcome?;
-        checked
+        Ok(words)
     }
 
     /// `G91` with `L`: pockets side by side. What their levels count from is not known, where the last one stands is.
@@ -355,5 +350,21 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             self.emit(state, Event::Unfollowed);
         }
         Ok(cycle.filter(|ix| ix.is_some()).map(|ix| self.model.effect(ix)))
+    }
+}
+
+/// A pocket that the control clears by a plan, wherever the tool is left.
+fn clearing(plan: &PocketPlan, words: &GeneralPocket, compensation: CodeIx) -> Clearing {
+    let depth = words.r - words.bottom;
+    let length = plan.cut_length - depth;
+    Clearing {
+        from: plan.low,
+        to: plan.high,
+        levels: plan.levels.len() as u32,
+        length,
+        seconds: length / words.feed,
+        counter_clockwise: plan.counter_clockwise,
+        compensation,
+        at: Position::UNKNOWN,
     }
 }

@@ -13,7 +13,8 @@ use gcheck_controls::{CodeIx, Effect, Letter};
 use gcheck_geometry::Mm;
 
 use super::arc::plane_axes;
-use super::{Action, Ending, Executor, Flow, Outcome, Step};
+use super::order::Action;
+use super::{Ending, Executor, Flow, Outcome, Step};
 use crate::event::{Event, Travel, TravelKind};
 use crate::fault::Fault;
 use crate::lattice::{Flat, Perhaps};
@@ -225,7 +226,6 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     }
 
     /// A code was refused: it may be in effect, as it is once it is corrected, and what it was to change is not known.
-    #[expect(clippy::too_many_lines, reason = "one arm for each effect, as where codes take effect")]
     fn lose_code(&mut self, ix: CodeIx, fault: &Fault, state: &mut State<D>) {
         use Effect as E;
         let Some(code) = self.model.code(ix).copied() else { return };
@@ -238,7 +238,24 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if code.role == Some(Role::Motion) && !code.modal {
             return self.end_refused_move(fault, state);
         }
+        let _is_of_a_group = self.lose_tool_code(code.effect, state)
+            || self.lose_offset_code(code.effect, state)
+            || self.lose_transformation_code(ix, code.effect, state)
+            || self.lose_machining_code(code.effect, state)
+            || self.lose_call_code(code.effect, state);
         match code.effect {
+            E::PathBlending | E::Smoothing | E::ContourControl | E::LookAheadControl => {
+                state.blending = Blending::UNKNOWN;
+            }
+            E::ProgramEnd | E::ProgramEndWithPallet => self.flow = Some(Flow::End(Ending::Program)),
+            _ => {}
+        }
+    }
+
+    /// A code for tool, length, cutter compensation or spindle was refused. True when it is one of these.
+    fn lose_tool_code(&mut self, effect: Effect, state: &mut State<D>) -> bool {
+        use Effect as E;
+        match effect {
             E::LengthOff
             | E::LengthPlus
             | E::LengthMinus
@@ -251,8 +268,59 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             | E::CompensationRight
             | E::CompensationLeftByDiameter
             | E::CompensationRightByDiameter
-            | E::CompensationVector => self.lose_compensation(code.effect, state),
+            | E::CompensationVector => self.lose_compensation(effect, state),
+            E::SurfaceSpeed | E::ConstantSpeed => state.spindle.limit = f64::NAN,
+            E::SpindleClockwise
+            | E::SpindleCounterClockwise
+            | E::SpindleClockwiseWithCoolant
+            | E::SpindleCounterClockwiseWithCoolant
+            | E::SpindleStop
+            | E::SpindleOrient
+            | E::TapHere
+            | E::LeftTapHere => state.spindle.way = Flat::Unknown,
+            E::ToolChange => {
+                self.lose_tool(state);
+                if self.model.semantics().tools.change_cancels_length {
+                    self.lose_length(state);
+                }
+            }
+            E::SetToolNumber => {
+                state.tool.number = D::unknown();
+                state.tool.loaded.entry = Perhaps::Unknown;
+            }
+            _ => return false,
+        }
+        true
+    }
+
+    /// A code for offsets, shifts or reference points was refused. True when it is one of these.
+    fn lose_offset_code(&mut self, effect: Effect, state: &mut State<D>) -> bool {
+        use Effect as E;
+        match effect {
             E::WorkOffset(_) | E::WorkOffsetByP(_) => self.select_work_offset(None, state),
+            E::WriteOffsets => self.lose_tables(state),
+            E::LocalShift
+            | E::SetPosition
+            | E::SpeedLimitOrSetPosition
+            | E::ClearShift
+            | E::SuspendShift
+            | E::RestoreShift => {
+                state.offsets.shift = Position::UNKNOWN;
+                state.offsets.shift_on = Truth::True;
+                state.offsets.local = Position::UNKNOWN;
+                state.spindle.limit = f64::NAN;
+                state.points.lose();
+            }
+            E::ReturnReference(_) | E::ReturnFromReference => state.points.lose(),
+            _ => return false,
+        }
+        true
+    }
+
+    /// A code that transforms coordinates was refused. True when it is one of these.
+    fn lose_transformation_code(&mut self, ix: CodeIx, effect: Effect, state: &mut State<D>) -> bool {
+        use Effect as E;
+        match effect {
             E::ScalingOn | E::ScalingOff | E::RotationOn | E::RotationOff | E::MirrorOn | E::MirrorOff => {
                 state.transform = Transform::UNKNOWN;
                 state.points.lose();
@@ -272,24 +340,20 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             E::DynamicOffsetOn | E::DynamicOffsetOff | E::SquareToPlane => {
                 self.unknown_frame(ix, true, state);
             }
-            E::WriteOffsets => self.lose_tables(state),
-            E::LocalShift
-            | E::SetPosition
-            | E::SpeedLimitOrSetPosition
-            | E::ClearShift
-            | E::SuspendShift
-            | E::RestoreShift => {
-                state.offsets.shift = Position::UNKNOWN;
-                state.offsets.shift_on = Truth::True;
-                state.offsets.local = Position::UNKNOWN;
-                state.spindle.limit = f64::NAN;
-                state.points.lose();
-            }
-            E::ReturnReference(_) | E::ReturnFromReference | E::Engrave => state.points.lose(),
+            _ => return false,
+        }
+        true
+    }
+
+    /// A code that moves tool, probe or bar by itself was refused. True when it is one of these.
+    fn lose_machining_code(&mut self, effect: Effect, state: &mut State<D>) -> bool {
+        use Effect as E;
+        match effect {
+            E::Engrave => state.points.lose(),
             E::Skip | E::ProbeDiameter | E::ProbeLength | E::ProbeOffset | E::ProbeCentre => {
                 let _ = self.lose_position(state);
                 state.probe.forget();
-                if code.effect != E::Skip {
+                if effect != E::Skip {
                     self.lose_tables(state);
                 }
             }
@@ -320,36 +384,23 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 state.curve = Perhaps::No;
                 state.points.lose();
             }
+            _ => return false,
+        }
+        true
+    }
+
+    /// A call, or a code about what calls keep, was refused. True when it is one of these.
+    fn lose_call_code(&mut self, effect: Effect, state: &mut State<D>) -> bool {
+        use Effect as E;
+        match effect {
             E::MacroModal => state.calls.modal = ModalCalls::unknown(),
             E::MacroCall | E::CallProgram | E::CallLocal => {
                 let _ = self.lose_everything(state);
             }
-            E::ProgramEnd | E::ProgramEndWithPallet => self.flow = Some(Flow::End(Ending::Program)),
             E::RestoreModes => self.forget_modes(None, state),
-            E::PathBlending | E::Smoothing | E::ContourControl | E::LookAheadControl => {
-                state.blending = Blending::UNKNOWN;
-            }
-            E::SurfaceSpeed | E::ConstantSpeed => state.spindle.limit = f64::NAN,
-            E::SpindleClockwise
-            | E::SpindleCounterClockwise
-            | E::SpindleClockwiseWithCoolant
-            | E::SpindleCounterClockwiseWithCoolant
-            | E::SpindleStop
-            | E::SpindleOrient
-            | E::TapHere
-            | E::LeftTapHere => state.spindle.way = Flat::Unknown,
-            E::ToolChange => {
-                self.lose_tool(state);
-                if self.model.semantics().tools.change_cancels_length {
-                    self.lose_length(state);
-                }
-            }
-            E::SetToolNumber => {
-                state.tool.number = D::unknown();
-                state.tool.loaded.entry = Perhaps::Unknown;
-            }
-            _ => {}
+            _ => return false,
         }
+        true
     }
 
     /// Where a refused operation of one block leaves the tool: over its point, nobody knows how high.

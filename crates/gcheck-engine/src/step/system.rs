@@ -15,7 +15,6 @@ use crate::value::{Domain, Truth};
 
 impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// The value of a system variable.
-    #[expect(clippy::too_many_lines, reason = "one arm for each thing a variable may hold")]
     pub(super) fn read_system(
         &mut self,
         variable: &SystemVariable,
@@ -24,82 +23,104 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         state: &State<D>,
     ) -> Step<D::Value> {
         use SystemValue as V;
-        let axis = axis_of(variable, column);
-        let number = |value: f64| if value.is_nan() { D::unknown() } else { D::number(value) };
-        let flag = |truth: Option<bool>| truth.map_or_else(D::unknown, |t| D::number(f64::from(u8::from(t))));
-        let truth = |t: Truth| match t {
-            Truth::True => D::number(1.0),
-            Truth::False => D::number(0.0),
-            Truth::Unknown => D::unknown(),
-        };
-        let coordinate = |position: &Position| {
-            axis.map_or_else(D::unknown, |axis| {
-                number(self.in_program_units(axis, position.raw(axis), state))
-            })
-        };
-        let machine_units = |position: &Position| {
-            axis.map_or_else(D::unknown, |axis| number(self.in_table_units(axis, position.raw(axis), state)))
-        };
         // By number the position is that of a move still to come; by name it may be asked all the same.
         let by_number = variable.first.is_some() && variable.holds == V::WorkPosition;
         if by_number && self.refuses_incomplete() && self.compensates(state) {
             return Err(Fault::Compensation(CompensationFault::NotWhileOn));
         }
-        Ok(match variable.holds {
+        let value = self
+            .place_held(variable, row, column, state)
+            .or_else(|| self.tool_held(variable, column, state))
+            .or_else(|| self.mode_held(variable, state));
+        Ok(value.unwrap_or_else(|| self.program_held(variable)))
+    }
+
+    /// The value of a variable that holds a position or an offset.
+    fn place_held(
+        &self,
+        variable: &SystemVariable,
+        row: u32,
+        column: u32,
+        state: &State<D>,
+    ) -> Option<D::Value> {
+        use SystemValue as V;
+        let axis = axis_of(variable, column);
+        let coordinate = |position: &Position| {
+            axis.map_or_else(D::unknown, |axis| {
+                measured::<D>(self.in_program_units(axis, position.raw(axis), state))
+            })
+        };
+        let machine_units = |position: &Position| {
+            axis.map_or_else(D::unknown, |axis| {
+                measured::<D>(self.in_table_units(axis, position.raw(axis), state))
+            })
+        };
+        Some(match variable.holds {
             // No page says which point they show while the axes stand beside it.
             V::WorkPosition | V::EndPosition | V::LengthOffset if state.tool_shift.is_on() => D::unknown(),
             V::WorkPosition | V::EndPosition => coordinate(state.actual()),
             V::MachinePosition => coordinate(&state.machine(self.model, self.machine)),
             V::ProbePosition => coordinate(&state.probe.point),
-            V::ProbeResult => truth(state.probe.result),
+            V::ProbeResult => truth::<D>(state.probe.result),
             V::LengthOffset => coordinate(&state.tool.length),
             V::WorkOffset => {
                 let first = variable.of.as_deref().and_then(|of| of.parse::<u32>().ok()).unwrap_or(1);
                 machine_units(&state.tables().offset((first + row) as u16).origin)
             }
-            V::WorkRotation => number(state.tables().offset((row + 1) as u16).rotation),
+            V::WorkRotation => measured::<D>(state.tables().offset((row + 1) as u16).rotation),
             V::Shift => machine_units(&state.offsets.shift),
             V::LocalShift => machine_units(&state.offsets.local),
-            V::ShiftActive => truth(state.offsets.shift_on),
+            V::ShiftActive => truth::<D>(state.offsets.shift_on),
             V::WorkOffsetNumber => state.work().map_or_else(D::unknown, |n| {
                 if variable.name.is_some() { self.work_code(n) } else { D::number(f64::from(n)) }
             }),
             V::Reference1 => machine_units(&state.tables().references[0]),
             V::Reference2 => machine_units(&state.tables().references[1]),
-            V::ToolNumber => state.tool().clone(),
-            V::SelectedTool => state.selected().clone(),
-            V::ToolLength | V::ToolDiameter | V::ToolRadius | V::ToolLengthWear | V::ToolDiameterWear => {
-                let tool = match &variable.of {
-                    // A table by tool number.
-                    Some(first) => Some(first.parse::<u32>().unwrap_or(1) + column),
-                    #[expect(clippy::cast_sign_loss, reason = "tool numbers are counts")]
-                    None => D::known(state.tool()).map(|t| t as u32),
-                };
-                let Some(tool) = tool else { return Ok(D::unknown()) };
-                let Some(entry) = state.tables().tool(tool) else {
-                    return Ok(if state.tables().is_complete() { D::number(0.0) } else { D::unknown() });
-                };
-                match variable.holds {
-                    V::ToolLength => match (&variable.of, axis) {
-                        (None, Some(axis)) => {
-                            number(self.in_table_units(axis, entry.offset.raw(axis), state))
-                        }
-                        _ => number(self.in_table_units(Axis::Z, entry.offset.raw(Axis::Z), state)),
-                    },
-                    V::ToolDiameter => number(self.in_table_units(Axis::X, entry.diameter.0, state)),
-                    V::ToolLengthWear | V::ToolDiameterWear => {
-                        let [length, diameter] = entry.wear;
-                        let wear = if variable.holds == V::ToolLengthWear { length } else { diameter };
-                        // What nobody wrote may be any wear.
-                        if wear == 0.0 {
-                            D::unknown()
-                        } else {
-                            number(self.in_table_units(Axis::Z, wear, state))
-                        }
-                    }
-                    _ => number(self.in_table_units(Axis::X, entry.diameter.0 / 2.0, state)),
-                }
+            _ => return None,
+        })
+    }
+
+    /// The value of a variable that holds a tool number or what the tool table says of a tool.
+    fn tool_held(&self, variable: &SystemVariable, column: u32, state: &State<D>) -> Option<D::Value> {
+        use SystemValue as V;
+        match variable.holds {
+            V::ToolNumber => return Some(state.tool().clone()),
+            V::SelectedTool => return Some(state.selected().clone()),
+            V::ToolLength | V::ToolDiameter | V::ToolRadius | V::ToolLengthWear | V::ToolDiameterWear => {}
+            _ => return None,
+        }
+        let tool = match &variable.of {
+            // A table by tool number.
+            Some(first) => Some(first.parse::<u32>().unwrap_or(1) + column),
+            #[expect(clippy::cast_sign_loss, reason = "tool numbers are counts")]
+            None => D::known(state.tool()).map(|t| t as u32),
+        };
+        let Some(tool) = tool else { return Some(D::unknown()) };
+        let Some(entry) = state.tables().tool(tool) else {
+            return Some(if state.tables().is_complete() { D::number(0.0) } else { D::unknown() });
+        };
+        let in_table = |axis: Axis, value: f64| measured::<D>(self.in_table_units(axis, value, state));
+        Some(match variable.holds {
+            V::ToolLength => match (&variable.of, axis_of(variable, column)) {
+                (None, Some(axis)) => in_table(axis, entry.offset.raw(axis)),
+                _ => in_table(Axis::Z, entry.offset.raw(Axis::Z)),
+            },
+            V::ToolDiameter => in_table(Axis::X, entry.diameter.0),
+            V::ToolLengthWear | V::ToolDiameterWear => {
+                let [length, diameter] = entry.wear;
+                let wear = if variable.holds == V::ToolLengthWear { length } else { diameter };
+                // What nobody wrote may be any wear.
+                if wear == 0.0 { D::unknown() } else { in_table(Axis::Z, wear) }
             }
+            _ => in_table(Axis::X, entry.diameter.0 / 2.0),
+        })
+    }
+
+    /// The value of a variable that holds a mode, a word that lasts, or a switch of the machine.
+    fn mode_held(&self, variable: &SystemVariable, state: &State<D>) -> Option<D::Value> {
+        use SystemValue as V;
+        let flag = |truth: Option<bool>| truth.map_or_else(D::unknown, |t| D::number(f64::from(u8::from(t))));
+        Some(match variable.holds {
             V::ModalCode => self.modal_code(variable, state),
             V::LastWord => match variable.of.as_deref() {
                 Some("F") => state.feed_word().clone(),
@@ -120,8 +141,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             V::IsPerRevolution => flag(state.feed_mode(self.model).map(|m| m == FeedMode::PerRevolution)),
             V::SpindleOn => flag(state.spindle().map(|s| s != Spindle::Stopped)),
             V::SpindleClockwise => flag(state.spindle().map(|s| s == Spindle::Clockwise)),
-            V::MistOn => truth(state.coolant.mist),
-            V::FloodOn => truth(state.coolant.flood),
+            V::MistOn => truth::<D>(state.coolant.mist),
+            V::FloodOn => truth::<D>(state.coolant.flood),
             V::CompensationOn => {
                 let mode = state.mode(Role::Compensation).only();
                 flag(mode.map(|_| self.compensates(state)))
@@ -135,27 +156,80 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                     _ => D::unknown(),
                 }
             }
-            V::FeedOverrideOn => truth(state.feed.overridable),
-            V::SpeedOverrideOn => truth(state.spindle.overridable),
-            V::AdaptiveFeedOn => truth(state.feed.adaptive),
-            V::FeedStopOn => truth(state.feed.hold),
+            V::FeedOverrideOn => truth::<D>(state.feed.overridable),
+            V::SpeedOverrideOn => truth::<D>(state.spindle.overridable),
+            V::AdaptiveFeedOn => truth::<D>(state.feed.adaptive),
+            V::FeedStopOn => truth::<D>(state.feed.hold),
             V::LengthOffsetOn => {
                 let length = state.tool.length.values();
                 flag(length.iter().all(|l| !l.is_nan()).then(|| length.iter().any(|l| *l != 0.0)))
             }
+            V::CallLevel => D::number(f64::from(u32::try_from(state.calls.depth()).unwrap_or(1) - 1)),
+            _ => return None,
+        })
+    }
+
+    /// The value of a variable that holds something of the program or the control: a line, a level of calls, a constant.
+    fn program_held(&mut self, variable: &SystemVariable) -> D::Value {
+        use SystemValue as V;
+        match variable.holds {
             V::LineNumber => self.file(self.origin.at.file).map_or_else(D::unknown, |file| {
                 D::number(f64::from(file.loaded.line_number(self.origin.start)))
             }),
             V::Constant => {
                 variable.of.as_deref().and_then(|of| of.parse().ok()).map_or_else(D::unknown, D::number)
             }
-            V::CallLevel => D::number(f64::from(u32::try_from(state.calls.depth()).unwrap_or(1) - 1)),
             V::Alarm | V::StopWithMessage => match self.model.semantics().unset {
                 Unset::Vacant => D::vacant(),
                 Unset::Zero => D::number(0.0),
             },
             V::Unknown => D::unknown(),
-        })
+            // Answered before.
+            V::WorkPosition
+            | V::EndPosition
+            | V::MachinePosition
+            | V::ProbePosition
+            | V::ProbeResult
+            | V::LengthOffset
+            | V::WorkOffset
+            | V::WorkRotation
+            | V::Shift
+            | V::LocalShift
+            | V::ShiftActive
+            | V::WorkOffsetNumber
+            | V::Reference1
+            | V::Reference2
+            | V::ToolNumber
+            | V::SelectedTool
+            | V::ToolLength
+            | V::ToolDiameter
+            | V::ToolRadius
+            | V::ToolLengthWear
+            | V::ToolDiameterWear
+            | V::ModalCode
+            | V::LastWord
+            | V::Feed
+            | V::Speed
+            | V::IsMetric
+            | V::IsInch
+            | V::IsAbsolute
+            | V::IsIncremental
+            | V::IsInverseTime
+            | V::IsPerMinute
+            | V::IsPerRevolution
+            | V::SpindleOn
+            | V::SpindleClockwise
+            | V::MistOn
+            | V::FloodOn
+            | V::CompensationOn
+            | V::CodeActive
+            | V::FeedOverrideOn
+            | V::SpeedOverrideOn
+            | V::AdaptiveFeedOn
+            | V::FeedStopOn
+            | V::LengthOffsetOn
+            | V::CallLevel => D::unknown(),
+        }
     }
 
     fn in_program_units(&self, axis: Axis, value: f64, state: &State<D>) -> f64 {
@@ -345,5 +419,19 @@ fn axis_of(variable: &SystemVariable, column: u32) -> Option<Axis> {
             axes.chars().nth(column as usize).and_then(|c| Axis::of(Letter::of(c)))
         }
         _ => Axis::ALL.get(column as usize).copied(),
+    }
+}
+
+/// A measured number, unless nobody knows it.
+fn measured<D: Domain>(value: f64) -> D::Value {
+    if value.is_nan() { D::unknown() } else { D::number(value) }
+}
+
+/// 1 for yes and 0 for no.
+fn truth<D: Domain>(truth: Truth) -> D::Value {
+    match truth {
+        Truth::True => D::number(1.0),
+        Truth::False => D::number(0.0),
+        Truth::Unknown => D::unknown(),
     }
 }

@@ -55,6 +55,35 @@ pub(in crate::step) struct ReadProfile {
     pub(in crate::step) complete: bool,
 }
 
+/// The words of `G70` to `G72.2` where `Q` is a subprogram.
+struct LayeredWords {
+    depth: Mm,
+    increment: Mm,
+    retract: Mm,
+    nearest: Mm,
+    passes: f64,
+    units: Units,
+}
+
+impl LayeredWords {
+    #[expect(clippy::cast_sign_loss, reason = "a negative count becomes none")]
+    const fn finish(&self) -> LayeredFinish {
+        LayeredFinish { first: self.depth, last: self.nearest, passes: self.passes as u32, units: self.units }
+    }
+
+    fn roughing(&self, effect: Effect, pockets: Pockets) -> LayeredRoughing {
+        let along_x = effect == Effect::RoughAlongX;
+        LayeredRoughing {
+            direction: if along_x { RoughingDirection::AlongX } else { RoughingDirection::AlongZ },
+            increment: self.increment,
+            retract: self.retract,
+            stock: self.depth,
+            units: self.units,
+            pockets,
+        }
+    }
+}
+
 impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// `G70` to `G73` of lathes.
     pub(in crate::step) fn profile_cycle(
@@ -307,28 +336,11 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             self.opaque_operation(ix, state);
             return Ok(());
         }
-        let unit = self.unit(state);
-        let units = state.units(self.model).unwrap_or(Units::Mm);
         let target = self.target(state)?;
-        let length = |letter: char, unset: f64| self.length(Letter::of(letter), state).unwrap_or(unset);
-        let (depth, increment, retract, nearest) =
-            (length('D', 0.0), length('I', unit), length('R', 0.5 * unit), length('E', 0.0));
-        let passes = self.words.number(Letter::of('P')).map_or(1.0, f64::trunc);
+        let words = self.layered_words(state);
         self.travel(TravelKind::Rapid, target, true, state)?;
-        let at = self.origin.at;
-        let Some(sub) = self.program.find_subroutine(&OLabel::Number(label), at.file) else {
-            return Err(Fault::NoSuchProgram);
-        };
-        let end =
-            self.program.file(sub.file).and_then(|file| file.loaded.flow_graph().o_word(sub.block)?.end);
-        let Some(end) = end else { return Err(Fault::LoopMismatch) };
-        let blocks = ProfileBlocks { file: sub.file, first: sub.block + 1, last: end.saturating_sub(1) };
-        let mut scratch = state.clone();
-        let locals = Locals::new(self.model.semantics().locals[1], &D::number(0.0));
-        let frame = Frame::new(FrameKind::OWord, sub, at, Some(0));
-        scratch.calls.push(Frame { locals: Perhaps::Yes(locals), ..frame });
-        // The way to the first point was a rapid, and so is what the subprogram gives no code.
-        scratch.set_mode(Role::Motion, self.model.code_with(Effect::Rapid));
+        let blocks = self.profile_of_subprogram(label)?;
+        let mut scratch = self.in_subprogram(blocks, state);
         let profile = self.read_profile(blocks, Plane::Zx, &mut scratch)?;
         // What the subprogram leaves as motion mode and in variables stays.
         if let Some(mode) = scratch.mode(Role::Motion).only() {
@@ -342,8 +354,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let result = if !profile.complete {
             Err(CycleError::Unknown)
         } else if effect == Effect::FinishProfile {
-            #[expect(clippy::cast_sign_loss, reason = "a negative count becomes none")]
-            let words = LayeredFinish { first: Mm(depth), last: Mm(nearest), passes: passes as u32, units };
+            let words = words.finish();
             if words.passes == 0 {
                 // Nothing moves, and yet the interpreter goes on from the end of the subprogram.
                 state.points.position = *scratch.position();
@@ -353,27 +364,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 layered_finish(from, &profile.segments, &words, &mut out)
             }
         } else {
-            let variant = self.model.control().code_at(ix).map_or(0, |code| code.number().tenths() % 10);
-            let words = LayeredRoughing {
-                direction: if effect == Effect::RoughAlongX {
-                    RoughingDirection::AlongX
-                } else {
-                    RoughingDirection::AlongZ
-                },
-                increment: Mm(increment),
-                retract: Mm(retract),
-                stock: Mm(depth),
-                units,
-                pockets: match variant {
-                    1 => Pockets::PassedOver,
-                    2 => Pockets::Only,
-                    _ => Pockets::Cleared,
-                },
-            };
-            layered_roughing(from, &profile.segments, &words, &mut out)
+            layered_roughing(from, &profile.segments, &words.roughing(effect, self.pockets(ix)), &mut out)
         };
         // Moves count as those of the subprogram's last block, which is where the interpreter has got to.
-        let behind = self.origin_of(At { file: sub.file, block: end });
+        let behind = self.origin_of(At { file: blocks.file, block: blocks.last + 1 });
         if let Some(behind) = behind {
             self.observer.before(behind, state);
         }
@@ -389,6 +383,51 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         // The cycle has read the block's axis words; none are left for a motion.
         self.words.clear();
         outcome
+    }
+
+    fn layered_words(&self, state: &State<D>) -> LayeredWords {
+        let unit = self.unit(state);
+        let length = |letter: char, unset: f64| self.length(Letter::of(letter), state).unwrap_or(unset);
+        LayeredWords {
+            depth: Mm(length('D', 0.0)),
+            increment: Mm(length('I', unit)),
+            retract: Mm(length('R', 0.5 * unit)),
+            nearest: Mm(length('E', 0.0)),
+            passes: self.words.number(Letter::of('P')).map_or(1.0, f64::trunc),
+            units: state.units(self.model).unwrap_or(Units::Mm),
+        }
+    }
+
+    /// The blocks of a subprogram between its first and its last one.
+    fn profile_of_subprogram(&self, label: u32) -> Step<ProfileBlocks> {
+        let Some(sub) = self.program.find_subroutine(&OLabel::Number(label), self.origin.at.file) else {
+            return Err(Fault::NoSuchProgram);
+        };
+        let end =
+            self.program.file(sub.file).and_then(|file| file.loaded.flow_graph().o_word(sub.block)?.end);
+        let Some(end) = end else { return Err(Fault::LoopMismatch) };
+        Ok(ProfileBlocks { file: sub.file, first: sub.block + 1, last: end.saturating_sub(1) })
+    }
+
+    /// The state in which the subprogram of a profile begins.
+    fn in_subprogram(&self, blocks: ProfileBlocks, state: &State<D>) -> State<D> {
+        let mut scratch = state.clone();
+        let sub = At { file: blocks.file, block: blocks.first - 1 };
+        let locals = Locals::new(self.model.semantics().locals[1], &D::number(0.0));
+        let frame = Frame::new(FrameKind::OWord, sub, self.origin.at, Some(0));
+        scratch.calls.push(Frame { locals: Perhaps::Yes(locals), ..frame });
+        // The way to the first point was a rapid, and so is what the subprogram gives no code.
+        scratch.set_mode(Role::Motion, self.model.code_with(Effect::Rapid));
+        scratch
+    }
+
+    /// What the digit after the point of a roughing code says of pockets.
+    fn pockets(&self, ix: CodeIx) -> Pockets {
+        match self.model.control().code_at(ix).map_or(0, |code| code.number().tenths() % 10) {
+            1 => Pockets::PassedOver,
+            2 => Pockets::Only,
+            _ => Pockets::Cleared,
+        }
     }
 
     fn origin_of(&mut self, at: At) -> Option<Origin> {
