@@ -5,6 +5,9 @@
 use std::collections::BTreeSet;
 
 use crate::assumption::Assumption;
+use crate::eval::value::Concrete;
+use crate::exec::past_alarm::choose_way;
+use crate::exec::{Ending, Executor, Options, Outcome};
 use crate::fault::Fault;
 use crate::machine::Machine;
 use crate::model::Model;
@@ -13,9 +16,6 @@ use crate::origin::{At, Origin};
 use crate::program::Program;
 use crate::start::start_state;
 use crate::state::State;
-use crate::step::past_alarm::choose_way;
-use crate::step::{Ending, Executor, Options, Outcome};
-use crate::value::Concrete;
 
 /// How a run ended.
 #[derive(Debug, Clone, PartialEq)]
