@@ -130,7 +130,7 @@ enum Pieces {
     /// The same, as far as it was compared.
     Alike,
     /// Something else each.
-    Part(Parting),
+    Part(Box<Parting>),
 }
 
 /// What two sections have from those before them and have not set themselves. It is compared from their first cut on.
@@ -185,7 +185,7 @@ impl<'f, A: Iterator<Item = Placed>, B: Iterator<Item = Placed>> Comparison<'f, 
             let parting = match self.next_pieces() {
                 Pieces::Over => return,
                 Pieces::Alike => continue,
-                Pieces::Part(parting) => parting,
+                Pieces::Part(parting) => *parting,
             };
             if self.within.is_none() {
                 self.found.part(parting);
@@ -225,7 +225,9 @@ impl<'f, A: Iterator<Item = Placed>, B: Iterator<Item = Placed>> Comparison<'f, 
     fn next_pieces(&mut self) -> Pieces {
         match (&self.a.piece, &self.b.piece) {
             (None, None) => Pieces::Over,
-            (Some(_), Some(_)) => self.pieces().map_or(Pieces::Alike, Pieces::Part),
+            (Some(_), Some(_)) => {
+                self.pieces().map_or(Pieces::Alike, |parting| Pieces::Part(Box::new(parting)))
+            }
             (Some(piece), None) => {
                 let parting = Parting {
                     a: Some(piece.place()),
@@ -236,7 +238,7 @@ impl<'f, A: Iterator<Item = Placed>, B: Iterator<Item = Placed>> Comparison<'f, 
                     within: None,
                     again: None,
                 };
-                if self.a_closes() { Pieces::Over } else { Pieces::Part(parting) }
+                if self.a_closes() { Pieces::Over } else { Pieces::Part(Box::new(parting)) }
             }
             (None, Some(piece)) => {
                 let parting = Parting {
@@ -248,7 +250,7 @@ impl<'f, A: Iterator<Item = Placed>, B: Iterator<Item = Placed>> Comparison<'f, 
                     within: None,
                     again: None,
                 };
-                if self.b_closes() { Pieces::Over } else { Pieces::Part(parting) }
+                if self.b_closes() { Pieces::Over } else { Pieces::Part(Box::new(parting)) }
             }
         }
     }

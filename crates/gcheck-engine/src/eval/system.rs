@@ -183,9 +183,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 Unset::Vacant => D::vacant(),
                 Unset::Zero => D::number(0.0),
             },
-            V::Unknown => D::unknown(),
-            // Answered before.
-            V::WorkPosition
+            // All but the first were answered before.
+            V::Unknown
+            | V::WorkPosition
             | V::EndPosition
             | V::MachinePosition
             | V::ProbePosition

@@ -20,6 +20,7 @@ pub(super) enum Action {
 const MOST_ACTIONS: usize = 28;
 
 /// What a block consists of, as it is found.
+#[expect(clippy::struct_excessive_bools, reason = "independent facts of a block")]
 pub(super) struct Parts {
     actions: [(Rank, Action); MOST_ACTIONS],
     count: usize,

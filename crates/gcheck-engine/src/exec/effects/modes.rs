@@ -92,15 +92,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     /// Is cutter compensation on, as far as is known?
     pub(crate) fn compensates(&self, state: &State<D>) -> bool {
-        matches!(
-            state.effect(Role::Compensation, self.model),
-            Some(
-                Effect::CompensationLeft
-                    | Effect::CompensationRight
-                    | Effect::CompensationLeftByDiameter
-                    | Effect::CompensationRightByDiameter
-            )
-        )
+        state.effect(Role::Compensation, self.model).is_some_and(Effect::offsets_path)
     }
 
     /// Makes a code the one in effect of its role.

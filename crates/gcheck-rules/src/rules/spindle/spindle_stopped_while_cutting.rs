@@ -98,6 +98,7 @@ struct SpindleStoppedWhileCutting {
 remembers!(SpindleStoppedWhileCutting: told);
 
 /// A cut while the spindle stands.
+#[expect(clippy::struct_excessive_bools, reason = "independent facts of the cut and its program")]
 struct CutAtRest {
     stopped_by: Option<At>,
     /// The move goes by turns of the spindle.
@@ -299,7 +300,7 @@ impl PathRule for SpindleStoppedWhileCutting {
 /// Does a pass of a thread wait for the angle of the spindle? Taps that a cycle drives start and stop it themselves.
 fn is_thread(cx: &PathCx<'_>, event: &Event) -> bool {
     let Event::Travel(travel) = event else { return false };
-    let is_pass = |effect| matches!(effect, Effect::Thread | Effect::ThreadingPass | Effect::ThreadCycle);
+    let is_pass = Effect::cuts_thread;
     let by_mode = || cx.state().effect(Role::Motion, cx.model).is_some_and(is_pass);
     travel.kind == TravelKind::Thread && (cx.has_effect(is_pass) || by_mode())
 }

@@ -169,7 +169,7 @@ fn code_that_compensates(cx: &PathCx<'_>) -> Option<String> {
 }
 
 fn compensates(effect: Effect) -> bool {
-    matches!(effect, Effect::LengthPlus | Effect::LengthMinus | Effect::ToolCentrePoint)
+    effect.takes_tool_length()
 }
 
 /// Is the tool about to touch off? `None` when it needs no length for what it does.
