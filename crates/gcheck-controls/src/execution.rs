@@ -339,37 +339,6 @@ pub enum Effect {
     SecondChuckUnclamp,
 }
 
-impl Effect {
-    /// Circular interpolation, either way round.
-    pub const fn is_arc(self) -> bool {
-        matches!(self, Self::ArcClockwise | Self::ArcCounterClockwise)
-    }
-
-    /// A move toward or away from the work until the probe changes, which stays the motion mode (`G38`).
-    pub const fn is_probing_move(self) -> bool {
-        matches!(
-            self,
-            Self::ProbeToward | Self::ProbeTowardOptional | Self::ProbeAway | Self::ProbeAwayOptional
-        )
-    }
-
-    /// Goes to a place of the machine, whatever the coordinates of the part are: `G53`, `G28`, `G30`.
-    pub const fn goes_to_machine_place(self) -> bool {
-        matches!(self, Self::MachineCoordinates | Self::ReturnReference(_))
-    }
-
-    /// Starts the spindle, either way round; with coolant too.
-    pub const fn starts_spindle(self) -> bool {
-        matches!(
-            self,
-            Self::SpindleClockwise
-                | Self::SpindleCounterClockwise
-                | Self::SpindleClockwiseWithCoolant
-                | Self::SpindleCounterClockwiseWithCoolant
-        )
-    }
-}
-
 /// Where controls read one thing two ways.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]

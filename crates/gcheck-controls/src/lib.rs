@@ -14,6 +14,7 @@ mod bar_feeder;
 mod code_number;
 mod control;
 mod detect;
+mod effect_facts;
 mod execution;
 mod letter_set;
 mod loader;
@@ -30,6 +31,7 @@ pub use bar_feeder::BarFeederRules;
 pub use code_number::CodeNumber;
 pub use control::{Code, CodeIx, Control, DataOpening, GroupIx, UserCode, Variable};
 pub use detect::{Evidence, Foreign, Guess, Score, foreign, guess, may_be_for, scores};
+pub use effect_facts::EffectGroup;
 pub use execution::{
     AlongTool, ArcRules, CompensationRefusals, CompensationRules, CompensationStyle, CycleRules,
     CylinderRules, DwellWord, Effect, FeedWithRotary, Fix, HelixFeed, HelixRules, LastingEnd, LastingFrom,

@@ -110,6 +110,38 @@ impl Problems<'_> {
         if !self.control.phases().contains(&entry.phase) {
             self.say(code, format!("phase `{}` is not among the control's phases", entry.phase));
         }
+        self.prose(code, entry);
+        let lists = [&entry.requires, &entry.recommends, &entry.forbids, &entry.conflicts, &entry.cancels];
+        for item in lists.into_iter().flatten() {
+            if !self.resolves(item) {
+                self.say(code, format!("refers to `{item}`, which is not a code or group here"));
+            }
+        }
+        self.around(code, entry);
+        for item in &entry.cancelled_by {
+            if !self.resolves(item) && !is_word(item) {
+                self.say(code, format!("is cancelled by `{item}`, which is not a code, group or word here"));
+            }
+        }
+        if let Some(opens) = &entry.opens_data
+            && (!has_word(entry, &opens.letter)
+                || opens.values.is_empty()
+                || opens.values.iter().any(|value| opens.in_one_block.contains(value))
+                || !entry.cancelled_by.iter().any(|item| self.resolves(item)))
+        {
+            self.say(code, "opens lines of data by a word that it does not have, by a value that does not, or no code ends them");
+        }
+        self.words(code, entry);
+        for alarm in &entry.alarms {
+            if alarm.text.trim().is_empty() {
+                self.say(code, "has an alarm without text");
+            }
+        }
+        self.effect(entry);
+    }
+
+    /// What people read of a code.
+    fn prose(&mut self, code: &str, entry: &crate::CodeEntry) {
         for (what, text) in
             [("title", &entry.title), ("summary", &entry.summary), ("example", &entry.example)]
         {
@@ -126,28 +158,10 @@ impl Problems<'_> {
         if entry.example.contains('\n') {
             self.say(code, "example is more than one line; use `setup`");
         }
-        let lists = [&entry.requires, &entry.recommends, &entry.forbids, &entry.conflicts, &entry.cancels];
-        for item in lists.into_iter().flatten() {
-            if !self.resolves(item) {
-                self.say(code, format!("refers to `{item}`, which is not a code or group here"));
-            }
-        }
-        let seen_letter =
-            |item: &str| entry.words.iter().any(|word| word.letter == item) && Letter::parse(item).is_some();
-        self.around(code, entry);
-        for item in &entry.cancelled_by {
-            if !self.resolves(item) && !is_word(item) {
-                self.say(code, format!("is cancelled by `{item}`, which is not a code, group or word here"));
-            }
-        }
-        if let Some(opens) = &entry.opens_data
-            && (!seen_letter(&opens.letter)
-                || opens.values.is_empty()
-                || opens.values.iter().any(|value| opens.in_one_block.contains(value))
-                || !entry.cancelled_by.iter().any(|item| self.resolves(item)))
-        {
-            self.say(code, "opens lines of data by a word that it does not have, by a value that does not, or no code ends them");
-        }
+    }
+
+    /// The words of a code: each one once, with what it needs beside it.
+    fn words(&mut self, code: &str, entry: &crate::CodeEntry) {
         let mut seen = crate::LetterSet::EMPTY;
         for word in &entry.words {
             match Letter::parse(&word.letter) {
@@ -157,29 +171,7 @@ impl Problems<'_> {
                 }
                 Some(_) => {}
             }
-            for letter in word.instead.iter().chain(&word.instead_here) {
-                if Letter::parse(letter).is_none_or(|letter| self.control.letter(letter).is_none()) {
-                    self.say(code, format!("`{letter}` instead of `{}` is not an address here", word.letter));
-                }
-            }
-            self.packed(code, word);
-            for item in &word.required_with {
-                if !(is_word(item) || seen_letter(item)) || word.need != crate::Need::Conditional {
-                    self.say(code, format!("word `{}` cannot be required with `{item}`", word.letter));
-                }
-            }
-            for beside in &word.beside {
-                let bounds = [beside.min, beside.max, beside.above].into_iter().flatten().count();
-                if !beside.with.iter().all(|item| is_word(item)) || beside.with.is_empty() {
-                    self.say(code, format!("word `{}` is beside something that is not a word", word.letter));
-                }
-                if beside.refused == (bounds > 0) {
-                    self.say(code, format!("word `{}` is refused or has a range, one of them", word.letter));
-                }
-            }
-            if word.need == crate::Need::Conditional && word.when.is_none() {
-                self.say(code, format!("word `{}` is conditional but does not say when", word.letter));
-            }
+            self.word(code, entry, word);
         }
         let combined = entry.one_of.iter().chain(&entry.not_together).flatten();
         for letter in combined.flat_map(|item| item.bytes()).filter_map(Letter::new) {
@@ -187,12 +179,32 @@ impl Problems<'_> {
                 self.say(code, format!("combines `{letter}`, which is not among its words"));
             }
         }
-        for alarm in &entry.alarms {
-            if alarm.text.trim().is_empty() {
-                self.say(code, "has an alarm without text");
+    }
+
+    fn word(&mut self, code: &str, entry: &crate::CodeEntry, word: &crate::WordEntry) {
+        for letter in word.instead.iter().chain(&word.instead_here) {
+            if Letter::parse(letter).is_none_or(|letter| self.control.letter(letter).is_none()) {
+                self.say(code, format!("`{letter}` instead of `{}` is not an address here", word.letter));
             }
         }
-        self.effect(entry);
+        self.packed(code, word);
+        for item in &word.required_with {
+            if !(is_word(item) || has_word(entry, item)) || word.need != crate::Need::Conditional {
+                self.say(code, format!("word `{}` cannot be required with `{item}`", word.letter));
+            }
+        }
+        for beside in &word.beside {
+            let bounds = [beside.min, beside.max, beside.above].into_iter().flatten().count();
+            if !beside.with.iter().all(|item| is_word(item)) || beside.with.is_empty() {
+                self.say(code, format!("word `{}` is beside something that is not a word", word.letter));
+            }
+            if beside.refused == (bounds > 0) {
+                self.say(code, format!("word `{}` is refused or has a range, one of them", word.letter));
+            }
+        }
+        if word.need == crate::Need::Conditional && word.when.is_none() {
+            self.say(code, format!("word `{}` is conditional but does not say when", word.letter));
+        }
     }
 
     /// What a code takes beside its words: settings, comments, words about which pages differ.
@@ -412,6 +424,25 @@ impl Problems<'_> {
         }
         self.refusals();
         self.bar_feeder();
+        self.arguments();
+        self.addresses();
+        let named = semantics.compensation.setting.iter().chain(&semantics.arcs.straight_setting);
+        for setting in named.chain(&semantics.helix.setting) {
+            if control.setting(setting).is_none() {
+                self.say(PLACE, format!("the setting `{setting}` does not exist here"));
+            }
+        }
+        if semantics.loop_depth == Some(0) {
+            self.say(PLACE, "`loop-depth` 0 allows no loop");
+        }
+        self.lengths();
+    }
+
+    /// What calls hand over: local variables, and the addresses that fill them.
+    fn arguments(&mut self) {
+        const PLACE: &str = "semantics";
+        let control = self.control;
+        let semantics = control.semantics();
         let [first, last] = semantics.locals;
         for number in [first, last] {
             let is_local =
@@ -428,6 +459,13 @@ impl Problems<'_> {
                 self.say(PLACE, format!("the argument `{letter}` fills #{number}, which is not local"));
             }
         }
+    }
+
+    /// Addresses and axes that the semantics give a meaning of their own.
+    fn addresses(&mut self) {
+        const PLACE: &str = "semantics";
+        let control = self.control;
+        let semantics = control.semantics();
         let cycles = &semantics.cycles;
         for letter in semantics.call_repeats.iter().chain([&cycles.repeat]) {
             if !self.is_letter(letter.encode_utf8(&mut [0; 4])) {
@@ -460,16 +498,6 @@ impl Problems<'_> {
                 );
             }
         }
-        let named = semantics.compensation.setting.iter().chain(&semantics.arcs.straight_setting);
-        for setting in named.chain(&semantics.helix.setting) {
-            if control.setting(setting).is_none() {
-                self.say(PLACE, format!("the setting `{setting}` does not exist here"));
-            }
-        }
-        if semantics.loop_depth == Some(0) {
-            self.say(PLACE, "`loop-depth` 0 allows no loop");
-        }
-        self.lengths();
     }
 
     /// Refusals speak of words that their codes read, and of addresses that the control has.
@@ -702,6 +730,11 @@ fn group_of(effect: Effect) -> Option<&'static str> {
         E::CycleCancel => "canned-cycle",
         _ => return None,
     })
+}
+
+/// Does a code list the address among its words?
+fn has_word(entry: &crate::CodeEntry, letter: &str) -> bool {
+    entry.words.iter().any(|word| word.letter == letter) && Letter::parse(letter).is_some()
 }
 
 /// A word with a whole value, as data writes it: `H0`.

@@ -7,11 +7,11 @@ use std::rc::Rc;
 use gcheck_controls::{Effect, Letter};
 use gcheck_program::{Word, line_starts};
 
+use crate::eval::value::Domain;
 use crate::model::Model;
 use crate::origin::{At, Origin};
 use crate::program::Program;
 use crate::state::State;
-use crate::value::Domain;
 
 /// Finds names of files and lines of blocks; a file is read for lines when the first of its blocks is asked for.
 #[derive(Debug)]

@@ -1,7 +1,7 @@
 //! All paths of a program: what may be active before every block, and which blocks can be reached.
 //!
 //! Knows: exact execution while every condition is known, forks, joins, widening, the budget. Must not know: what blocks do
-//! (`step`), findings.
+//! (`exec`), findings.
 //!
 //! There is always a set of pending states, each at a block. As long as it holds one state only, the program is executed
 //! exactly as a run would, loops turn by turn, and what is seen holds on every path (*solo*). A condition that nobody knows
@@ -38,7 +38,9 @@ use marks::Marks;
 pub use reaching_definitions::{Choice, Decision, Fact, Facts, Parting, ReachingDefinitions};
 
 use crate::assumption::Assumption;
+use crate::eval::value::Abstract;
 use crate::event::Event;
+use crate::exec::{Ending, Executor, Options, Outcome};
 use crate::fault::Fault;
 use crate::lattice::Lattice;
 use crate::machine::Machine;
@@ -48,8 +50,6 @@ use crate::origin::{At, Origin};
 use crate::program::Program;
 use crate::start::start_state;
 use crate::state::State;
-use crate::step::{Ending, Executor, Options, Outcome};
-use crate::value::Abstract;
 
 /// What an observer of all paths is shown.
 #[derive(Clone, Copy)]

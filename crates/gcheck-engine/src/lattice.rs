@@ -52,11 +52,11 @@ macro_rules! lattice {
         }
     ) => {
         $(#[$meta])*
-        $vis struct $name $(<$domain: $crate::value::Domain>)? {
+        $vis struct $name $(<$domain: $crate::eval::value::Domain>)? {
             $( $(#[$field_meta])* $field_vis $field: $kind, )*
         }
 
-        impl $(<$domain: $crate::value::Domain>)? $crate::lattice::Lattice for $name $(<$domain>)? {
+        impl $(<$domain: $crate::eval::value::Domain>)? $crate::lattice::Lattice for $name $(<$domain>)? {
             fn join(&self, other: &Self) -> Self {
                 Self { $( $field: $crate::lattice::merged!(
                     $name.$field,
@@ -94,14 +94,14 @@ macro_rules! lattice {
             }
         }
 
-        impl $(<$domain: $crate::value::Domain>)? PartialEq for $name $(<$domain>)? {
+        impl $(<$domain: $crate::eval::value::Domain>)? PartialEq for $name $(<$domain>)? {
             fn eq(&self, other: &Self) -> bool {
                 $crate::lattice::Lattice::same(self, other)
             }
         }
 
         #[cfg(feature = "forgetful")]
-        impl $(<$domain: $crate::value::Domain>)? $name $(<$domain>)? {
+        impl $(<$domain: $crate::eval::value::Domain>)? $name $(<$domain>)? {
             /// The type with the names of its fields.
             pub(crate) const FIELDS: (&str, &[&str]) = (stringify!($name), &[$( stringify!($field) ),*]);
         }

@@ -7,7 +7,9 @@ mod assumption;
 mod block_lines;
 pub mod cycles;
 mod cylinder;
+mod eval;
 mod event;
+mod exec;
 mod fault;
 mod flow;
 #[cfg(feature = "forgetful")]
@@ -23,14 +25,14 @@ mod program;
 mod run;
 mod start;
 mod state;
-mod step;
-mod value;
-mod words;
 
 pub use assumption::{Assumption, Unsettled};
 pub use block_lines::{BlockLines, CallLine, CallLines, outline_cycle};
 pub use cylinder::Cylinder;
+pub use eval::value::*;
 pub use event::*;
+pub use exec::look::{Look, Trial};
+pub use exec::{Ending, Options};
 pub use fault::{ArcFault, CompensationFault, CornerFault, CycleFault, Fault, ValueFault};
 pub use flow::{
     Branch, Budget, Checkpoint, Choice, Decision, Fact, Facts, FlowCx, FlowObserver, FlowResult, GivenUp,
@@ -51,6 +53,3 @@ pub use state::{
     Bar, CycleWords, Diameters, Frame, FrameKind, ModeSet, NameId, State, Tables, ToolData, ToolShift, Touch,
     Transform, Variables, Way, Ways,
 };
-pub use step::look::{Look, Trial};
-pub use step::{Ending, Options, owns_axes};
-pub use value::*;

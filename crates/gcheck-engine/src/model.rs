@@ -2,6 +2,10 @@
 //!
 //! Knows: what the knowledge base says about executing. Must not know: programs, values, state.
 
+pub(crate) mod contract;
+pub(crate) mod corner_words;
+mod role;
+
 use gcheck_controls::{
     Code, CodeIx, CodeNumber, Control, Effect, GroupIx, Handling, HelixFeed, LastingFrom, Letter, LetterSet,
     Need, Semantics, SystemVariable, Unpointed, WordEntry, WordKind,
@@ -10,145 +14,10 @@ use rustc_hash::FxHashMap;
 
 use crate::event::Units;
 use crate::position::Axis;
-use crate::step::contract::{BlockContract, CodeContract};
-use crate::step::corner::CornerWords;
 
-/// What a code's modal group decides, where the engine follows it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
-#[expect(missing_docs, reason = "the names are those of the modal groups")]
-pub enum Role {
-    Motion,
-    Cycle,
-    Plane,
-    Distance,
-    ArcCentre,
-    FeedMode,
-    Units,
-    Compensation,
-    Length,
-    ReturnLevel,
-    WorkOffset,
-    PathControl,
-    SpindleMode,
-    Diameter,
-    Scaling,
-    Rotation,
-    Mirror,
-    Polar,
-    Cylinder,
-    PolarInterpolation,
-    DynamicOffset,
-    TiltedPlane,
-    MacroModal,
-}
-
-impl Role {
-    /// How many roles there are.
-    pub const COUNT: usize = 23;
-
-    /// All roles.
-    pub const ALL: [Self; Self::COUNT] = [
-        Self::Motion,
-        Self::Cycle,
-        Self::Plane,
-        Self::Distance,
-        Self::ArcCentre,
-        Self::FeedMode,
-        Self::Units,
-        Self::Compensation,
-        Self::Length,
-        Self::ReturnLevel,
-        Self::WorkOffset,
-        Self::PathControl,
-        Self::SpindleMode,
-        Self::Diameter,
-        Self::Scaling,
-        Self::Rotation,
-        Self::Mirror,
-        Self::Polar,
-        Self::Cylinder,
-        Self::PolarInterpolation,
-        Self::DynamicOffset,
-        Self::TiltedPlane,
-        Self::MacroModal,
-    ];
-
-    /// The role that an effect belongs to: which mode it switches.
-    pub const fn of(effect: Effect) -> Option<Self> {
-        use Effect as E;
-        Some(match effect {
-            E::Rapid
-            | E::Linear
-            | E::ArcClockwise
-            | E::ArcCounterClockwise
-            | E::SplineCubic
-            | E::SplineQuadratic
-            | E::NurbsOpen
-            | E::Thread
-            | E::RigidTap
-            | E::ProbeToward
-            | E::ProbeTowardOptional
-            | E::ProbeAway
-            | E::ProbeAwayOptional
-            | E::TurningPass
-            | E::ThreadingPass
-            | E::FacingPass => Self::Motion,
-            E::CycleDrill
-            | E::CycleDrillDwell
-            | E::CyclePeck
-            | E::CycleChipBreak
-            | E::CycleTap
-            | E::CycleLeftTap
-            | E::CycleBoreFeedOut
-            | E::CycleBoreStop
-            | E::CycleBackBore
-            | E::CycleBoreManual
-            | E::CycleBoreDwellManual
-            | E::CycleBoreDwell
-            | E::CycleFineBore
-            | E::CycleAlongTool(_)
-            | E::CycleCancel => Self::Cycle,
-            E::PlaneXy | E::PlaneZx | E::PlaneYz | E::PlaneSecondary => Self::Plane,
-            E::Absolute | E::Incremental => Self::Distance,
-            E::ArcCentreAbsolute | E::ArcCentreIncremental => Self::ArcCentre,
-            E::FeedInverseTime | E::FeedPerMinute | E::FeedPerRevolution => Self::FeedMode,
-            E::Inch | E::Millimetre => Self::Units,
-            E::CompensationOff
-            | E::CompensationLeft
-            | E::CompensationRight
-            | E::CompensationLeftByDiameter
-            | E::CompensationRightByDiameter
-            | E::CompensationVector => Self::Compensation,
-            E::LengthOff
-            | E::LengthPlus
-            | E::LengthMinus
-            | E::LengthFromBlock
-            | E::LengthAdd
-            | E::LengthFiveAxis
-            | E::ToolCentrePoint => Self::Length,
-            E::ReturnToInitial | E::ReturnToR => Self::ReturnLevel,
-            E::WorkOffset(_) | E::WorkOffsetByP(_) => Self::WorkOffset,
-            E::ExactPath | E::ExactStop | E::PathBlending => Self::PathControl,
-            E::SurfaceSpeed | E::ConstantSpeed => Self::SpindleMode,
-            E::DiameterOn | E::DiameterOff => Self::Diameter,
-            E::ScalingOn | E::ScalingOff => Self::Scaling,
-            E::RotationOn | E::RotationOff => Self::Rotation,
-            E::MirrorOn | E::MirrorOff => Self::Mirror,
-            E::PolarOn | E::PolarOff => Self::Polar,
-            E::CylinderMapping => Self::Cylinder,
-            E::PolarInterpolationOn | E::PolarInterpolationOff => Self::PolarInterpolation,
-            E::DynamicOffsetOn | E::DynamicOffsetOff => Self::DynamicOffset,
-            E::TiltedPlaneOn | E::TiltedPlaneOff => Self::TiltedPlane,
-            E::MacroModal | E::MacroModalOff => Self::MacroModal,
-            _ => return None,
-        })
-    }
-
-    /// A small number usable as an index.
-    pub const fn index(self) -> usize {
-        self as usize
-    }
-}
+use contract::{BlockContract, CodeContract};
+use corner_words::CornerWords;
+pub use role::Role;
 
 /// When a part of a block acts: codes by their phase, `F`, `S`, `T` and motion by the phases of those names.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -225,30 +94,44 @@ fn scaled_kinds(control: &Control) -> [Option<WordKind>; Letter::COUNT] {
     scaled
 }
 
-impl<'c> Model<'c> {
-    /// Prepares a control.
-    pub fn new(control: &'c Control) -> Self {
-        let semantics = control.semantics();
-        let phases = control.phases();
-        let rank = |name: &str| Rank(phases.iter().position(|p| p == name).unwrap_or(phases.len()) as u8);
-        let across: Vec<CodeNumber> =
-            semantics.cycles.across.iter().filter_map(|name| CodeNumber::parse(name)).collect();
-        let millimetre_distances: Vec<CodeNumber> =
-            semantics.millimetre_distances.iter().filter_map(|name| CodeNumber::parse(name)).collect();
-        let codes: Vec<CodeModel> = control
-            .codes()
-            .map(|code| CodeModel {
-                effect: code.effect(),
-                role: Role::of(code.effect()),
-                rank: rank(&code.entry().phase),
-                group: code.group_ix(),
-                modal: code.group().modal,
-                takes_axes: code.entry().takes_axes,
-                across: across.contains(&code.number()),
-                millimetre_distances: millimetre_distances.contains(&code.number()),
-            })
-            .collect();
-        let increments: Vec<(Letter, Axis)> = semantics
+/// The place of a phase in the control's order within a block.
+fn rank(control: &Control, phase: &str) -> Rank {
+    let phases = control.phases();
+    Rank(phases.iter().position(|p| p == phase).unwrap_or(phases.len()) as u8)
+}
+
+fn numbers_of(names: &[String]) -> Vec<CodeNumber> {
+    names.iter().filter_map(|name| CodeNumber::parse(name)).collect()
+}
+
+fn codes_of(control: &Control) -> Vec<CodeModel> {
+    let semantics = control.semantics();
+    let across = numbers_of(&semantics.cycles.across);
+    let millimetre_distances = numbers_of(&semantics.millimetre_distances);
+    let model = |code: gcheck_controls::Code<'_>| CodeModel {
+        effect: code.effect(),
+        role: Role::of(code.effect()),
+        rank: rank(control, &code.entry().phase),
+        group: code.group_ix(),
+        modal: code.group().modal,
+        takes_axes: code.entry().takes_axes,
+        across: across.contains(&code.number()),
+        millimetre_distances: millimetre_distances.contains(&code.number()),
+    };
+    control.codes().map(model).collect()
+}
+
+/// The axes of a control, and the addresses that move them.
+struct MachineAxes {
+    axes: Vec<Axis>,
+    letters: LetterSet,
+    by_letter: [Option<(Axis, bool)>; Letter::COUNT],
+}
+
+impl MachineAxes {
+    fn of(control: &Control) -> Self {
+        let increments: Vec<(Letter, Axis)> = control
+            .semantics()
             .increments
             .iter()
             .filter_map(|(letter, axis)| Some((Letter::parse(letter)?, Axis::of(Letter::parse(axis)?)?)))
@@ -258,18 +141,28 @@ impl<'c> Model<'c> {
             .into_iter()
             .filter(|axis| control.axes().contains(axis.letter()) && !is_increment(axis))
             .collect();
-        let axis_letters: LetterSet = axes
+        let letters: LetterSet = axes
             .iter()
             .map(|axis| axis.letter())
             .chain(increments.iter().map(|(letter, _)| *letter))
             .collect();
-        let mut axis_of = [None; Letter::COUNT];
+        let mut by_letter = [None; Letter::COUNT];
         let named = axes.iter().map(|axis| (axis.letter(), (*axis, false)));
         for (letter, entry) in named.chain(increments.iter().map(|(letter, axis)| (*letter, (*axis, true)))) {
-            if let Some(slot) = axis_of.get_mut(letter.index()) {
+            if let Some(slot) = by_letter.get_mut(letter.index()) {
                 *slot = Some(entry);
             }
         }
+        Self { axes, letters, by_letter }
+    }
+}
+
+impl<'c> Model<'c> {
+    /// Prepares a control.
+    pub fn new(control: &'c Control) -> Self {
+        let semantics = control.semantics();
+        let rank = |name: &str| rank(control, name);
+        let axes = MachineAxes::of(control);
         let argument_letters = semantics
             .argument_letters
             .iter()
@@ -284,9 +177,9 @@ impl<'c> Model<'c> {
             tool_rank: rank("tool-select"),
             motion_rank: rank("motion"),
             scaled: scaled_kinds(control),
-            axis_of,
-            axes,
-            axis_letters,
+            axis_of: axes.by_letter,
+            axes: axes.axes,
+            axis_letters: axes.letters,
             corners: CornerWords::default(),
             lasting: lasting_letters(control),
             argument_letters,
@@ -294,25 +187,17 @@ impl<'c> Model<'c> {
             named: FxHashMap::default(),
             defaults: [CodeIx::NONE; Role::COUNT],
             at_end: Vec::new(),
-            has_millimetre_distances: !millimetre_distances.is_empty(),
+            has_millimetre_distances: !numbers_of(&semantics.millimetre_distances).is_empty(),
             cycle_cancel: CodeIx::NONE,
             cycles_are_motion: false,
-            codes,
+            codes: codes_of(control),
         };
         model.index_system_variables(&semantics.system_variables);
         model.cycle_cancel = model.code_with(Effect::CycleCancel);
         if let Some(cut) = control.code_at(model.code_with(Effect::Linear)) {
             model.corners = CornerWords::of(&cut.entry().words, model.axis_letters);
         }
-        let group = |effect| model.code(model.code_with(effect)).map(|code| code.group);
-        // A control without cycles says by its cancelling code alone that no motion mode is left.
-        let cancel = control.code_at(model.cycle_cancel);
-        let ends_motion =
-            cancel.is_some_and(|code| code.entry().cancels.iter().any(|item| item == "@motion"));
-        model.cycles_are_motion = match group(Effect::CycleDrill) {
-            Some(drilling) => Some(drilling) == group(Effect::Linear),
-            None => ends_motion,
-        };
+        model.cycles_are_motion = model.has_cycles_as_motion();
         let code_of =
             |name: &String| CodeNumber::parse(name).map(|n| control.code_ix(n)).filter(|ix| ix.is_some());
         model.at_end = semantics.at_end.iter().filter_map(code_of).collect();
@@ -325,6 +210,19 @@ impl<'c> Model<'c> {
             }
         }
         model
+    }
+
+    /// Are canned cycles and motion one modal group?
+    fn has_cycles_as_motion(&self) -> bool {
+        let group = |effect| self.code(self.code_with(effect)).map(|code| code.group);
+        match group(Effect::CycleDrill) {
+            Some(drilling) => Some(drilling) == group(Effect::Linear),
+            // A control without cycles says by its cancelling code alone that no motion mode is left.
+            None => {
+                let cancel = self.control.code_at(self.cycle_cancel);
+                cancel.is_some_and(|code| code.entry().cancels.iter().any(|item| item == "@motion"))
+            }
+        }
     }
 
     /// The control.

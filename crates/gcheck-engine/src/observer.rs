@@ -3,11 +3,11 @@
 //! Knows: what is shown, and when. Must not know: what observers do with it.
 
 use crate::assumption::Assumption;
+use crate::eval::value::Domain;
 use crate::event::Event;
 use crate::fault::Fault;
 use crate::origin::Origin;
 use crate::state::State;
-use crate::value::Domain;
 
 /// Watches an execution.
 pub trait Observer<D: Domain> {

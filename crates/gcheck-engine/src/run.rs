@@ -5,6 +5,9 @@
 use std::collections::BTreeSet;
 
 use crate::assumption::Assumption;
+use crate::eval::value::Concrete;
+use crate::exec::past_alarm::choose_way;
+use crate::exec::{Ending, Executor, Options, Outcome};
 use crate::fault::Fault;
 use crate::machine::Machine;
 use crate::model::Model;
@@ -13,9 +16,6 @@ use crate::origin::{At, Origin};
 use crate::program::Program;
 use crate::start::start_state;
 use crate::state::State;
-use crate::step::past_alarm::choose_way;
-use crate::step::{Ending, Executor, Options, Outcome};
-use crate::value::Concrete;
 
 /// How a run ended.
 #[derive(Debug, Clone, PartialEq)]
@@ -90,94 +90,138 @@ pub fn run<O: Observer<Concrete>>(
 ) -> RunResult {
     let mut executor = Executor::new(program, model, machine, options, observer);
     executor.lenient = options.past_alarms;
-    let mut alarms = Alarms::default();
-    let mut undecided = BTreeSet::new();
-    let mut state = start_state::<Concrete>(model, machine, &mut executor.assumptions);
-    let mut at = At { file: 0, block: 0 };
-    let mut blocks = 0;
-    let mut surplus = 0;
-    let mut feeds = 0;
-    let mut ask_at = ASKED_EVERY;
+    let state = start_state::<Concrete>(model, machine, &mut executor.assumptions);
     // What the start rests on belongs to no block.
     executor.assumptions.take_untold();
-    let stopped = loop {
-        for assumption in executor.assumptions.take_untold() {
-            let origin = executor.origin();
-            executor.observer.assumed(origin, &assumption);
-        }
-        if blocks >= ask_at {
-            if executor.observer.stops() {
-                break Stopped::OutOfFuel;
+    let at = At { file: 0, block: 0 };
+    let mut course =
+        Course { executor, state, at, alarms: Alarms::default(), undecided: BTreeSet::new(), feeds: 0 };
+    let (stopped, blocks) = course.follow(fuel);
+    course.end(stopped, blocks)
+}
+
+/// A run under way.
+struct Course<'e, 'p, O: Observer<Concrete>> {
+    executor: Executor<'e, 'p, Concrete, O>,
+    state: State<Concrete>,
+    /// The block that comes next.
+    at: At,
+    alarms: Alarms,
+    /// Blocks whose way was chosen once.
+    undecided: BTreeSet<At>,
+    /// Bar feeds as the program began again.
+    feeds: u64,
+}
+
+impl<O: Observer<Concrete>> Course<'_, '_, O> {
+    /// Executes until the run stops: how, and after how many blocks.
+    fn follow(&mut self, fuel: u64) -> (Stopped, u64) {
+        let mut blocks = 0;
+        let mut surplus = 0;
+        let mut ask_at = ASKED_EVERY;
+        loop {
+            self.tell_assumptions();
+            if blocks >= ask_at {
+                if self.executor.observer.stops() {
+                    return (Stopped::OutOfFuel, blocks);
+                }
+                ask_at = blocks + ASKED_EVERY;
             }
-            ask_at = blocks + ASKED_EVERY;
-        }
-        if let Some(moves) = executor.plain_moves(at, &state) {
-            let most = fuel.saturating_sub(surplus);
-            while blocks < most.min(ask_at) && executor.plain_move(&moves, at, &mut state) {
-                blocks += 1;
-                at = at.next();
+            if let Some(moves) = self.executor.plain_moves(self.at, &self.state) {
+                let most = fuel.saturating_sub(surplus);
+                while blocks < most.min(ask_at) && self.executor.plain_move(&moves, self.at, &mut self.state)
+                {
+                    blocks += 1;
+                    self.at = self.at.next();
+                }
+            }
+            if blocks + surplus >= fuel {
+                return (Stopped::OutOfFuel, blocks);
+            }
+            blocks += 1;
+            let given = self.executor.events;
+            let outcome = self.executor.step(self.at, &mut self.state);
+            surplus += (self.executor.events - given).saturating_sub(FREE_EVENTS);
+            if self.goes_past_alarms()
+                && let Some(fault) = self.executor.refused_in_passing.take()
+            {
+                self.alarm(fault);
+                self.executor.give_out_bridge(&mut self.state);
+            }
+            match self.next(outcome) {
+                Ok(next) => self.at = next,
+                Err(stopped) => return (stopped, blocks),
             }
         }
-        if blocks + surplus >= fuel {
-            break Stopped::OutOfFuel;
+    }
+
+    fn tell_assumptions(&mut self) {
+        for assumption in self.executor.assumptions.take_untold() {
+            let origin = self.executor.origin();
+            self.executor.observer.assumed(origin, &assumption);
         }
-        blocks += 1;
-        let given = executor.events;
-        let outcome = executor.step(at, &mut state);
-        surplus += (executor.events - given).saturating_sub(FREE_EVENTS);
-        if options.past_alarms
-            && let Some(fault) = executor.refused_in_passing.take()
-        {
-            let origin = executor.origin();
-            alarms.add(&mut executor.observer, origin, &state, fault);
-            executor.give_out_bridge(&mut state);
-        }
+    }
+
+    /// The block after the one that had this outcome, or how the run stops there.
+    fn next(&mut self, outcome: Outcome<Concrete>) -> Result<At, Stopped> {
+        let at = self.at;
         match outcome {
-            Outcome::Next => at = at.next(),
-            Outcome::Jump(to) => at = to,
-            Outcome::End(Ending::Restart) if executor.starts_again(&state) && executor.bar_feeds > feeds => {
-                feeds = executor.bar_feeds;
-                at = At { file: 0, block: 0 };
+            Outcome::Next => Ok(at.next()),
+            Outcome::Jump(to) => Ok(to),
+            Outcome::End(Ending::Restart)
+                if self.executor.starts_again(&self.state) && self.executor.bar_feeds > self.feeds =>
+            {
+                self.feeds = self.executor.bar_feeds;
+                Ok(At { file: 0, block: 0 })
             }
-            Outcome::End(Ending::Alarm(number)) if options.past_alarms => {
-                let origin = executor.origin();
-                alarms.add(&mut executor.observer, origin, &state, Fault::Alarm(number));
-                at = at.next();
+            Outcome::End(Ending::Alarm(number)) if self.goes_past_alarms() => {
+                self.alarm(Fault::Alarm(number));
+                Ok(at.next())
             }
-            Outcome::End(ending) => break Stopped::Ended(ending),
+            Outcome::End(ending) => Err(Stopped::Ended(ending)),
             Outcome::Fork(ways) => {
-                let chosen = options.past_alarms.then(|| choose_way(at, ways, &mut undecided)).flatten();
-                let Some((to, way)) = chosen else { break Stopped::Faulted(Fault::Undecidable) };
-                let origin = executor.origin();
-                alarms.add(&mut executor.observer, origin, &state, Fault::Undecidable);
-                (at, state) = (to, way);
+                let chosen =
+                    self.goes_past_alarms().then(|| choose_way(at, ways, &mut self.undecided)).flatten();
+                let Some((to, way)) = chosen else { return Err(Stopped::Faulted(Fault::Undecidable)) };
+                self.alarm(Fault::Undecidable);
+                self.state = way;
+                Ok(to)
             }
             Outcome::Fault(fault) => {
-                if !options.past_alarms {
-                    break Stopped::Faulted(fault);
+                if !self.goes_past_alarms() {
+                    return Err(Stopped::Faulted(fault));
                 }
-                let origin = executor.origin();
-                alarms.add(&mut executor.observer, origin, &state, fault.clone());
-                match executor.go_on(at, &fault, &mut state) {
-                    Some(next) => at = next,
-                    None => break Stopped::Faulted(fault),
-                }
+                self.alarm(fault.clone());
+                let next = self.executor.go_on(at, &fault, &mut self.state);
+                next.ok_or(Stopped::Faulted(fault))
             }
         }
-    };
-    let origin = executor.origin();
-    if let Stopped::Faulted(fault) = &stopped
-        && !options.past_alarms
-    {
-        executor.observer.fault(origin, &state, fault);
     }
-    RunResult {
-        stopped,
-        origin,
-        state,
-        blocks,
-        assumptions: executor.assumptions.into_all(),
-        alarms: alarms.list,
+
+    fn goes_past_alarms(&self) -> bool {
+        self.executor.options.past_alarms
+    }
+
+    fn alarm(&mut self, fault: Fault) {
+        let origin = self.executor.origin();
+        self.alarms.add(&mut self.executor.observer, origin, &self.state, fault);
+    }
+
+    fn end(mut self, stopped: Stopped, blocks: u64) -> RunResult {
+        let origin = self.executor.origin();
+        if let Stopped::Faulted(fault) = &stopped
+            && !self.goes_past_alarms()
+        {
+            self.executor.observer.fault(origin, &self.state, fault);
+        }
+        RunResult {
+            stopped,
+            origin,
+            state: self.state,
+            blocks,
+            assumptions: self.executor.assumptions.into_all(),
+            alarms: self.alarms.list,
+        }
     }
 }
 

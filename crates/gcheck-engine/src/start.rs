@@ -5,6 +5,7 @@
 use gcheck_controls::{CodeIx, Unset};
 
 use crate::assumption::{Assumption, Assumptions};
+use crate::eval::value::{Domain, Truth};
 use crate::event::Units;
 use crate::lattice::Perhaps;
 use crate::machine::Machine;
@@ -15,7 +16,6 @@ use crate::state::{
     Mapping, ModeSet, Modes, Offsets, Points, Probe, SpindleState, State, Tables, ToolShift, ToolState,
     Transform, Variables,
 };
-use crate::value::{Domain, Truth};
 
 /// The state at the start of the main program.
 pub(crate) fn start_state<D: Domain>(

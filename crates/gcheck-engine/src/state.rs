@@ -67,13 +67,13 @@ pub(crate) use variables::{Locals, Variable};
 pub use variables::{NameId, Variables};
 
 use crate::cylinder::Cylinder;
+use crate::eval::value::{Abstract, AbstractValue, Concrete, ConcreteValue, Domain, Truth};
 use crate::event::{FeedMode, PathMode, Spindle, Units};
 use crate::lattice::{Lattice, Perhaps, lattice};
 use crate::machine::WorkOffset;
 use crate::model::{Model, Role};
 use crate::polar_plane::PolarPlane;
 use crate::position::Position;
-use crate::value::{Abstract, AbstractValue, Concrete, ConcreteValue, Domain, Truth};
 
 lattice! {
     /// Everything that the next block may depend on.

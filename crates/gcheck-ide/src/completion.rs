@@ -99,9 +99,6 @@ pub fn completion(
     let (prefix, from) = typing.prefix();
     items.from = from;
     let first = prefix.chars().next().map(|c| c.to_ascii_uppercase());
-    let is_number = |rest: Option<&str>| {
-        rest.is_some_and(|rest| rest.bytes().all(|byte| byte.is_ascii_digit() || byte == b'.'))
-    };
     let last = typing.last_before(from).map(|lexeme| lexeme.kind);
     // It opens the list in comments of ours alone.
     if first.is_none() && matches!(trigger, Some('=' | ':')) {
@@ -122,14 +119,13 @@ pub fn completion(
             Expected::Anything => {}
         }
     }
+    let mut asked = Asked { database, snapshot: &snapshot, document, typing: &typing, stop };
     match first {
         Some('#') => {
             items.variables();
             items.parameters();
             // Values of variables cost an execution: only where they are asked for.
-            with_state(database, &snapshot, document, &typing, stop, &mut |state, look| {
-                items.values(state, look);
-            });
+            asked.with_state(&mut |state, look| items.values(state, look));
         }
         _ if last == Some(SyntaxKind::GOTO_KW) => items.labels(),
         _ if typing.in_brackets() || last == Some(SyntaxKind::EQUALS) => {
@@ -140,11 +136,7 @@ pub fn completion(
             }
         }
         Some('G' | 'M') if is_number(prefix.get(1..)) => {
-            let mut active = Active::default();
-            with_state(database, &snapshot, document, &typing, stop, &mut |state, look| {
-                active = Active::of(state, look);
-            });
-            items.codes(&active, first);
+            items.codes(&asked.active(), first);
             items.keywords();
         }
         Some('O') => items.o_words(workspace),
@@ -159,10 +151,7 @@ pub fn completion(
             items.keywords();
         }
         None => {
-            let mut active = Active::default();
-            with_state(database, &snapshot, document, &typing, stop, &mut |state, look| {
-                active = Active::of(state, look);
-            });
+            let active = asked.active();
             items.words(&active);
             items.arguments(workspace);
             items.codes(&active, None);
@@ -210,6 +199,33 @@ pub fn completion_details(snapshot: &Snapshot, kind: CompletionKind, label: &str
         | CompletionKind::Label
         | CompletionKind::Program
         | CompletionKind::Control => None,
+    }
+}
+
+/// Is there nothing that a number cannot have?
+fn is_number(text: Option<&str>) -> bool {
+    text.is_some_and(|text| text.bytes().all(|byte| byte.is_ascii_digit() || byte == b'.'))
+}
+
+/// Who asks for a list, and until when.
+struct Asked<'a> {
+    database: &'a mut Database,
+    snapshot: &'a Snapshot,
+    document: DocumentId,
+    typing: &'a Typing<'a>,
+    stop: &'a dyn Fn() -> bool,
+}
+
+impl Asked<'_> {
+    fn with_state(&mut self, with: &mut dyn FnMut(&State<Abstract>, &mut Look<'_, '_>)) {
+        with_state(self.database, self.snapshot, self.document, self.typing, self.stop, with);
+    }
+
+    /// The codes in effect, as far as the state is known in time.
+    fn active(&mut self) -> Active {
+        let mut active = Active::default();
+        self.with_state(&mut |state, look| active = Active::of(state, look));
+        active
     }
 }
 

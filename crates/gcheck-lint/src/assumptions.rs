@@ -6,10 +6,9 @@ use std::collections::BTreeSet;
 
 use gcheck_controls::{CodeIx, Effect, Machine};
 use gcheck_diagnostics::StatedAssumption;
-use gcheck_engine::{Assumption, Model, Unsettled};
+use gcheck_engine::{Assumption, Axis, Model, Unsettled};
 
 /// Words for one assumption.
-#[expect(clippy::too_many_lines, reason = "one arm an assumption")]
 pub fn describe(assumption: &Assumption, model: &Model<'_>) -> StatedAssumption {
     match assumption {
         Assumption::StartMode(_, code) => {
@@ -18,57 +17,21 @@ pub fn describe(assumption: &Assumption, model: &Model<'_>) -> StatedAssumption 
         Assumption::StartPosition => {
             StatedAssumption::new("the positions of the axes at the start are not known")
         }
-        Assumption::WorkOffset(number) => {
-            let name = work_offset_name(*number, model);
-            StatedAssumption::new(format!("the work offset {name} is not known")).pin(format!(
-                "[offsets] {} = {{ {} }}",
-                key(&name),
-                axes(model)
-            ))
-        }
+        Assumption::WorkOffset(number) => work_offset(*number, model),
         Assumption::ToolLength(tool) => {
             StatedAssumption::new(format!("the length of tool {tool} is not known"))
                 .pin(format!("[tools] {tool}.length = …"))
         }
-        Assumption::ToolRadius(tool) => match model.control().machine() {
-            Machine::Mill => StatedAssumption::new(format!("the diameter of tool {tool} is not known"))
-                .pin(format!("[tools] {tool}.diameter = …")),
-            Machine::Lathe => StatedAssumption::new(format!("the nose radius of tool {tool} is not known"))
-                .pin(format!("[tools] {tool}.corner_radius = …")),
-        },
-        Assumption::ReferencePosition(number) => {
-            let code = with_effect(Effect::ReturnReference(*number), model);
-            StatedAssumption::new(match code {
-                Some(code) => format!("the reference position of `{code}` is not known"),
-                None => format!("reference position {number} is not known"),
-            })
-        }
+        Assumption::ToolRadius(tool) => tool_radius(*tool, model),
+        Assumption::ReferencePosition(number) => reference_position(*number, model),
         Assumption::Setting(number) => setting(number, model),
-        Assumption::UnpointedNumbers => {
-            let text = "numbers without a decimal point count as the control usually reads them";
-            match &model.control().numbers().unpointed_setting {
-                Some(setting) => {
-                    let number = setting.rsplit(' ').next().unwrap_or_default();
-                    StatedAssumption {
-                        pin: self::setting(number, model).pin,
-                        ..StatedAssumption::new(format!("{text} ({setting})"))
-                    }
-                }
-                None => StatedAssumption::new(text),
-            }
-        }
+        Assumption::UnpointedNumbers => unpointed_numbers(model),
         Assumption::Variable(number) => {
             StatedAssumption::new(format!("the value of `#{number}` at the start is not known"))
                 .pin(format!("[variables] \"#{number}\" = …"))
         }
-        Assumption::MissingProgram(number) => {
-            StatedAssumption::new(format!("what program {number} does is not known: it was not found"))
-                .pin("[search] paths = [\"…\"]")
-        }
-        Assumption::MissingSubroutine(name) => {
-            StatedAssumption::new(format!("what the subroutine `{name}` does is not known: it was not found"))
-                .pin("[search] paths = [\"…\"]")
-        }
+        Assumption::MissingProgram(number) => missing(&format!("program {number}")),
+        Assumption::MissingSubroutine(name) => missing(&format!("the subroutine `{name}`")),
         Assumption::BlockSkip(true) => {
             StatedAssumption::new("block delete is on: blocks with `/` were skipped")
         }
@@ -77,11 +40,7 @@ pub fn describe(assumption: &Assumption, model: &Model<'_>) -> StatedAssumption 
         }
         Assumption::OptionalStop => StatedAssumption::new("the optional stop is off: `M1` was passed over"),
         Assumption::ProbeTouch => StatedAssumption::new("probing moves touch, at unknown points"),
-        Assumption::Axis(axis) => StatedAssumption::new(format!(
-            "the machine has the axis `{}`",
-            axis.name()
-        ))
-        .pin(format!("[machine] axes = [{}, \"{}\"]", quoted_axes(model), axis.name())),
+        Assumption::Axis(axis) => has_axis(*axis, model),
         Assumption::HeadKinematics => StatedAssumption::new(
             "the head tilts in A, which carries B, and both turn by the right-hand rule",
         )
@@ -127,6 +86,57 @@ pub fn describe(assumption: &Assumption, model: &Model<'_>) -> StatedAssumption 
             StatedAssumption::new(format!("the passes of {} are not computed", named(*code, model)))
         }
     }
+}
+
+fn work_offset(number: u16, model: &Model<'_>) -> StatedAssumption {
+    let name = work_offset_name(number, model);
+    StatedAssumption::new(format!("the work offset {name} is not known")).pin(format!(
+        "[offsets] {} = {{ {} }}",
+        key(&name),
+        axes(model)
+    ))
+}
+
+fn tool_radius(tool: u32, model: &Model<'_>) -> StatedAssumption {
+    let (what, pin) = match model.control().machine() {
+        Machine::Mill => ("diameter", "diameter"),
+        Machine::Lathe => ("nose radius", "corner_radius"),
+    };
+    StatedAssumption::new(format!("the {what} of tool {tool} is not known"))
+        .pin(format!("[tools] {tool}.{pin} = …"))
+}
+
+fn reference_position(number: u8, model: &Model<'_>) -> StatedAssumption {
+    StatedAssumption::new(match with_effect(Effect::ReturnReference(number), model) {
+        Some(code) => format!("the reference position of `{code}` is not known"),
+        None => format!("reference position {number} is not known"),
+    })
+}
+
+fn unpointed_numbers(model: &Model<'_>) -> StatedAssumption {
+    let text = "numbers without a decimal point count as the control usually reads them";
+    match &model.control().numbers().unpointed_setting {
+        Some(name) => {
+            let number = name.rsplit(' ').next().unwrap_or_default();
+            StatedAssumption {
+                pin: setting(number, model).pin,
+                ..StatedAssumption::new(format!("{text} ({name})"))
+            }
+        }
+        None => StatedAssumption::new(text),
+    }
+}
+
+/// A program or subroutine is not here.
+fn missing(what: &str) -> StatedAssumption {
+    StatedAssumption::new(format!("what {what} does is not known: it was not found"))
+        .pin("[search] paths = [\"…\"]")
+}
+
+fn has_axis(axis: Axis, model: &Model<'_>) -> StatedAssumption {
+    let name = axis.name();
+    StatedAssumption::new(format!("the machine has the axis `{name}`"))
+        .pin(format!("[machine] axes = [{}, \"{name}\"]", quoted_axes(model)))
 }
 
 /// What a picture of a path says of an assumption, at the block that is the first to need it; `None` for what changes no move.

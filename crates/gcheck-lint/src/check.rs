@@ -253,36 +253,20 @@ fn check_paths(
     let out = RefCell::new(Out { collector, rules, told: Told::default(), case: None });
     let mut add = |severity: Option<Severity>, finding: Finding| out.borrow_mut().add(severity, finding);
     let mut watchers = Watchers::new(job.environment, &program, &model, file_index, &plan.path, &mut add);
-    let machine = &job.environment.machine.engine;
-    let all_paths = Task::all_paths(job.execution.work(&program));
-    let switches = switch_positions(job.execution.block_skip, file_index.block_deletes);
     let keeps = watchers.remembers_all();
-    let mut partitions = Partitions::default();
-    let mut results = Vec::new();
-    let (mut positions, mut again) = (Positions::default(), Vec::new());
-    for skip in &switches {
-        let task = Task { options: Options { skip: *skip, ..Options::NONE }, ..all_paths };
-        if results.is_empty() {
-            let mut follower =
-                Follower { watchers: &mut watchers, partitions: &mut partitions, choices: &[], keeps };
-            results.push(flow(&program, &model, machine, task, &mut follower));
-            watchers.followed();
-            if switches.len() > 1 {
-                positions = Positions::new(watchers.made());
-            }
-        } else {
-            watchers.restart(Scope::Skipping);
-            results.push(flow(&program, &model, machine, task, &mut watchers));
-            watchers.followed();
-            again.push(watchers.take_again());
-        }
-    }
+    let mut following = Following {
+        environment: job.environment,
+        program: &program,
+        model: &model,
+        work: job.execution.work(&program),
+        keeps,
+        watchers: &mut watchers,
+        partitions: Partitions::default(),
+        out: &out,
+    };
+    let switches = switch_positions(job.execution.block_skip, file_index.block_deletes);
+    let results = following.all_paths(&switches);
     let out_of_fuel = results.iter().any(FlowResult::is_incomplete);
-    // An analysis that gave up may not have come to where it would find the same.
-    if !out_of_fuel && switches.len() > 1 {
-        positions.found_again(found_by_all(again.into_iter()));
-        out.borrow_mut().collector.name_positions(&positions);
-    }
     let mut assumptions = Assumptions::new();
     for result in &results {
         assumptions.extend(result.assumptions.iter().cloned());
@@ -290,47 +274,116 @@ fn check_paths(
     let (Some((first, others)), Some(skip)) = (results.split_first(), switches.first()) else {
         return (assumptions, out_of_fuel);
     };
-    watchers.finish(first, others);
-    // The ways of the first conditions, each by itself.
-    partitions.add(&[], first.partings.iter().copied());
-    let mut left = Partitions::work(first.work);
-    while let Some(Partition { choices, begins, from }) = partitions.next() {
-        watchers.restart(Scope::OneWay);
-        out.borrow_mut().case = Some(Case::new(&choices, &program, job.environment));
-        let options = Options { skip: *skip, ..Options::NONE };
-        let task = Task { options, choices: &choices, work: all_paths.work.min(begins.saturating_add(left)) };
-        if let Some((_, memories)) = &from {
-            memories.restore(&mut watchers, |_| ());
-        }
-        let mut follower =
-            Follower { watchers: &mut watchers, partitions: &mut partitions, choices: &choices, keeps };
-        let result = match from {
-            Some((branch, _)) => flow_branch(&program, &model, machine, task, branch, &mut follower),
-            None => flow(&program, &model, machine, task, &mut follower),
-        };
-        // An analysis that gave up has not seen all that there is.
-        if !result.is_incomplete() {
-            watchers.followed();
-        }
-        left = left.saturating_sub(result.work.saturating_sub(begins));
-        if left == 0 {
-            partitions.leave_rest();
-        }
-        partitions.add(&choices, result.partings);
-    }
-    if partitions.left_some_out() {
+    following.watchers.finish(first, others);
+    if following.each_way(first, *skip) {
         assumptions.insert(Assumption::PathsJoined);
     }
-    if let Some(case) = Case::of_missing_programs(&first.assumptions) {
-        watchers.restart(Scope::OneWay);
-        out.borrow_mut().case = Some(case);
-        let options = Options { skip: *skip, keeps_what_was_set: true, ..Options::NONE };
-        let result = flow(&program, &model, machine, Task { options, ..all_paths }, &mut watchers);
+    following.as_if_all_were_here(first, *skip);
+    (assumptions, out_of_fuel)
+}
+
+/// The analyses of one file, one after the other, with the rules that watch them.
+struct Following<'f, 'w, 'c, 'o, 'k> {
+    environment: Environment<'f>,
+    program: &'f Program<'f>,
+    model: &'f Model<'f>,
+    /// Work, in blocks, that each analysis may do.
+    work: u64,
+    /// All rules say what they remember, so that a way can be followed from where it begins.
+    keeps: bool,
+    watchers: &'f mut Watchers<'w, 'c>,
+    partitions: Partitions,
+    out: &'f RefCell<Out<'o, 'k>>,
+}
+
+impl Following<'_, '_, '_, '_, '_> {
+    /// All paths, for each position of the switches of block delete.
+    fn all_paths(&mut self, switches: &[u16]) -> Vec<FlowResult> {
+        let machine = &self.environment.machine.engine;
+        let mut results = Vec::new();
+        let (mut positions, mut again) = (Positions::default(), Vec::new());
+        for skip in switches {
+            let options = Options { skip: *skip, ..Options::NONE };
+            let task = Task { options, ..Task::all_paths(self.work) };
+            if results.is_empty() {
+                let mut follower = Follower {
+                    watchers: self.watchers,
+                    partitions: &mut self.partitions,
+                    choices: &[],
+                    keeps: self.keeps,
+                };
+                results.push(flow(self.program, self.model, machine, task, &mut follower));
+                self.watchers.followed();
+                if switches.len() > 1 {
+                    positions = Positions::new(self.watchers.made());
+                }
+            } else {
+                self.watchers.restart(Scope::Skipping);
+                results.push(flow(self.program, self.model, machine, task, self.watchers));
+                self.watchers.followed();
+                again.push(self.watchers.take_again());
+            }
+        }
+        // An analysis that gave up may not have come to where it would find the same.
+        if !results.iter().any(FlowResult::is_incomplete) && switches.len() > 1 {
+            positions.found_again(found_by_all(again.into_iter()));
+            self.out.borrow_mut().collector.name_positions(&positions);
+        }
+        results
+    }
+
+    /// The ways of the first conditions, each by itself. True when there are more than are followed.
+    fn each_way(&mut self, first: &FlowResult, skip: u16) -> bool {
+        let machine = &self.environment.machine.engine;
+        self.partitions.add(&[], first.partings.iter().copied());
+        let mut left = Partitions::work(first.work);
+        while let Some(Partition { choices, begins, from }) = self.partitions.next() {
+            self.watchers.restart(Scope::OneWay);
+            self.out.borrow_mut().case = Some(Case::new(&choices, self.program, self.environment));
+            let options = Options { skip, ..Options::NONE };
+            let work = self.work.min(begins.saturating_add(left));
+            let task = Task { options, choices: &choices, work };
+            if let Some((_, memories)) = &from {
+                memories.restore(self.watchers, |_| ());
+            }
+            let mut follower = Follower {
+                watchers: self.watchers,
+                partitions: &mut self.partitions,
+                choices: &choices,
+                keeps: self.keeps,
+            };
+            let result = match from {
+                Some((branch, _)) => {
+                    flow_branch(self.program, self.model, machine, task, branch, &mut follower)
+                }
+                None => flow(self.program, self.model, machine, task, &mut follower),
+            };
+            // An analysis that gave up has not seen all that there is.
+            if !result.is_incomplete() {
+                self.watchers.followed();
+            }
+            left = left.saturating_sub(result.work.saturating_sub(begins));
+            if left == 0 {
+                self.partitions.leave_rest();
+            }
+            self.partitions.add(&choices, result.partings);
+        }
+        self.partitions.left_some_out()
+    }
+
+    /// All paths once more, as if programs that are not here left what the file set.
+    fn as_if_all_were_here(&mut self, first: &FlowResult, skip: u16) {
+        let Some(case) = Case::of_missing_programs(&first.assumptions) else { return };
+        self.watchers.restart(Scope::OneWay);
+        self.out.borrow_mut().case = Some(case);
+        let options = Options { skip, keeps_what_was_set: true, ..Options::NONE };
+        let task = Task { options, ..Task::all_paths(self.work) };
+        let machine = &self.environment.machine.engine;
+        let result = flow(self.program, self.model, machine, task, self.watchers);
         if !result.is_incomplete() {
-            watchers.followed();
+            self.watchers.followed();
         }
     }
-    (assumptions, out_of_fuel)
 }
 
 /// Passes on what the rules of the path tier find.

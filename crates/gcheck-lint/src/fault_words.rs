@@ -111,7 +111,6 @@ pub fn is_unknown_code(word: &Word) -> bool {
 }
 
 /// A fault in words; lengths are shown in `units`, those of the program.
-#[expect(clippy::too_many_lines, reason = "one line a fault")]
 pub fn words(fault: &Fault, model: &Model<'_>, block: &Written<'_>, units: Units) -> Words {
     match fault {
         Fault::Value(value) => of_value(*value),
@@ -129,29 +128,8 @@ pub fn words(fault: &Fault, model: &Model<'_>, block: &Written<'_>, units: Units
         Fault::WordRange(letter) => {
             Words::new(format!("the value of `{letter}` is outside what the code takes"))
         }
-        Fault::UnknownCode => Words::new(match &block.unknown {
-            Some(code) => format!("the control does not have the code `{code}`"),
-            None => "the control does not have this code".to_owned(),
-        })
-            .help("`gcheck codes` lists the codes; `[codes]` in gcheck.toml adds those of the shop"),
-        Fault::NotNow(refused, None) => {
-            Words::new(format!("{} cannot be carried out here", code(model, *refused)))
-                .why("the modes in effect do not allow it")
-        }
-        Fault::NotNow(refused, Some(active)) if refused == active => {
-            Words::new(format!("{} is in effect already", code(model, *refused)))
-        }
-        Fault::NotNow(refused, Some(active)) => {
-            let words = Words::new(format!(
-                "{} cannot be carried out while {} is in effect",
-                code(model, *refused),
-                code(model, *active)
-            ));
-            match ends(model, *active) {
-                Some(end) => words.help(format!("end it first, with `{end}`")),
-                None => words,
-            }
-        }
+        Fault::UnknownCode => unknown_code(block),
+        Fault::NotNow(refused, active) => not_now(*refused, *active, model),
         Fault::Malformed => Words::new("the control cannot read this block")
             .help("`gcheck check` says what is wrong with its form"),
         Fault::Conflict => conflict(block),
@@ -172,21 +150,13 @@ pub fn words(fault: &Fault, model: &Model<'_>, block: &Written<'_>, units: Units
             Words::new("the line is longer than the control reads").help("divide it into several blocks")
         }
 
-        Fault::NoFeed => Words::new("a cut without a feed rate")
-            .why("no `F` was given since the program began, or the last change of the feed mode cleared it")
-            .help("give `F` on this block or before it"),
-        Fault::NoInverseTimeFeed => Words::new("inverse-time feed, and the block has no `F`")
-            .why("in inverse time `F` is the time of one move, so that every cutting block needs its own")
-            .help("give `F` on this block"),
-        Fault::SpindleStopped => Words::new("this needs a turning spindle, and it is stopped")
-            .help("start the spindle first: `S` with `M3` or `M4`"),
-        Fault::SpindleDirection => Words::new("the spindle turns the wrong way for this cycle"),
-        Fault::NoSuchAxis(letter) => Words::new(format!("the machine has no axis `{letter}`"))
-            .help("`[machine] axes` in gcheck.toml says which axes it has"),
-        Fault::NoMotionMode => Words::new("axis words, and no code says how to move")
-            .why("no motion code is in effect: none was given, or `G80` ended it")
-            .help("write `G0`, `G1`, `G2` or `G3` on this block"),
-        Fault::NoAxisWords => Words::new("the code needs axis words, and the block has none"),
+        Fault::NoFeed
+        | Fault::NoInverseTimeFeed
+        | Fault::SpindleStopped
+        | Fault::SpindleDirection
+        | Fault::NoSuchAxis(_)
+        | Fault::NoMotionMode
+        | Fault::NoAxisWords => of_move(fault),
         Fault::Arc(arc) => of_arc(arc, units),
         Fault::Corner(corner) => of_corner(*corner, units),
         Fault::Cycle(cycle) => of_cycle(*cycle, block),
@@ -206,10 +176,76 @@ pub fn words(fault: &Fault, model: &Model<'_>, block: &Written<'_>, units: Units
             Words::new("modes are to be restored, and none were saved").help("save them before, with `M70`")
         }
 
+        Fault::NoSuchLabel(_)
+        | Fault::JumpTarget(_)
+        | Fault::NoSuchProgram
+        | Fault::TooDeep
+        | Fault::LoopMismatch
+        | Fault::StrayReturn
+        | Fault::NoProgramEnd => of_way(fault),
+        Fault::Alarm(number) => alarm(*number, None),
+    }
+}
+
+fn unknown_code(block: &Written<'_>) -> Words {
+    Words::new(match &block.unknown {
+        Some(code) => format!("the control does not have the code `{code}`"),
+        None => "the control does not have this code".to_owned(),
+    })
+    .help("`gcheck codes` lists the codes; `[codes]` in gcheck.toml adds those of the shop")
+}
+
+/// A code that the modes do not allow, or the one in effect of its group.
+fn not_now(refused: CodeIx, active: Option<CodeIx>, model: &Model<'_>) -> Words {
+    let name = code(model, refused);
+    match active {
+        None => Words::new(format!("{name} cannot be carried out here"))
+            .why("the modes in effect do not allow it"),
+        Some(active) if refused == active => Words::new(format!("{name} is in effect already")),
+        Some(active) => {
+            let words = Words::new(format!(
+                "{name} cannot be carried out while {} is in effect",
+                code(model, active)
+            ));
+            match ends(model, active) {
+                Some(end) => words.help(format!("end it first, with `{end}`")),
+                None => words,
+            }
+        }
+    }
+}
+
+/// Faults of a move: its feed, its spindle, its axes.
+fn of_move(fault: &Fault) -> Words {
+    match fault {
+        Fault::NoFeed => Words::new("a cut without a feed rate")
+            .why("no `F` was given since the program began, or the last change of the feed mode cleared it")
+            .help("give `F` on this block or before it"),
+        Fault::NoInverseTimeFeed => Words::new("inverse-time feed, and the block has no `F`")
+            .why("in inverse time `F` is the time of one move, so that every cutting block needs its own")
+            .help("give `F` on this block"),
+        Fault::SpindleStopped => Words::new("this needs a turning spindle, and it is stopped")
+            .help("start the spindle first: `S` with `M3` or `M4`"),
+        Fault::SpindleDirection => Words::new("the spindle turns the wrong way for this cycle"),
+        Fault::NoSuchAxis(letter) => Words::new(format!("the machine has no axis `{letter}`"))
+            .help("`[machine] axes` in gcheck.toml says which axes it has"),
+        Fault::NoMotionMode => Words::new("axis words, and no code says how to move")
+            .why("no motion code is in effect: none was given, or `G80` ended it")
+            .help("write `G0`, `G1`, `G2` or `G3` on this block"),
+        Fault::NoAxisWords => Words::new("the code needs axis words, and the block has none"),
+        _ => Words::new("the move cannot be made"),
+    }
+}
+
+/// Faults of the way through a program: jumps, calls, loops, its end.
+fn of_way(fault: &Fault) -> Words {
+    match fault {
         Fault::NoSuchLabel(number) => Words::new(format!("the program has no block `N{number}` to jump to")),
-        Fault::JumpTarget(number) => Words::new(format!("the jump leads to block {number}, which cannot exist"))
-            .why("sequence numbers are whole numbers from 0 on")
-            .help("correct the target, or the variables that it reads"),
+        Fault::JumpTarget(number) => {
+            Words::new(format!("the jump leads to block {number}, which cannot exist"))
+                .why("sequence numbers are whole numbers from 0 on")
+                .help("correct the target, or the variables that it reads")
+        }
         Fault::NoSuchProgram => Words::new("the called program is not found")
             .help("it may be in the folder of the program, or in one of `[search] paths` of gcheck.toml"),
         Fault::TooDeep => Words::new("calls are nested deeper than the control allows")
@@ -218,7 +254,7 @@ pub fn words(fault: &Fault, model: &Model<'_>, block: &Written<'_>, units: Units
         Fault::StrayReturn => Words::new("a return, and nothing was called"),
         Fault::NoProgramEnd => Words::new("the program ends without an end of program")
             .help("write `M2` or `M30` at its end, or `%` around it"),
-        Fault::Alarm(number) => alarm(*number, None),
+        _ => Words::new("the program cannot go on here"),
     }
 }
 

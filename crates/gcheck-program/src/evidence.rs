@@ -156,18 +156,7 @@ impl Scan {
                     self.comment(text);
                     after
                 }
-                ';' => {
-                    let after = rest.get(1..).unwrap_or_default().trim();
-                    if after.is_empty() {
-                        ""
-                    } else if rest.len() == whole.len() || is_prose(after) {
-                        self.form(SyntaxForm::SemicolonComment);
-                        self.comment(after);
-                        ""
-                    } else {
-                        after
-                    }
-                }
+                ';' => self.semicolon(rest, rest.len() == whole.len()),
                 '[' => after_brackets(rest, self),
                 '#' => self.variable(rest),
                 ':' if seen.is_head && number(rest.get(1..).unwrap_or_default()).0 > 0 => {
@@ -179,6 +168,27 @@ impl Scan {
                 c => rest.get(c.len_utf8()..).unwrap_or_default(),
             };
         }
+        self.tools_and_counts(&seen);
+        self.turning_cycles(&seen);
+        self.limits_and_increments(&seen);
+    }
+
+    /// From a semicolon on: a comment, or what follows an end of block. `is_first`: nothing of the line is in front of it.
+    fn semicolon<'t>(&mut self, rest: &'t str, is_first: bool) -> &'t str {
+        let after = rest.get(1..).unwrap_or_default().trim();
+        if after.is_empty() {
+            ""
+        } else if is_first || is_prose(after) {
+            self.form(SyntaxForm::SemicolonComment);
+            self.comment(after);
+            ""
+        } else {
+            after
+        }
+    }
+
+    /// How a line that was read calls its tool, and which axes it moves.
+    fn tools_and_counts(&mut self, seen: &Seen) {
         if seen.packed_tool && !seen.tool_change {
             self.form(SyntaxForm::PackedTool);
             if seen.short_tool {
@@ -189,6 +199,13 @@ impl Scan {
         for (count, letter) in self.blocks_with.iter_mut().zip(['X', 'Z', 'Y']) {
             *count += usize::from(seen.valued.contains(Letter::of(letter)));
         }
+        if seen.plain_tool && seen.valued.contains(Letter::of('D')) && !seen.tool_change {
+            self.form(SyntaxForm::ToolWithD);
+        }
+    }
+
+    /// In one block or in two: the cycle of a lathe on a line that was read.
+    fn turning_cycles(&mut self, seen: &Seen) {
         let has = |letter| seen.letters.contains(Letter::of(letter));
         self.units_by_cycle_number |=
             seen.unit_or_cycle && !seen.letters.intersects(LetterSet::of("DPQRUWXZ"));
@@ -196,14 +213,15 @@ impl Scan {
         if is_one_block && has('D') {
             self.form(SyntaxForm::TurningCycleOneBlock);
         }
-        if seen.plain_tool && seen.valued.contains(Letter::of('D')) && !seen.tool_change {
-            self.form(SyntaxForm::ToolWithD);
-        }
         let prepares = !seen.letters.intersects(LetterSet::of("XZUWKF"));
         let prepares_thread = seen.threading_cycle && has('P') && has('Q') && prepares;
         if seen.turning_cycle && !has('P') && has('R') && (has('U') || has('W')) || prepares_thread {
             self.form(SyntaxForm::TurningCycleTwoBlocks);
         }
+    }
+
+    /// Limits of the speed, and words that are increments whatever the mode, on a line that was read.
+    fn limits_and_increments(&mut self, seen: &Seen) {
         if seen.g50 && seen.valued.contains(Letter::of('S')) {
             self.form(SyntaxForm::SpeedLimitByG50);
         }

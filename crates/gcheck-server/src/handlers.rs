@@ -326,20 +326,6 @@ impl LanguageServer for Handlers {
 
 /// What the server can do for a client.
 fn capabilities(abilities: &Abilities) -> ServerCapabilities {
-    let texts = |list: &[&str]| list.iter().map(ToString::to_string).collect::<Vec<String>>();
-    let legend = SemanticTokensLegend {
-        token_types: gcheck_ide::TOKEN_TYPES.iter().map(|name| SemanticTokenType::new(name)).collect(),
-        token_modifiers: gcheck_ide::TOKEN_MODIFIERS
-            .iter()
-            .map(|name| SemanticTokenModifier::new(name))
-            .collect(),
-    };
-    let diagnostics = DiagnosticOptions {
-        identifier: Some(NAME.to_owned()),
-        inter_file_dependencies: true,
-        workspace_diagnostics: true,
-        work_done_progress_options: WorkDoneProgressOptions::default(),
-    };
     let first_trigger = gcheck_ide::FORMAT_TRIGGERS.first().copied().unwrap_or("\n");
     ServerCapabilities {
         position_encoding: Some(abilities.encoding.kind()),
@@ -387,18 +373,10 @@ fn capabilities(abilities: &Abilities) -> ServerCapabilities {
         folding_range_provider: Some(FoldingRangeProviderCapability::Simple(true)),
         selection_range_provider: Some(SelectionRangeProviderCapability::Simple(true)),
         call_hierarchy_provider: Some(CallHierarchyServerCapability::Simple(true)),
-        semantic_tokens_provider: Some(
-            SemanticTokensOptions {
-                legend,
-                range: Some(true),
-                full: Some(SemanticTokensFullOptions::Bool(true)),
-                ..SemanticTokensOptions::default()
-            }
-            .into(),
-        ),
+        semantic_tokens_provider: Some(semantic_tokens().into()),
         inlay_hint_provider: Some(OneOf::Left(true)),
         // A client that does not ask for diagnostics is sent them.
-        diagnostic_provider: abilities.pulls.then_some(DiagnosticServerCapabilities::Options(diagnostics)),
+        diagnostic_provider: abilities.pulls.then(|| DiagnosticServerCapabilities::Options(diagnostics())),
         execute_command_provider: Some(ExecuteCommandOptions {
             commands: texts(&COMMANDS),
             ..ExecuteCommandOptions::default()
@@ -411,5 +389,34 @@ fn capabilities(abilities: &Abilities) -> ServerCapabilities {
             file_operations: None,
         }),
         ..ServerCapabilities::default()
+    }
+}
+
+fn texts(list: &[&str]) -> Vec<String> {
+    list.iter().map(ToString::to_string).collect()
+}
+
+fn semantic_tokens() -> SemanticTokensOptions {
+    let legend = SemanticTokensLegend {
+        token_types: gcheck_ide::TOKEN_TYPES.iter().map(|name| SemanticTokenType::new(name)).collect(),
+        token_modifiers: gcheck_ide::TOKEN_MODIFIERS
+            .iter()
+            .map(|name| SemanticTokenModifier::new(name))
+            .collect(),
+    };
+    SemanticTokensOptions {
+        legend,
+        range: Some(true),
+        full: Some(SemanticTokensFullOptions::Bool(true)),
+        ..SemanticTokensOptions::default()
+    }
+}
+
+fn diagnostics() -> DiagnosticOptions {
+    DiagnosticOptions {
+        identifier: Some(NAME.to_owned()),
+        inter_file_dependencies: true,
+        workspace_diagnostics: true,
+        work_done_progress_options: WorkDoneProgressOptions::default(),
     }
 }

@@ -99,38 +99,9 @@ impl<W: Write> Canonical<W> {
 
     /// Prints the functions of one event.
     pub fn step(&mut self, step: &Step<'_>) -> io::Result<()> {
-        let (n, units) = (step.n, step.units);
+        let n = step.n;
         match step.event {
-            Event::Travel(travel) => {
-                let name = match travel.kind {
-                    TravelKind::Rapid => "STRAIGHT_TRAVERSE",
-                    TravelKind::Feed | TravelKind::Thread => "STRAIGHT_FEED",
-                    TravelKind::Probe { .. } => "STRAIGHT_PROBE",
-                };
-                self.line(n, |out| call(out, name, |out| six(out, &travel.to, units)))
-            }
-            Event::Arc(arc) => {
-                let [first, second, normal] = arc.plane.to_local(arc.to.xyz());
-                self.line(n, |out| {
-                    call(out, "ARC_FEED", |out| {
-                        list(out, [first, second, arc.centre.0, arc.centre.1].map(|mm| length(mm, units)));
-                        comma(out);
-                        integer(out, arc.turns);
-                        comma(out);
-                        fixed(out, length(normal, units), 4);
-                        comma(out);
-                        list(out, arc.to.abc().map(|degrees| degrees.0));
-                    });
-                })
-            }
-            Event::Curve(curve) => self.line(n, |out| {
-                call(out, "NURBS_FEED", |out| {
-                    whole(out, u64::from(curve.points));
-                    out.extend_from_slice(b", ...");
-                });
-            }),
-            Event::RigidTap { to, .. } => self
-                .line(n, |out| call(out, "RIGID_TAP", |out| list(out, to.xyz().map(|mm| length(mm, units))))),
+            Event::Travel(_) | Event::Arc(_) | Event::Curve(_) | Event::RigidTap { .. } => self.motion(step),
             Event::Dwell(seconds) => self.number(n, "DWELL", seconds.0),
             Event::ToolTableEntry(entry) => self.line(n, |out| tool_entry(out, entry)),
             Event::Stop(kind) => self.stop(n, kind),
@@ -140,26 +111,12 @@ impl<W: Write> Canonical<W> {
             Event::Output { index, value, analog, with_move } => {
                 self.output(n, *index, *value, *analog, *with_move)
             }
-            Event::Chuck(clamped) => {
-                self.quoted(n, "COMMENT", if *clamped { "chuck clamped" } else { "chuck unclamped" })
-            }
-            Event::BarSetup(_) => self.quoted(n, "COMMENT", "bar feeder set up"),
-            Event::BarUnload(_) => self.quoted(n, "COMMENT", "bar unloaded"),
-            Event::BarLoad => self.quoted(n, "COMMENT", "new bar loaded"),
-            Event::BarPush(by) => self.line(n, |out| {
-                out.extend_from_slice(b"COMMENT(\"bar pushed by ");
-                fixed(out, length(*by, units), 4);
-                out.extend_from_slice(b"\")");
-            }),
-            Event::UserCommand { number, p, q } => self.line(n, |out| {
-                out.extend_from_slice(b"COMMENT(\"user command ");
-                whole(out, u64::from(*number));
-                out.push(b' ');
-                fixed(out, *p, 4);
-                out.push(b' ');
-                fixed(out, *q, 4);
-                out.extend_from_slice(b"\")");
-            }),
+            Event::Chuck(_)
+            | Event::BarSetup(_)
+            | Event::BarUnload(_)
+            | Event::BarLoad
+            | Event::BarPush(_)
+            | Event::UserCommand { .. } => self.comment(step),
             // The interface has nothing for them and the interpreter says nothing.
             Event::Modal(_)
             | Event::DataRow(_)
@@ -194,6 +151,71 @@ impl<W: Write> Canonical<W> {
             | Event::SpindleMode(_)
             | Event::SpindleSync { .. }
             | Event::Coolant { .. } => self.spindle(step),
+        }
+    }
+
+    fn motion(&mut self, step: &Step<'_>) -> io::Result<()> {
+        let (n, units) = (step.n, step.units);
+        match step.event {
+            Event::Travel(travel) => {
+                let name = match travel.kind {
+                    TravelKind::Rapid => "STRAIGHT_TRAVERSE",
+                    TravelKind::Feed | TravelKind::Thread => "STRAIGHT_FEED",
+                    TravelKind::Probe { .. } => "STRAIGHT_PROBE",
+                };
+                self.line(n, |out| call(out, name, |out| six(out, &travel.to, units)))
+            }
+            Event::Arc(arc) => {
+                let [first, second, normal] = arc.plane.to_local(arc.to.xyz());
+                self.line(n, |out| {
+                    call(out, "ARC_FEED", |out| {
+                        list(out, [first, second, arc.centre.0, arc.centre.1].map(|mm| length(mm, units)));
+                        comma(out);
+                        integer(out, arc.turns);
+                        comma(out);
+                        fixed(out, length(normal, units), 4);
+                        comma(out);
+                        list(out, arc.to.abc().map(|degrees| degrees.0));
+                    });
+                })
+            }
+            Event::Curve(curve) => self.line(n, |out| {
+                call(out, "NURBS_FEED", |out| {
+                    whole(out, u64::from(curve.points));
+                    out.extend_from_slice(b", ...");
+                });
+            }),
+            Event::RigidTap { to, .. } => self
+                .line(n, |out| call(out, "RIGID_TAP", |out| list(out, to.xyz().map(|mm| length(mm, units))))),
+            _ => Ok(()),
+        }
+    }
+
+    /// What the interface has no function for, and a reader wants to know.
+    fn comment(&mut self, step: &Step<'_>) -> io::Result<()> {
+        let (n, units) = (step.n, step.units);
+        match step.event {
+            Event::Chuck(clamped) => {
+                self.quoted(n, "COMMENT", if *clamped { "chuck clamped" } else { "chuck unclamped" })
+            }
+            Event::BarSetup(_) => self.quoted(n, "COMMENT", "bar feeder set up"),
+            Event::BarUnload(_) => self.quoted(n, "COMMENT", "bar unloaded"),
+            Event::BarLoad => self.quoted(n, "COMMENT", "new bar loaded"),
+            Event::BarPush(by) => self.line(n, |out| {
+                out.extend_from_slice(b"COMMENT(\"bar pushed by ");
+                fixed(out, length(*by, units), 4);
+                out.extend_from_slice(b"\")");
+            }),
+            Event::UserCommand { number, p, q } => self.line(n, |out| {
+                out.extend_from_slice(b"COMMENT(\"user command ");
+                whole(out, u64::from(*number));
+                out.push(b' ');
+                fixed(out, *p, 4);
+                out.push(b' ');
+                fixed(out, *q, 4);
+                out.extend_from_slice(b"\")");
+            }),
+            _ => Ok(()),
         }
     }
 

@@ -123,6 +123,16 @@ struct Comparison<'f, A: Iterator<Item = Placed>, B: Iterator<Item = Placed>> {
     found: &'f mut Differences,
 }
 
+/// What two runs do next.
+enum Pieces {
+    /// No move that counts is left.
+    Over,
+    /// The same, as far as it was compared.
+    Alike,
+    /// Something else each.
+    Part(Box<Parting>),
+}
+
 /// What two sections have from those before them and have not set themselves. It is compared from their first cut on.
 #[derive(Default)]
 struct Inherited {
@@ -151,21 +161,7 @@ impl<'f, A: Iterator<Item = Placed>, B: Iterator<Item = Placed>> Comparison<'f, 
             // A move that is not done on one side, while the other one is: what is there is one-sided.
             let mut before_a = self.a.advance(self.found);
             let mut before_b = self.b.advance(self.found);
-            let are_over = [self.a.is_over(), self.b.is_over()];
-            if are_over[0] != are_over[1] {
-                // That one ends while the other goes on is told as such.
-                for stands in [&mut before_a, &mut before_b] {
-                    stands.retain(|(_, act)| act.doing != Doing::Stand(Stand::End));
-                }
-            }
-            if are_over != [false; 2] && self.within.as_ref().is_some_and(Within::ends_one_program) {
-                // What the programs do between two tools, and at their end, are two things: what is left to compare is how
-                // the last cut ends.
-                let ends_a_cut = self.leaving.is_some();
-                for stands in [&mut before_a, &mut before_b] {
-                    stands.retain(|(_, act)| ends_a_cut && act.waits());
-                }
-            }
+            self.leave_out_ends([&mut before_a, &mut before_b]);
             // One of them may be in its next section because the other one goes on where it does not. If the paths part
             // here, what is of that section is compared from its begin on.
             let section = self.a.section.max(self.b.section);
@@ -186,44 +182,11 @@ impl<'f, A: Iterator<Item = Placed>, B: Iterator<Item = Placed>> Comparison<'f, 
                     continue;
                 }
             }
-            let parting = match (&self.a.piece, &self.b.piece) {
-                (None, None) => return,
-                (Some(_), Some(_)) => match self.pieces() {
-                    Some(parting) => parting,
-                    None => continue,
-                },
-                (Some(piece), None) => {
-                    let parting = Parting {
-                        a: Some(piece.place()),
-                        b: self.b.last.take(),
-                        at: self.b.at,
-                        to: [Some(piece.curve.end()), None],
-                        apart: f64::NAN,
-                        within: None,
-                        again: None,
-                    };
-                    if self.a_closes() {
-                        return;
-                    }
-                    parting
-                }
-                (None, Some(piece)) => {
-                    let parting = Parting {
-                        a: self.a.last.take(),
-                        b: Some(piece.place()),
-                        at: self.a.at,
-                        to: [None, Some(piece.curve.end())],
-                        apart: f64::NAN,
-                        within: None,
-                        again: None,
-                    };
-                    if self.b_closes() {
-                        return;
-                    }
-                    parting
-                }
+            let parting = match self.next_pieces() {
+                Pieces::Over => return,
+                Pieces::Alike => continue,
+                Pieces::Part(parting) => *parting,
             };
-            let mut over = self.found.another_digest();
             if self.within.is_none() {
                 self.found.part(parting);
                 return;
@@ -234,15 +197,75 @@ impl<'f, A: Iterator<Item = Placed>, B: Iterator<Item = Placed>> Comparison<'f, 
                 self.a.back.extend(late(before_a));
                 self.b.back.extend(late(before_b));
             }
-            let (told, next) = self.next_section();
-            self.a.begin(next, &mut over);
-            self.b.begin(next, &mut over);
-            (self.leaving, self.inherited) = (None, Some(Inherited::default()));
-            self.found.pass_over(&over);
-            let at = self.within.as_ref().and_then(|within| within.at(told));
-            let (within, again) = at.map(|(sections, again)| (Box::new(sections), again)).unzip();
-            self.found.part(Parting { within, again: again.flatten(), ..parting });
+            self.part_in_sections(parting);
         }
+    }
+
+    /// Leaves out of what the runs do between two moves what belongs to their ends.
+    fn leave_out_ends(&mut self, both: [&mut Vec<Placed>; 2]) {
+        let are_over = [self.a.is_over(), self.b.is_over()];
+        let is_one_over = are_over[0] != are_over[1];
+        // What the programs do between two tools, and at their end, are two things: what is left to compare is how
+        // the last cut ends.
+        let ends_a_section =
+            are_over != [false; 2] && self.within.as_ref().is_some_and(Within::ends_one_program);
+        let ends_a_cut = self.leaving.is_some();
+        for stands in both {
+            if is_one_over {
+                // That one ends while the other goes on is told as such.
+                stands.retain(|(_, act)| act.doing != Doing::Stand(Stand::End));
+            }
+            if ends_a_section {
+                stands.retain(|(_, act)| ends_a_cut && act.waits());
+            }
+        }
+    }
+
+    /// Compares the moves that come next.
+    fn next_pieces(&mut self) -> Pieces {
+        match (&self.a.piece, &self.b.piece) {
+            (None, None) => Pieces::Over,
+            (Some(_), Some(_)) => {
+                self.pieces().map_or(Pieces::Alike, |parting| Pieces::Part(Box::new(parting)))
+            }
+            (Some(piece), None) => {
+                let parting = Parting {
+                    a: Some(piece.place()),
+                    b: self.b.last.take(),
+                    at: self.b.at,
+                    to: [Some(piece.curve.end()), None],
+                    apart: f64::NAN,
+                    within: None,
+                    again: None,
+                };
+                if self.a_closes() { Pieces::Over } else { Pieces::Part(Box::new(parting)) }
+            }
+            (None, Some(piece)) => {
+                let parting = Parting {
+                    a: self.a.last.take(),
+                    b: Some(piece.place()),
+                    at: self.a.at,
+                    to: [None, Some(piece.curve.end())],
+                    apart: f64::NAN,
+                    within: None,
+                    again: None,
+                };
+                if self.b_closes() { Pieces::Over } else { Pieces::Part(Box::new(parting)) }
+            }
+        }
+    }
+
+    /// The paths part; they are compared again from a section on that both have.
+    fn part_in_sections(&mut self, parting: Parting) {
+        let mut over = self.found.another_digest();
+        let (told, next) = self.next_section();
+        self.a.begin(next, &mut over);
+        self.b.begin(next, &mut over);
+        (self.leaving, self.inherited) = (None, Some(Inherited::default()));
+        self.found.pass_over(&over);
+        let at = self.within.as_ref().and_then(|within| within.at(told));
+        let (within, again) = at.map(|(sections, again)| (Box::new(sections), again)).unzip();
+        self.found.part(Parting { within, again: again.flatten(), ..parting });
     }
 
     /// Where the paths part: in which section that is, and from which one on they are compared again.

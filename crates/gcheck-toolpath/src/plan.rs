@@ -157,6 +157,18 @@ fn corners(rules: &CornerRules, machine: &Machine, model: &Model<'_>) -> Corners
     }
 }
 
+/// How moves meet by a mode of the program.
+fn meeting_of(mode: PathMode) -> Meeting {
+    match mode {
+        PathMode::ExactStop => Meeting::Stop,
+        PathMode::ExactPath => Meeting::Exact,
+        PathMode::Blending { tolerance, naive } => Meeting::Rounded {
+            tolerance: Some(tolerance).filter(|tolerance| tolerance.0 > 0.0),
+            merge: naive.unwrap_or(tolerance),
+        },
+    }
+}
+
 /// Makes items of the events of a run. Has to see every event, in order.
 #[derive(Debug, Clone)]
 pub(crate) struct Items {
@@ -193,14 +205,7 @@ impl Items {
         let halts = |halt| self.plan.halts_for(halt);
         match step.event {
             Event::PathMode(mode) => {
-                self.meeting = match mode {
-                    PathMode::ExactStop => Meeting::Stop,
-                    PathMode::ExactPath => Meeting::Exact,
-                    PathMode::Blending { tolerance, naive } => Meeting::Rounded {
-                        tolerance: Some(*tolerance).filter(|tolerance| tolerance.0 > 0.0),
-                        merge: naive.unwrap_or(*tolerance),
-                    },
-                };
+                self.meeting = meeting_of(*mode);
                 each(Item::Meeting(self.effective()));
             }
             Event::ExactStop => self.stops_once = true,
@@ -216,27 +221,7 @@ impl Items {
                     each(Item::Corners(if *on { contour } else { self.plan.machine.control.corners }));
                 }
             }
-            Event::Spindle(_) | Event::SpindleSpeed(_) => {
-                let halt = match step.event {
-                    Event::Spindle(turns) => {
-                        self.turns = *turns;
-                        Halt::Spindle
-                    }
-                    _ => Halt::SpindleSpeed,
-                };
-                if self.plan.halts_for(halt) {
-                    each(Item::Halt);
-                }
-                // Under constant surface speed the spindle follows the tool.
-                if !surface && step.rpm.is_finite() {
-                    let speed = match self.turns {
-                        Spindle::Clockwise => step.rpm,
-                        Spindle::CounterClockwise => -step.rpm,
-                        Spindle::Stopped => 0.0,
-                    };
-                    each(Item::Spindle { speed: Rpm(speed), tag });
-                }
-            }
+            Event::Spindle(_) | Event::SpindleSpeed(_) => self.spindle(step, surface, tag, each),
             Event::OrientSpindle { .. } => each(Item::Orient { tag }),
             Event::Coolant { .. } | Event::Chuck(_) | Event::UserCommand { .. } => {
                 if halts(Halt::Auxiliary) {
@@ -275,6 +260,29 @@ impl Items {
                 each(Item::Meeting(self.effective()));
             }
             _ => {}
+        }
+    }
+
+    /// The items of a change of the spindle.
+    fn spindle<T>(&mut self, step: &Step<'_>, surface: bool, tag: T, mut each: impl FnMut(Item<T>)) {
+        let halt = match step.event {
+            Event::Spindle(turns) => {
+                self.turns = *turns;
+                Halt::Spindle
+            }
+            _ => Halt::SpindleSpeed,
+        };
+        if self.plan.halts_for(halt) {
+            each(Item::Halt);
+        }
+        // Under constant surface speed the spindle follows the tool.
+        if !surface && step.rpm.is_finite() {
+            let speed = match self.turns {
+                Spindle::Clockwise => step.rpm,
+                Spindle::CounterClockwise => -step.rpm,
+                Spindle::Stopped => 0.0,
+            };
+            each(Item::Spindle { speed: Rpm(speed), tag });
         }
     }
 

@@ -201,39 +201,10 @@ impl Plot {
     pub fn finish(mut self) -> Drawing {
         // An axis that nobody ever knew, as Y on most lathes, is not drawn; a point of which only a part is known cannot be.
         let drawn: Vec<usize> = (0..3).filter(|axis| self.all.range(*axis).is_some()).collect();
-        let mut kept = 0;
-        let mut is_gap = true;
-        for at in 0..self.points.len() {
-            let Some(mut point) = self.points.get(at).copied() else { break };
-            let is_known = (0..3).all(|axis| {
-                !drawn.contains(&axis) || point.at.get(axis).is_some_and(|value| value.is_finite())
-            });
-            if !is_known {
-                is_gap = true;
-                continue;
-            }
-            for (axis, value) in point.at.iter_mut().enumerate() {
-                if !drawn.contains(&axis) {
-                    *value = 0.0;
-                }
-            }
-            if is_gap {
-                point.kind = Kind::Start;
-                is_gap = false;
-            }
-            if let Some(slot) = self.points.get_mut(kept) {
-                *slot = point;
-                kept += 1;
-            }
-        }
-        self.points.truncate(kept);
+        self.keep_known(&drawn);
         for alarm in &mut self.alarms {
             alarm.at = alarm.at.and_then(|mut at| {
-                for (axis, value) in at.iter_mut().enumerate() {
-                    if !drawn.contains(&axis) {
-                        *value = 0.0;
-                    }
-                }
+                flatten(&mut at, &drawn);
                 at.iter().all(|value| value.is_finite()).then_some(at)
             });
         }
@@ -284,6 +255,32 @@ impl Plot {
             left_out: self.left_out.into_missing(&drawn),
             assumed: self.assumed,
         }
+    }
+
+    /// Keeps the points that are known on all drawn axes; after a gap the path starts anew.
+    fn keep_known(&mut self, drawn: &[usize]) {
+        let mut kept = 0;
+        let mut is_gap = true;
+        for at in 0..self.points.len() {
+            let Some(mut point) = self.points.get(at).copied() else { break };
+            let is_known = (0..3).all(|axis| {
+                !drawn.contains(&axis) || point.at.get(axis).is_some_and(|value| value.is_finite())
+            });
+            if !is_known {
+                is_gap = true;
+                continue;
+            }
+            flatten(&mut point.at, drawn);
+            if is_gap {
+                point.kind = Kind::Start;
+                is_gap = false;
+            }
+            if let Some(slot) = self.points.get_mut(kept) {
+                *slot = point;
+                kept += 1;
+            }
+        }
+        self.points.truncate(kept);
     }
 
     /// The tool is another one from this block on.
@@ -550,6 +547,15 @@ fn distance(from: &Position, to: &Position) -> f64 {
 /// Coordinates in single precision: 0.00006 mm at a metre.
 fn single(at: &Position) -> [f32; 3] {
     at.xyz().map(|value| value.0 as f32)
+}
+
+/// Puts a point onto the drawn axes.
+fn flatten<T: Default>(at: &mut [T; 3], drawn: &[usize]) {
+    for (axis, value) in at.iter_mut().enumerate() {
+        if !drawn.contains(&axis) {
+            *value = T::default();
+        }
+    }
 }
 
 /// Smallest and largest coordinates, without the noise of computing; zero on axes that are unknown.

@@ -262,6 +262,50 @@ impl Section {
         self.offsets.iter().fold(Bounds::EMPTY, |all, used| all.union(&used.extents))
     }
 
+    /// How a cut is made: feed, speed, and what the edge of the tool does.
+    fn add_rates(
+        &mut self,
+        rpm: f64,
+        feed: Option<(f64, FeedMode)>,
+        surface: Option<f64>,
+        (load, speed): (Option<f64>, Option<f64>),
+    ) {
+        match feed {
+            Some((feed, _)) if feed <= 0.0 => {}
+            Some((feed, FeedMode::PerMinute)) => self.feeds.per_minute.add(feed),
+            Some((feed, FeedMode::PerRevolution)) => self.feeds.per_revolution.add(feed),
+            Some((feed, FeedMode::InverseTime)) => self.feeds.inverse_time.add(feed),
+            None => {}
+        }
+        match surface {
+            None => self.speeds.add(rpm),
+            Some(speed) => self.surface_speeds.add(speed),
+        }
+        if let Some(load) = load {
+            self.chip_loads.add(load);
+        }
+        if let Some(speed) = speed {
+            self.edge_speeds.add(speed);
+        }
+    }
+
+    /// Where a move goes, in the work offset of this number and on the machine.
+    fn add_extents(&mut self, step: &Step<'_>, motion: &Motion, work: Option<u16>, cuts: bool) {
+        let mut extents = Bounds::EMPTY;
+        include(&mut extents, &motion.from, false);
+        include(&mut extents, &motion.to, true);
+        if let Some(arc) = &motion.arc {
+            extents.include_bounds(&arc.bounds());
+        }
+        self.offset(work).include_bounds(&extents);
+        if cuts {
+            self.cut.include_bounds(&extents);
+            self.tip.include_bounds(&tilted_tip(step).unwrap_or(extents));
+        }
+        include(&mut self.machine, &motion.machine_from, false);
+        include(&mut self.machine, &motion.machine, true);
+    }
+
     fn take_corners(&mut self, mode: CornerMode) {
         if self.corners.last() != Some(&mode)
             && self.corners.len() < MAX_CORNER_MODES
@@ -695,39 +739,9 @@ impl Statistics {
             if !is_of_cycle(step.event) {
                 section.take_corners(corners);
             }
-            match feed {
-                Some((feed, _)) if feed <= 0.0 => {}
-                Some((feed, FeedMode::PerMinute)) => section.feeds.per_minute.add(feed),
-                Some((feed, FeedMode::PerRevolution)) => section.feeds.per_revolution.add(feed),
-                Some((feed, FeedMode::InverseTime)) => section.feeds.inverse_time.add(feed),
-                None => {}
-            }
-            match surface {
-                None => section.speeds.add(step.rpm),
-                Some(speed) => section.surface_speeds.add(speed),
-            }
-            let (load, speed) = edge;
-            if let Some(load) = load {
-                section.chip_loads.add(load);
-            }
-            if let Some(speed) = speed {
-                section.edge_speeds.add(speed);
-            }
+            section.add_rates(step.rpm, feed, surface, edge);
         }
-
-        let mut extents = Bounds::EMPTY;
-        include(&mut extents, &motion.from, false);
-        include(&mut extents, &motion.to, true);
-        if let Some(arc) = &motion.arc {
-            extents.include_bounds(&arc.bounds());
-        }
-        section.offset(work).include_bounds(&extents);
-        if cuts {
-            section.cut.include_bounds(&extents);
-            section.tip.include_bounds(&tilted_tip(step).unwrap_or(extents));
-        }
-        include(&mut section.machine, &motion.machine_from, false);
-        include(&mut section.machine, &motion.machine, true);
+        section.add_extents(step, motion, work, cuts);
         section.unaccounted.machine += u64::from(view.axes().any(|axis| motion.machine.raw(axis).is_nan()));
         match machine_arc {
             Some((arc, Some(machine))) => section.machine.include_bounds(&machine.bounds(motion, &arc)),

@@ -106,38 +106,8 @@ fn line(out: &mut Vec<u8>, cell: &mut Vec<u8>, view: View, step: &Step<'_>, reco
     let name = record.kind.name().as_bytes();
     out.extend_from_slice(name);
     out.extend(std::iter::repeat_n(b' ', 7_usize.saturating_sub(name.len())));
-    let units = step.units;
     if let Some(path) = &record.path {
-        for axis in view.axes() {
-            let value = view.coordinate(axis, path.to.raw(axis), units);
-            right(out, cell, WIDTH, |out| {
-                if value.is_finite() {
-                    // A negative zero is a zero to a reader.
-                    let value = if value.abs() < 0.000_05 { 0.0 } else { value };
-                    fixed(out, value, 4);
-                } else {
-                    out.push(b'?');
-                }
-            });
-        }
-        right(out, cell, 11, |out| {
-            if let Some((feed, _)) = path.feed {
-                brief(out, feed, 4, "?");
-            }
-        });
-        right(out, cell, 10, |out| seconds(out, record.seconds));
-        match path.feed {
-            Some((_, FeedMode::PerRevolution)) => out.extend_from_slice(b"  per turn"),
-            Some((_, FeedMode::InverseTime)) => out.extend_from_slice(b"  inverse time"),
-            _ => {}
-        }
-        if path.arc.is_some() {
-            out.extend_from_slice(b"  ");
-            arc(out, view, path, units);
-        }
-        if let Some(why) = step.beside {
-            beside(out, view, path, why, units);
-        }
+        move_cells(out, cell, view, step, path, record.seconds);
         return;
     }
     let empty = view.axes().count() * WIDTH + 11;
@@ -151,29 +121,8 @@ fn line(out: &mut Vec<u8>, cell: &mut Vec<u8>, view: View, step: &Step<'_>, reco
     if record.action.is_some() && record.value.is_none() && record.text.is_none() {
         out.extend_from_slice(record.action.unwrap_or_default().as_bytes());
     }
-    if let Some((name, value)) = record.value {
-        let before = match record.action {
-            Some("push") => "push ",
-            Some("on") => "diameter ",
-            Some("cut") => "cut ",
-            Some("setup") => "setup, mode ",
-            Some("unload") => "unload, left ",
-            Some("orient") => "to ",
-            Some("change") => "T",
-            Some("set") => "now T",
-            _ => "",
-        };
-        out.extend_from_slice(before.as_bytes());
-        // Programs in inches give surface speeds in feet.
-        let is_feet = name == "metres_per_minute" && step.units == Units::Inch;
-        brief(out, if is_feet { value * 1000.0 / 25.4 / 12.0 } else { value }, 4, "?");
-        out.extend_from_slice(match name {
-            "rpm" => b" rpm".as_slice(),
-            "metres_per_minute" if is_feet => b" ft/min",
-            "metres_per_minute" => b" m/min",
-            "degrees" => b" deg",
-            _ => b"",
-        });
+    if let Some(value) = record.value {
+        value_of_action(out, record.action, value, step.units);
     }
     if let Some(text) = record.text {
         if record.value.is_some() {
@@ -181,6 +130,67 @@ fn line(out: &mut Vec<u8>, cell: &mut Vec<u8>, view: View, step: &Step<'_>, reco
         }
         out.extend(text.bytes().map(|byte| if byte < b' ' { b' ' } else { byte }));
     }
+}
+
+/// The cells of a move: where it goes, its feed and time, its arc, and why the tool is beside the programmed point.
+fn move_cells(out: &mut Vec<u8>, cell: &mut Vec<u8>, view: View, step: &Step<'_>, path: &Path, took: f64) {
+    let units = step.units;
+    for axis in view.axes() {
+        let value = view.coordinate(axis, path.to.raw(axis), units);
+        right(out, cell, WIDTH, |out| {
+            if value.is_finite() {
+                // A negative zero is a zero to a reader.
+                let value = if value.abs() < 0.000_05 { 0.0 } else { value };
+                fixed(out, value, 4);
+            } else {
+                out.push(b'?');
+            }
+        });
+    }
+    right(out, cell, 11, |out| {
+        if let Some((feed, _)) = path.feed {
+            brief(out, feed, 4, "?");
+        }
+    });
+    right(out, cell, 10, |out| seconds(out, took));
+    match path.feed {
+        Some((_, FeedMode::PerRevolution)) => out.extend_from_slice(b"  per turn"),
+        Some((_, FeedMode::InverseTime)) => out.extend_from_slice(b"  inverse time"),
+        _ => {}
+    }
+    if path.arc.is_some() {
+        out.extend_from_slice(b"  ");
+        arc(out, view, path, units);
+    }
+    if let Some(why) = step.beside {
+        beside(out, view, path, why, units);
+    }
+}
+
+/// The number that belongs to an action, with its unit.
+fn value_of_action(out: &mut Vec<u8>, action: Option<&str>, (name, value): (&str, f64), units: Units) {
+    let before = match action {
+        Some("push") => "push ",
+        Some("on") => "diameter ",
+        Some("cut") => "cut ",
+        Some("setup") => "setup, mode ",
+        Some("unload") => "unload, left ",
+        Some("orient") => "to ",
+        Some("change") => "T",
+        Some("set") => "now T",
+        _ => "",
+    };
+    out.extend_from_slice(before.as_bytes());
+    // Programs in inches give surface speeds in feet.
+    let is_feet = name == "metres_per_minute" && units == Units::Inch;
+    brief(out, if is_feet { value * 1000.0 / 25.4 / 12.0 } else { value }, 4, "?");
+    out.extend_from_slice(match name {
+        "rpm" => b" rpm".as_slice(),
+        "metres_per_minute" if is_feet => b" ft/min",
+        "metres_per_minute" => b" m/min",
+        "degrees" => b" deg",
+        _ => b"",
+    });
 }
 
 fn seconds(out: &mut Vec<u8>, value: f64) {

@@ -278,22 +278,7 @@ fn page(
         The sample is stratified: of each rule, severity and control six findings or one in twenty, in the order of a hash, or all there are.\n\
         The false share is the one of all findings, each stratum counted by its size.\n",
     );
-    text.push_str("\n## Findings for 1,000 lines\n\n| control | programs | lines | errors | warnings | infos | hints |\n|---|---|---|---|---|---|---|\n");
-    for (control, count) in counts {
-        let per =
-            |severity: &str| per_thousand(count.by_severity.get(severity).copied().unwrap_or(0), count.lines);
-        let _ = writeln!(
-            text,
-            "| `{control}` | {} | {} | {} | {} | {} | {} |",
-            count.programs,
-            count.lines,
-            per("error"),
-            per("warning"),
-            per("info"),
-            per("hint")
-        );
-    }
-
+    per_control(&mut text, counts);
     let mut by_stratum: BTreeMap<&Stratum, Vec<&Verdict>> = BTreeMap::new();
     let mut unread = 0;
     for one in sample {
@@ -333,6 +318,29 @@ fn page(
     for ((rule, severity), tally) in &by_rule {
         let _ = writeln!(text, "| [{rule}](rules/{rule}.md) | {severity} | {} |", tally.cells());
     }
+    not_right(&mut text, sample, verdicts);
+    text
+}
+
+fn per_control(text: &mut String, counts: &BTreeMap<String, Counts>) {
+    text.push_str("\n## Findings for 1,000 lines\n\n| control | programs | lines | errors | warnings | infos | hints |\n|---|---|---|---|---|---|---|\n");
+    for (control, count) in counts {
+        let per =
+            |severity: &str| per_thousand(count.by_severity.get(severity).copied().unwrap_or(0), count.lines);
+        let _ = writeln!(
+            text,
+            "| `{control}` | {} | {} | {} | {} | {} | {} |",
+            count.programs,
+            count.lines,
+            per("error"),
+            per("warning"),
+            per("info"),
+            per("hint")
+        );
+    }
+}
+
+fn not_right(text: &mut String, sample: &[Found], verdicts: &BTreeMap<(String, String), Verdict>) {
     text.push_str("\n## What was not right, or not clear\n\n| finding | verdict | why |\n|---|---|---|\n");
     for one in sample {
         let Some(verdict) = verdicts.get(&key(one)) else { continue };
@@ -348,7 +356,6 @@ fn page(
             one.program, one.line, verdict.reason
         );
     }
-    text
 }
 
 #[expect(clippy::cast_precision_loss, reason = "counts, far below 2^53")]

@@ -6,6 +6,7 @@ mod circles;
 mod deny;
 mod forms;
 mod layers;
+mod lengths;
 mod links;
 mod modules;
 mod names;
@@ -72,6 +73,7 @@ fn check_files(files: &[TextFile]) -> anyhow::Result<Vec<Problem>> {
     modules::mark_test_files(&mut rust);
     for file in &rust {
         problems.extend(forms::problems(file));
+        problems.extend(lengths::problems(file));
         problems.extend(names::problems(file, &banned));
         problems.extend(surroundings::problems(file));
     }

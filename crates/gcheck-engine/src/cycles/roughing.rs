@@ -64,25 +64,67 @@ pub fn roughing(
     if words.depth <= Mm::ZERO {
         return Err(CycleFault::NotPositive(Letter::of(letter)).into());
     }
-    let mut cuts = cuts((z0, x0), profile)?;
-    // A rapid at the end that goes back over what was cut takes the tool away; it is no part of the shape.
-    while let [.., before, Cut::Line { from, to, rapid: true }] = cuts.as_slice() {
-        let way = |(z, x): Point| if along_x { x } else { z };
-        let forth = way(before.to()) - way((z0.0, x0.0));
-        if (way(*to) - way(*from)) * forth >= 0.0 {
-            break;
-        }
-        cuts.pop();
-    }
+    let cuts = shape((z0.0, x0.0), cuts((z0, x0), profile)?, along_x);
     let view = View::of(&cuts, along_x)?;
     let cuts: Vec<Cut> = cuts.iter().map(|cut| view.inward(cut)).collect();
     let (u0, v0) = view.point((z0.0, x0.0));
     let (Some(first), Some(last)) = (cuts.first(), cuts.last()) else {
         return Err(ProfileFault::Empty.into());
     };
+    check_shape(&cuts, first, (u0, v0), words.pockets)?;
 
+    let shift = view.point((stock_z.0, stock_x.0));
+    let shifted: Vec<Cut> = cuts.iter().map(|cut| cut.shifted(shift)).collect();
+    let wall: Vec<Cut> = shifted.iter().skip(1).flat_map(Cut::monotonic_pieces).collect();
+    let deepest = wall.iter().map(|piece| piece.to().1).fold(first.to().1 + shift.1, f64::max);
+    let depth = words.depth.0;
+    if (deepest - v0) / depth > f64::from(MAX_STROKES) {
+        return Err(CycleError::TooManyStrokes);
+    }
+
+    let mut sink = Sink::new(from, out);
+    let layers = Layers {
+        view: &view,
+        y,
+        start: (u0, v0),
+        end: last.to().0 + shift.0,
+        retract: words.retract.0.abs(),
+        by_feed: matches!(first, Cut::Line { rapid: false, .. } | Cut::Arc { .. }),
+    };
+    let mut layer = 1.0;
+    while v0 + layer * depth < deepest - SLACK {
+        layers.cut(&mut sink, &wall, v0 + layer * depth)?;
+        layer += 1.0;
+    }
+    // Once along the profile, the stock still on it.
+    let point = |point: Point| view.back(point, y);
+    sink.rapid_if_elsewhere(point((u0 + shift.0, v0)))?;
+    for cut in &shifted {
+        put_cut(&mut sink, &view.outward(cut), y)?;
+    }
+    let (u, _) = view.point(zx(sink.at));
+    sink.rapid_if_elsewhere(point((u, v0)))?;
+    sink.rapid_if_elsewhere(from)?;
+    Ok(sink.at)
+}
+
+/// A profile without the rapid at its end that goes back over what was cut: it takes the tool away and is not of the shape.
+fn shape(start: Point, mut cuts: Vec<Cut>, along_x: bool) -> Vec<Cut> {
+    while let [.., before, Cut::Line { from, to, rapid: true }] = cuts.as_slice() {
+        let way = |(z, x): Point| if along_x { x } else { z };
+        let forth = way(before.to()) - way(start);
+        if (way(*to) - way(*from)) * forth >= 0.0 {
+            break;
+        }
+        cuts.pop();
+    }
+    cuts
+}
+
+/// Can a profile be cut in layers from a start point?
+fn check_shape(cuts: &[Cut], first: &Cut, (u0, v0): Point, pockets: bool) -> Result<(), CycleError> {
     let both = (first.to().0 - u0).abs() > SLACK;
-    if both && !words.pockets {
+    if both && !pockets {
         return Err(ProfileFault::FirstPiece.into());
     }
     for (index, cut) in cuts.iter().enumerate().skip(1) {
@@ -97,51 +139,41 @@ pub fn roughing(
             }
         }
     }
+    Ok(())
+}
 
-    let shift = view.point((stock_z.0, stock_x.0));
-    let shifted: Vec<Cut> = cuts.iter().map(|cut| cut.shifted(shift)).collect();
-    let wall: Vec<Cut> = shifted.iter().skip(1).flat_map(Cut::monotonic_pieces).collect();
-    let deepest = wall.iter().map(|piece| piece.to().1).fold(first.to().1 + shift.1, f64::max);
-    let end = last.to().0 + shift.0;
-    let by_feed = matches!(first, Cut::Line { rapid: false, .. } | Cut::Arc { .. });
-    let depth = words.depth.0;
-    let retract = words.retract.0.abs();
-    if (deepest - v0) / depth > f64::from(MAX_STROKES) {
-        return Err(CycleError::TooManyStrokes);
-    }
+/// What the layers of a roughing cycle have in common.
+struct Layers<'v> {
+    view: &'v View,
+    y: Mm,
+    start: Point,
+    end: f64,
+    retract: f64,
+    by_feed: bool,
+}
 
-    let mut sink = Sink::new(from, out);
-    let point = |point: Point| view.back(point, y);
-    let mut layer = 1.0;
-    while v0 + layer * depth < deepest - SLACK {
-        let level = v0 + layer * depth;
-        layer += 1.0;
-        for (index, (begin, stop)) in below(&wall, level, u0, end).into_iter().enumerate() {
+impl Layers<'_> {
+    /// One layer at its level, up to the wall, and back to its begin.
+    fn cut(&self, sink: &mut Sink<'_>, wall: &[Cut], level: f64) -> Result<(), CycleError> {
+        let (u0, v0) = self.start;
+        let point = |point: Point| self.view.back(point, self.y);
+        for (index, (begin, stop)) in below(wall, level, u0, self.end).into_iter().enumerate() {
             if index == 0 {
-                if by_feed { sink.feed(point((u0, level))) } else { sink.rapid(point((u0, level))) }?;
+                if self.by_feed { sink.feed(point((u0, level))) } else { sink.rapid(point((u0, level))) }?;
             } else {
                 // Into a pocket: over the work, then down.
-                let (u, _) = view.point(zx(sink.at));
+                let (u, _) = self.view.point(zx(sink.at));
                 sink.rapid(point((u, v0)))?;
                 sink.rapid(point((begin, v0)))?;
                 sink.feed(point((begin, level)))?;
             }
             sink.feed(point((stop, level)))?;
-            let up = (level - retract).max(v0);
-            sink.rapid_if_elsewhere(point(((stop - retract).max(u0), up)))?;
+            let up = (level - self.retract).max(v0);
+            sink.rapid_if_elsewhere(point(((stop - self.retract).max(u0), up)))?;
         }
-        let (_, up) = view.point(zx(sink.at));
-        sink.rapid_if_elsewhere(point((u0, up)))?;
+        let (_, up) = self.view.point(zx(sink.at));
+        sink.rapid_if_elsewhere(point((u0, up)))
     }
-    // Once along the profile, the stock still on it.
-    sink.rapid_if_elsewhere(point((u0 + shift.0, v0)))?;
-    for cut in &shifted {
-        put_cut(&mut sink, &view.outward(cut), y)?;
-    }
-    let (u, _) = view.point(zx(sink.at));
-    sink.rapid_if_elsewhere(point((u, v0)))?;
-    sink.rapid_if_elsewhere(from)?;
-    Ok(sink.at)
 }
 
 /// The finishing pass: once along the profile, then back to where it began.

@@ -11,9 +11,9 @@ use std::rc::Rc;
 
 use super::heads::Heads;
 use super::reaching_definitions::{Choice, ReachingDefinitions};
+use crate::eval::value::Abstract;
 use crate::origin::At;
 use crate::state::State;
-use crate::value::Abstract;
 
 /// A way of a condition, from where it begins.
 #[derive(Debug, Clone)]

@@ -8,9 +8,9 @@ use super::budget::GivenUp;
 use super::marks::Marks;
 use super::reaching_definitions::{Facts, Parting, ReachingDefinitions};
 use crate::assumption::Assumption;
+use crate::eval::value::Abstract;
 use crate::origin::At;
 use crate::state::State;
-use crate::value::Abstract;
 
 /// A place where one state stands for all paths, the main program is under way, and nothing in front is come back to: what
 /// follows depends on this alone.

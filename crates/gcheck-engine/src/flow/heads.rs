@@ -11,9 +11,9 @@ use std::rc::Rc;
 
 use rustc_hash::{FxHashMap, FxHasher};
 
+use crate::eval::value::Abstract;
 use crate::origin::At;
 use crate::state::State;
-use crate::value::Abstract;
 
 /// The start of a loop.
 #[derive(Debug, Clone)]

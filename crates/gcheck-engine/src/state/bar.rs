@@ -8,9 +8,9 @@
 
 use gcheck_geometry::Mm;
 
+use crate::eval::value::Truth;
 use crate::lattice::{Lattice, lattice};
 use crate::machine::Machine;
-use crate::value::Truth;
 
 lattice! {
     /// The bar in the chuck, and those that wait.

@@ -8,9 +8,9 @@ use std::rc::Rc;
 use super::bar::BarCommand;
 use super::saved::SavedModes;
 use super::variables::Locals;
+use crate::eval::value::{Domain, Truth};
 use crate::lattice::{Flat, Lattice, May, Perhaps, discrete, lattice, merged};
 use crate::origin::At;
-use crate::value::{Domain, Truth};
 
 /// How a program was entered.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]

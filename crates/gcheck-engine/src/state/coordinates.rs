@@ -8,11 +8,11 @@ use gcheck_geometry::{Arrangement, Degrees, Frame, Kinematics, Mm, Plane};
 use nalgebra::{Matrix3, Vector3};
 
 use super::State;
+use crate::eval::value::Domain;
 use crate::lattice::Perhaps;
 use crate::machine::{Machine, WorkOffset};
 use crate::model::{Model, Role};
 use crate::position::{Axis, Position};
-use crate::value::Domain;
 
 /// How the linear axes follow the points of the program.
 #[derive(Debug, Clone, Copy)]

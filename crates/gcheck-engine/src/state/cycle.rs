@@ -4,8 +4,8 @@
 
 use gcheck_controls::{Letter, LetterSet};
 
+use crate::eval::value::Truth;
 use crate::lattice::lattice;
-use crate::value::Truth;
 
 lattice! {
     /// Words of a canned cycle that stay in effect, millimetres; NaN not given, or not known.

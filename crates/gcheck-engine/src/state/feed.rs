@@ -3,8 +3,8 @@
 //! Knows: the feed as it counts and as it was written, which overrides are allowed. Must not know: moves, times.
 
 use super::mode_set::ModeSet;
+use crate::eval::value::{Domain, Truth};
 use crate::lattice::lattice;
-use crate::value::{Domain, Truth};
 
 lattice! {
     /// The feed.

@@ -21,9 +21,9 @@ use super::tool_shift::ToolShift;
 use super::transform::Transform;
 use super::turning::TurningWords;
 use super::{Bar, State};
+use crate::eval::value::Abstract;
 use crate::forgetful::Field;
 use crate::machine::WorkOffset;
-use crate::value::Abstract;
 
 /// Structures whose lattice is written by hand, with the fields that they join.
 const BY_HAND: [(&str, &[&str]); 13] = [

@@ -5,10 +5,10 @@
 use std::rc::Rc;
 
 use super::tables::Tables;
+use crate::eval::value::Truth;
 use crate::lattice::{Flat, lattice};
 use crate::machine::WorkOffset;
 use crate::position::{Axis, Position};
-use crate::value::Truth;
 
 lattice! {
     /// Offsets in effect, and the tables that they come from.

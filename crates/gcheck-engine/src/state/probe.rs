@@ -3,9 +3,9 @@
 //! Knows: which axes moved and which way, how two memories join. Must not know: where the probe touched (nobody does
 //! beforehand), codes, tables.
 
+use crate::eval::value::Truth;
 use crate::lattice::{Lattice, lattice};
 use crate::position::{Axis, Position};
-use crate::value::Truth;
 
 lattice! {
     /// What probing moves left.

@@ -4,11 +4,11 @@
 
 use super::mode_set::ModeSet;
 use super::path_mode::Blending;
+use crate::eval::value::Truth;
 use crate::event::Spindle;
 use crate::lattice::{Flat, lattice};
 use crate::model::Role;
 use crate::position::Position;
-use crate::value::Truth;
 
 lattice! {
     /// Modes saved by `M70` or `M73`.

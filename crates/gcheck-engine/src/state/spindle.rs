@@ -2,9 +2,9 @@
 //!
 //! Knows: speed and its limit, which way it turns, what else is on. Must not know: what speed a cut has.
 
+use crate::eval::value::{Domain, Truth};
 use crate::event::Spindle;
 use crate::lattice::{Flat, lattice};
-use crate::value::{Domain, Truth};
 
 lattice! {
     /// The spindle.

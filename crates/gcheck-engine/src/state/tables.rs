@@ -5,10 +5,10 @@
 
 use gcheck_geometry::Mm;
 
+use crate::eval::value::Truth;
 use crate::lattice::{Flat, Lattice, May, lattice, merged};
 use crate::machine::{self, Machine, WorkOffset};
 use crate::position::{Axis, Position};
-use crate::value::Truth;
 
 /// Work offsets, reference points, tools.
 #[derive(Debug, Clone)]

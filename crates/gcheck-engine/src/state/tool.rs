@@ -3,9 +3,9 @@
 //! Knows: numbers and the data of the loaded tool. Must not know: the tool table's other entries, codes.
 
 use super::tables::{Tables, ToolData};
+use crate::eval::value::Domain;
 use crate::lattice::{Lattice, Perhaps, lattice};
 use crate::position::Position;
-use crate::value::Domain;
 
 lattice! {
     /// The tool and its offsets.

@@ -8,8 +8,8 @@ use std::rc::Rc;
 
 use rustc_hash::FxHashMap;
 
+use crate::eval::value::{Domain, Truth};
 use crate::lattice::{Lattice, May, merged};
-use crate::value::{Domain, Truth};
 
 /// A named parameter, as a small number given by the loaded program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]

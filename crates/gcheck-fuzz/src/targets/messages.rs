@@ -322,17 +322,7 @@ fn step(
     let place = json!({ "line": choices.below(40), "character": choices.below(30) });
     let document = json!({ "uri": uri(name) });
     match choices.below(12) {
-        0 => {
-            if text.is_none() {
-                let length = 8 + choices.below(64);
-                let program = programs::case(choices.take(length)).text;
-                session.notify("textDocument/didOpen", &opened(name, version, &program));
-                *text = Some(program);
-            } else {
-                session.notify("textDocument/didClose", &json!({ "textDocument": document }));
-                *text = None;
-            }
-        }
+        0 => open_or_close(session, choices, name, text, version),
         1..=3 => {
             let Some(text) = text else { return };
             let change = edit(text, choices);
@@ -371,29 +361,50 @@ fn step(
                 .request(method, &json!({ "textDocument": document, "position": place, "context": context }));
         }
         10 => session.request(choices.text(OF_THE_WHOLE), &json!({ "textDocument": document })),
-        _ => {
-            let range = json!({ "start": { "line": 0, "character": 0 }, "end": place });
-            let params = json!({
-                "textDocument": document, "range": range, "context": { "diagnostics": [] }, "positions": [place],
-                "position": place, "ch": "\n", "newName": "20", "query": "1",
-                "options": { "tabSize": 4, "insertSpaces": true }, "previousResultIds": [],
-            });
-            let method = choices.text(&[
-                "textDocument/inlayHint",
-                "textDocument/codeAction",
-                "textDocument/formatting",
-                "textDocument/rangeFormatting",
-                "textDocument/onTypeFormatting",
-                "textDocument/selectionRange",
-                "textDocument/rename",
-                "textDocument/semanticTokens/range",
-                "workspace/symbol",
-                "workspace/diagnostic",
-                "no/such",
-            ]);
-            session.request(method, &params);
-        }
+        _ => ask_with_range(session, choices, &document, &place),
     }
+}
+
+fn open_or_close(
+    session: &mut Session,
+    choices: &mut Choices<'_>,
+    name: &str,
+    text: &mut Option<String>,
+    version: i32,
+) {
+    if text.is_none() {
+        let length = 8 + choices.below(64);
+        let program = programs::case(choices.take(length)).text;
+        session.notify("textDocument/didOpen", &opened(name, version, &program));
+        *text = Some(program);
+    } else {
+        session.notify("textDocument/didClose", &json!({ "textDocument": { "uri": uri(name) } }));
+        *text = None;
+    }
+}
+
+/// A question about a range, a name or the workspace; each method takes of the parameters what is its own.
+fn ask_with_range(session: &mut Session, choices: &mut Choices<'_>, document: &Value, place: &Value) {
+    let range = json!({ "start": { "line": 0, "character": 0 }, "end": place });
+    let params = json!({
+        "textDocument": document, "range": range, "context": { "diagnostics": [] }, "positions": [place],
+        "position": place, "ch": "\n", "newName": "20", "query": "1",
+        "options": { "tabSize": 4, "insertSpaces": true }, "previousResultIds": [],
+    });
+    let method = choices.text(&[
+        "textDocument/inlayHint",
+        "textDocument/codeAction",
+        "textDocument/formatting",
+        "textDocument/rangeFormatting",
+        "textDocument/onTypeFormatting",
+        "textDocument/selectionRange",
+        "textDocument/rename",
+        "textDocument/semanticTokens/range",
+        "workspace/symbol",
+        "workspace/diagnostic",
+        "no/such",
+    ]);
+    session.request(method, &params);
 }
 
 /// Changes a text; gives the change as the protocol has it.

@@ -5,7 +5,7 @@
 use gcheck_controls::{Effect, LetterSet};
 use gcheck_db::{BlockPlace, Cancelled, Database, DocumentId, Snapshot, StateAt};
 use gcheck_diagnostics::Edit;
-use gcheck_engine::{ArcMove, At, Event, Look, Role, Transform};
+use gcheck_engine::{ArcMove, At, Event, Look, Model, Role, Transform};
 use gcheck_program::{BlockFlags, Word};
 
 use super::action::{CodeAction, Offer};
@@ -80,40 +80,12 @@ fn rewritten(
     match (radius_words.as_slice(), centre_words.as_slice()) {
         ([radius], []) => {
             let is_absolute = after.effect(Role::ArcCentre, model) == Some(Effect::ArcCentreAbsolute);
-            let values = if is_absolute {
-                shape.centre
-            } else {
-                [shape.centre[0] - shape.start[0], shape.centre[1] - shape.start[1]]
-            };
-            let values = values.map(|value| rounded(value * in_program, decimals));
-            // Rounded words must still be the arc that the control accepts.
-            let exact = if is_absolute { [0.0; 2] } else { shape.start };
-            let centre = [exact[0] + values[0] / in_program, exact[1] + values[1] / in_program];
-            let reach = |point: [f64; 2]| (point[0] - centre[0]).hypot(point[1] - centre[1]);
-            let rules = &model.semantics().arcs;
-            let difference = (reach(shape.start) - reach(shape.end)).abs();
-            if difference > rules.radius_difference.max(rules.relative * shape.radius) {
-                return None;
-            }
-            let mut texts: Vec<String> = centre_letters
-                .iter()
-                .zip(values)
-                .map(|(letter, value)| format!("{letter}{}", pointed(value)))
-                .collect();
-            texts.sort();
-            let range = place.in_file(radius.range());
-            let edit = Edit { range, text: texts.join(" ") };
+            let texts = shape.centre_words(centre_letters, is_absolute, (in_program, decimals), model)?;
+            let edit = Edit { range: place.in_file(radius.range()), text: texts.join(" ") };
             Some(CodeAction::change("Write this arc with its centre", Offer::ArcByCentre, vec![edit]))
         }
         ([], [first, rest @ ..]) => {
-            let sweep = arc.sweep.abs();
-            // A full circle has no radius form, and near a half circle a radius does not hold the centre.
-            let half = (sweep - std::f64::consts::PI).abs();
-            if sweep > 2.0 * std::f64::consts::PI - 0.01 || half < 0.01 || sweep < 0.01 {
-                return None;
-            }
-            let radius = rounded(shape.radius * in_program, decimals);
-            let radius = if sweep > std::f64::consts::PI { -radius } else { radius };
+            let radius = shape.radius_word(arc.sweep.abs(), (in_program, decimals))?;
             let mut edits =
                 vec![Edit { range: place.in_file(first.range()), text: format!("R{}", pointed(radius)) }];
             for word in rest {
@@ -139,6 +111,47 @@ struct Shape {
 }
 
 impl Shape {
+    /// The words of its centre, in program units and to so many decimals; `None` when the control would not accept the arc with
+    /// the rounded words.
+    fn centre_words(
+        &self,
+        letters: [char; 2],
+        is_absolute: bool,
+        (in_program, decimals): (f64, i32),
+        model: &Model<'_>,
+    ) -> Option<Vec<String>> {
+        let values = if is_absolute {
+            self.centre
+        } else {
+            [self.centre[0] - self.start[0], self.centre[1] - self.start[1]]
+        };
+        let values = values.map(|value| rounded(value * in_program, decimals));
+        // Rounded words must still be the arc that the control accepts.
+        let exact = if is_absolute { [0.0; 2] } else { self.start };
+        let centre = [exact[0] + values[0] / in_program, exact[1] + values[1] / in_program];
+        let reach = |point: [f64; 2]| (point[0] - centre[0]).hypot(point[1] - centre[1]);
+        let rules = &model.semantics().arcs;
+        let difference = (reach(self.start) - reach(self.end)).abs();
+        if difference > rules.radius_difference.max(rules.relative * self.radius) {
+            return None;
+        }
+        let mut texts: Vec<String> =
+            letters.iter().zip(values).map(|(letter, value)| format!("{letter}{}", pointed(value))).collect();
+        texts.sort();
+        Some(texts)
+    }
+
+    /// The word of its radius, negative beyond a half circle; `None` when a radius does not hold the centre.
+    fn radius_word(&self, sweep: f64, (in_program, decimals): (f64, i32)) -> Option<f64> {
+        // A full circle has no radius form, and near a half circle a radius does not hold the centre.
+        let half = (sweep - std::f64::consts::PI).abs();
+        if sweep > 2.0 * std::f64::consts::PI - 0.01 || half < 0.01 || sweep < 0.01 {
+            return None;
+        }
+        let radius = rounded(self.radius * in_program, decimals);
+        Some(if sweep > std::f64::consts::PI { -radius } else { radius })
+    }
+
     /// `None` when anything of it is unknown.
     fn of(arc: &ArcMove) -> Option<Self> {
         let local = |position: &gcheck_engine::Position| {

@@ -637,6 +637,42 @@ fn take_over(
     at
 }
 
+/// Where execution begins again: at an old entry, or at an earlier one if something was put in before it.
+fn whole_entry(
+    mut entry: Option<Entry>,
+    chain: &mut Chain,
+    layout: &Layout,
+    carried: &Carried,
+    work: &mut Work,
+) -> Option<Entry> {
+    if let Some(entry) = &mut entry {
+        entry.carry(carried);
+    }
+    while entry.as_ref().is_some_and(|entry| !entry.is_whole(layout)) {
+        entry = chain.segments.pop().and_then(|segment| segment.entry);
+        work.kept = work.kept.saturating_sub(1);
+    }
+    entry
+}
+
+/// Gives the rules back what they remembered at an entry: the checkpoint there, `None` at the start of the program.
+fn begin_at(
+    entry: Option<&Entry>,
+    watchers: &mut Watchers<'_, '_>,
+    layout: &Layout,
+    work: &mut Work,
+) -> Result<Option<Checkpoint>, Broken> {
+    let Some(entry) = entry else {
+        work.from_the_start += 1;
+        return Ok(None);
+    };
+    let mut from = entry.checkpoint.clone();
+    if !number_again(&mut from, layout) || !entry.rules.restore(watchers, layout) {
+        return Err(Broken::Useless);
+    }
+    Ok(Some(from))
+}
+
 /// Brings a chain up to date, cut into segments if it `offers` checkpoints. True when execution came back over one.
 fn advance(
     chain: &mut Chain,
@@ -662,29 +698,13 @@ fn advance(
             };
             old.iter().enumerate().filter_map(entry).collect()
         });
-        let mut entry = old.get_mut(at).and_then(Option::take).and_then(|segment| segment.entry);
-        if let Some(entry) = &mut entry {
-            entry.carry(&carried);
-        }
-        while entry.as_ref().is_some_and(|entry| !entry.is_whole(layout)) {
-            entry = chain.segments.pop().and_then(|segment| segment.entry);
-            work.kept = work.kept.saturating_sub(1);
-        }
+        let entry = old.get_mut(at).and_then(Option::take).and_then(|segment| segment.entry);
+        let entry = whole_entry(entry, chain, layout, &carried, work);
         // From here on it is executed.
         watchers.restart(chain.scope);
         watchers.forget_made();
         found.take();
-        let mut checkpoint = None;
-        match &entry {
-            None => work.from_the_start += 1,
-            Some(entry) => {
-                let mut from = entry.checkpoint.clone();
-                if !number_again(&mut from, layout) || !entry.rules.restore(watchers, layout) {
-                    return Err(Broken::Useless);
-                }
-                checkpoint = Some(from);
-            }
-        }
+        let checkpoint = begin_at(entry.as_ref(), watchers, layout, work)?;
         file.loaded.note_touched();
         let fuel = inputs.fuel.saturating_sub(chain.work());
         let choices = chain.choices(layout).ok_or(Broken::Useless)?;

@@ -12,7 +12,7 @@ use gcheck_diagnostics::{Finding, Fix, Label, RuleMeta, Severity};
 use serde::Serialize;
 
 use super::remarks::{HOME, remarks};
-use crate::report::File;
+use crate::report::{File, Skipped};
 use crate::shown::number;
 use crate::source::Source;
 use crate::{ControlChoice, Fingerprint, Report};
@@ -253,17 +253,7 @@ fn log(report: &Report, most: usize) -> Log<'_> {
     let (kept, left_out) = kept(report, most);
     let mut notifications = Vec::new();
     if left_out > 0 {
-        let text = format!(
-            "{} of {} findings are left out, the mildest first: a run holds at most {}.",
-            number(left_out),
-            number(left_out + most),
-            number(most)
-        );
-        notifications.push(Notification {
-            level: "warning",
-            message: Message { text },
-            locations: Vec::new(),
-        });
+        notifications.push(of_left_out(left_out, most));
     }
     let mut artifacts = Vec::new();
     let mut results = Vec::new();
@@ -276,19 +266,7 @@ fn log(report: &Report, most: usize) -> Log<'_> {
             source_language: "gcode",
             properties: ArtifactProperties { control: &file.control },
         });
-        let notification = |level, text: String| {
-            let physical_location = PhysicalLocation { artifact_location: place(), region: None };
-            let locations = vec![Location { id: None, physical_location, message: None }];
-            Notification { level, message: Message { text }, locations }
-        };
-        if file.out_of_fuel {
-            let text = "The analysis ended before the program did: out of fuel.";
-            notifications.push(notification("warning", text.to_owned()));
-        }
-        for rule in &file.failed_rules {
-            let text = format!("The rule `{rule}` failed by a mistake in gcheck: its findings are missing.");
-            notifications.push(notification("error", text));
-        }
+        notifications.extend(of_file(file, &place));
         for (finding, fingerprint) in file.findings.iter().zip(file.fingerprints()) {
             if kept.next() == Some(true) {
                 let rule_index = rule_index.get(finding.rule.id).copied().unwrap_or_default();
@@ -296,17 +274,7 @@ fn log(report: &Report, most: usize) -> Log<'_> {
             }
         }
     }
-    for skipped in report.skipped() {
-        let locations = if skipped.file.is_empty() {
-            Vec::new()
-        } else {
-            let artifact_location = artifact_location(&report.rooted(&skipped.file));
-            let physical_location = PhysicalLocation { artifact_location, region: None };
-            vec![Location { id: None, physical_location, message: None }]
-        };
-        let text = format!("The file could not be checked: {}.", skipped.reason);
-        notifications.push(Notification { level: "error", message: Message { text }, locations });
-    }
+    notifications.extend(report.skipped().iter().map(|skipped| of_skipped(report, skipped)));
     let base = UriBase { description: Message { text: "The folder that paths are relative to.".to_owned() } };
     let version = env!("CARGO_PKG_VERSION");
     let driver = Driver {
@@ -329,6 +297,47 @@ fn log(report: &Report, most: usize) -> Log<'_> {
         column_kind: "unicodeCodePoints",
     };
     Log { schema: SCHEMA, version: "2.1.0", runs: [run] }
+}
+
+fn of_left_out(left_out: usize, most: usize) -> Notification<'static> {
+    let text = format!(
+        "{} of {} findings are left out, the mildest first: a run holds at most {}.",
+        number(left_out),
+        number(left_out + most),
+        number(most)
+    );
+    Notification { level: "warning", message: Message { text }, locations: Vec::new() }
+}
+
+/// What was not done of the check of a file.
+fn of_file(file: &File, place: &dyn Fn() -> ArtifactLocation) -> Vec<Notification<'static>> {
+    let notification = |level, text: String| {
+        let physical_location = PhysicalLocation { artifact_location: place(), region: None };
+        let locations = vec![Location { id: None, physical_location, message: None }];
+        Notification { level, message: Message { text }, locations }
+    };
+    let mut notifications = Vec::new();
+    if file.out_of_fuel {
+        let text = "The analysis ended before the program did: out of fuel.";
+        notifications.push(notification("warning", text.to_owned()));
+    }
+    for rule in &file.failed_rules {
+        let text = format!("The rule `{rule}` failed by a mistake in gcheck: its findings are missing.");
+        notifications.push(notification("error", text));
+    }
+    notifications
+}
+
+fn of_skipped(report: &Report, skipped: &Skipped) -> Notification<'static> {
+    let locations = if skipped.file.is_empty() {
+        Vec::new()
+    } else {
+        let artifact_location = artifact_location(&report.rooted(&skipped.file));
+        let physical_location = PhysicalLocation { artifact_location, region: None };
+        vec![Location { id: None, physical_location, message: None }]
+    };
+    let text = format!("The file could not be checked: {}.", skipped.reason);
+    Notification { level: "error", message: Message { text }, locations }
 }
 
 /// For every finding in order, whether it is among the `most` that are written; and how many are not. The most severe

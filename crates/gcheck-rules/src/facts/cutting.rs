@@ -9,7 +9,7 @@ use crate::PathCx;
 
 /// Does the code tie the feed to the spindle's angle?
 pub(crate) fn is_thread(effect: Effect) -> bool {
-    matches!(effect, Effect::Thread | Effect::ThreadingPass | Effect::ThreadCycle | Effect::RigidTap)
+    effect.cuts_thread() || effect == Effect::RigidTap
 }
 
 /// A move with the tool in the work, as far as a program shows it.

@@ -104,15 +104,7 @@ pub(crate) fn left_at_end(
 
 /// Does the block move the same way in absolute and incremental mode, or by words of its own?
 pub(crate) fn ignores_distance_mode(cx: &PathCx<'_>) -> bool {
-    cx.has_effect(|effect| {
-        matches!(
-            effect,
-            Effect::MachineCoordinates
-                | Effect::ReturnReference(_)
-                | Effect::ReturnFromReference
-                | Effect::ToolChange
-        )
-    })
+    cx.has_effect(|effect| effect.moves_by_machine_places() || effect == Effect::ToolChange)
 }
 
 /// Do the control's data say that a code does not allow another one while it is active?

@@ -5,7 +5,7 @@
 use std::rc::Rc;
 
 use crate::Environment;
-use gcheck_controls::{Effect, Ends, SystemValue};
+use gcheck_controls::{Ends, SystemValue};
 use gcheck_engine::{At, Model, Program, ProgramFile};
 use gcheck_program::{BlockFlags, EndMark, FileIndex, OKeyword, Op, Place, StatementKind};
 
@@ -103,9 +103,7 @@ pub(crate) fn leads_away(place: &Place, model: &Model<'_>) -> bool {
             _ => {}
         }
     }
-    place.table.words(block).iter().any(|word| {
-        matches!(model.effect(word.code), Effect::Return | Effect::ProgramEnd | Effect::ProgramEndWithPallet)
-    })
+    place.table.words(block).iter().any(|word| model.effect(word.code).leaves_program())
 }
 
 /// May the program be called by one that is not in the file? Then it has its caller's words too, which the text does not show.

@@ -630,6 +630,35 @@ impl<'t> Checked<'t> {
         tools: &ToolsTable,
         is_whole: bool,
     ) -> Result<ExecutionFacts, Problem> {
+        self.variables(variables)?;
+        self.work_offsets(offsets)?;
+        let mut by_number = Vec::with_capacity(tools.tools.len());
+        for (number, tool) in &tools.tools {
+            let Ok(parsed) = number.value.parse::<u32>() else {
+                let message = format!("`{}` is not a tool number, nor `table`", number.value);
+                return Err(self.text.problem(number, message));
+            };
+            self.tool(number, tool, is_whole && tools.table.is_none())?;
+            by_number.push((parsed, tool.clone()));
+        }
+        Ok(ExecutionFacts {
+            units: machine.units,
+            is_preset: false,
+            machine: machine.clone(),
+            variables: variables.iter().map(|(name, value)| (name.value.clone(), *value)).collect(),
+            offsets: offsets
+                .iter()
+                .map(|(name, axes)| {
+                    let axes = axes.iter().map(|(axis, value)| (axis.value.to_ascii_uppercase(), *value));
+                    (name.value.clone(), axes.collect())
+                })
+                .collect(),
+            tools: by_number,
+            table: tools.table.as_ref().map(|table| self.text.path(&table.value)),
+        })
+    }
+
+    fn variables(&self, variables: &BTreeMap<Placed<String>, f64>) -> Result<(), Problem> {
         for (name, value) in variables {
             let inner = name.value.strip_prefix('#').unwrap_or_default();
             let is_named = inner.len() > 2 && inner.starts_with('<') && inner.ends_with('>');
@@ -643,6 +672,13 @@ impl<'t> Checked<'t> {
             }
             self.finite(name, *value)?;
         }
+        Ok(())
+    }
+
+    fn work_offsets(
+        &self,
+        offsets: &BTreeMap<Placed<String>, BTreeMap<Placed<String>, f64>>,
+    ) -> Result<(), Problem> {
         let mut numbers: BTreeMap<u16, &str> = BTreeMap::new();
         for (name, axes) in offsets {
             let number = self.control.as_ref().and_then(|control| work_offset(&name.value, control));
@@ -664,49 +700,32 @@ impl<'t> Checked<'t> {
             }
             self.by_axis(axes)?;
         }
-        let mut by_number = Vec::with_capacity(tools.tools.len());
-        for (number, tool) in &tools.tools {
-            let Ok(parsed) = number.value.parse::<u32>() else {
-                let message = format!("`{}` is not a tool number, nor `table`", number.value);
-                return Err(self.text.problem(number, message));
-            };
-            let sizes = [tool.length, tool.posted_length, tool.diameter, tool.corner_radius];
-            for size in sizes.into_iter().flatten() {
-                self.finite(number, size)?;
-            }
-            // A diameter below zero is an offset to the other side, as controls take it.
-            if tool.corner_radius.is_some_and(|radius| radius < 0.0) {
-                return Err(self.text.problem(number, "a corner radius is not negative"));
-            }
-            if let Some(orientation) = tool.orientation.as_ref().filter(|o| o.value > 9) {
-                return Err(self.text.problem(orientation, "a tip points in one of the directions 0 to 9"));
-            }
-            self.by_axis(&tool.offset)?;
-            self.cutting(tool)?;
-            if let Some(range) = &tool.surface_speed
-                && self.control.as_ref().is_some_and(|control| only_mills(control))
-                && tool.diameter.map_or(is_whole && tools.table.is_none(), |diameter| diameter <= 0.0)
-            {
-                let message = "a surface speed needs the tool's `diameter`, above zero";
-                return Err(self.text.problem(range, message));
-            }
-            by_number.push((parsed, tool.clone()));
+        Ok(())
+    }
+
+    /// The sizes of a tool; `is_whole` when nothing else can say them.
+    fn tool(&self, number: &Placed<String>, tool: &ToolTable, is_whole: bool) -> Result<(), Problem> {
+        let sizes = [tool.length, tool.posted_length, tool.diameter, tool.corner_radius];
+        for size in sizes.into_iter().flatten() {
+            self.finite(number, size)?;
         }
-        Ok(ExecutionFacts {
-            units: machine.units,
-            is_preset: false,
-            machine: machine.clone(),
-            variables: variables.iter().map(|(name, value)| (name.value.clone(), *value)).collect(),
-            offsets: offsets
-                .iter()
-                .map(|(name, axes)| {
-                    let axes = axes.iter().map(|(axis, value)| (axis.value.to_ascii_uppercase(), *value));
-                    (name.value.clone(), axes.collect())
-                })
-                .collect(),
-            tools: by_number,
-            table: tools.table.as_ref().map(|table| self.text.path(&table.value)),
-        })
+        // A diameter below zero is an offset to the other side, as controls take it.
+        if tool.corner_radius.is_some_and(|radius| radius < 0.0) {
+            return Err(self.text.problem(number, "a corner radius is not negative"));
+        }
+        if let Some(orientation) = tool.orientation.as_ref().filter(|o| o.value > 9) {
+            return Err(self.text.problem(orientation, "a tip points in one of the directions 0 to 9"));
+        }
+        self.by_axis(&tool.offset)?;
+        self.cutting(tool)?;
+        if let Some(range) = &tool.surface_speed
+            && self.control.as_ref().is_some_and(|control| only_mills(control))
+            && tool.diameter.map_or(is_whole, |diameter| diameter <= 0.0)
+        {
+            let message = "a surface speed needs the tool's `diameter`, above zero";
+            return Err(self.text.problem(range, message));
+        }
+        Ok(())
     }
 
     /// How a tool cuts: teeth and ranges that a tool can have.

@@ -88,7 +88,7 @@ impl PathRule for CycleInInverseTime {
 
 /// Does one block with the code make several cutting moves?
 fn makes_moves(effect: Effect) -> bool {
-    let is_pattern = matches!(effect, Effect::BoltCircle | Effect::BoltArc | Effect::BoltLine);
+    let is_pattern = effect.is_hole_pattern();
     is_cycle(effect) || is_round_pocket(effect) || is_pattern || effect == Effect::GeneralPocket
 }
 

@@ -83,15 +83,7 @@ impl PathRule for CycleUnderCompensation {
             return;
         }
         let changes = cx.has_effect(|effect| Role::of(effect) == Some(Role::Compensation));
-        let on = |effect| {
-            matches!(
-                effect,
-                Effect::CompensationLeft
-                    | Effect::CompensationRight
-                    | Effect::CompensationLeftByDiameter
-                    | Effect::CompensationRightByDiameter
-            )
-        };
+        let on = Effect::offsets_path;
         if !changes && cx.state().effect(Role::Compensation, cx.model).is_some_and(on) {
             self.tell(cx, Severity::Warning, report);
         }

@@ -51,7 +51,7 @@ fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
     if is_odd || cx.block().letters.intersects(END_POINT) {
         return;
     }
-    let is_pass = |effect| matches!(effect, Effect::TurningPass | Effect::ThreadingPass | Effect::FacingPass);
+    let is_pass = Effect::is_turning_pass;
     let Some((word, code)) = cx.codes().find(|(_, code)| is_pass(code.effect())) else { return };
     let meant = meant(cx, code);
     if meant.is_none_or(|(effect, _)| effect != Effect::Absolute) {

@@ -64,7 +64,7 @@ impl PathRule for PatternWithoutCycle {
 }
 
 fn is_pattern(effect: Effect) -> bool {
-    matches!(effect, Effect::BoltCircle | Effect::BoltArc | Effect::BoltLine)
+    effect.is_hole_pattern()
 }
 
 #[cfg(test)]

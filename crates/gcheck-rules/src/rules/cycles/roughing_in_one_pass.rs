@@ -120,12 +120,7 @@ mod tests {
 
     #[test]
     fn the_cycle_is_marked() {
-        check_rule(
-            &RULE,
-            "haas-lathe",
-            &bushing("D0.08"),
-            &expect![""],
-        );
+        check_rule(&RULE, "haas-lathe", &bushing("D0.08"), &expect![""]);
         check_rule(
             &RULE,
             "haas-lathe",

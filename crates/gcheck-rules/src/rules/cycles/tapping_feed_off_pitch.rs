@@ -6,7 +6,9 @@ use gcheck_engine::{Abstract, At, Domain, Fact, FeedMode, Role, Units};
 use crate::declare::declare_rule;
 use crate::facts::boundary::is_before;
 use crate::facts::cycles::is_tapping;
-use crate::facts::threads::{Wanted, rounding, thread_in_block, thread_in_list, thread_of_tool, trimmed};
+use crate::facts::threads::{
+    Thread, Wanted, rounding, thread_in_block, thread_in_list, thread_of_tool, trimmed,
+};
 use crate::facts::units;
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 use crate::{Remembers, remembers};
@@ -113,14 +115,7 @@ impl PathRule for TappingFeedOffPitch {
             Some(FeedMode::PerRevolution) => feed,
             _ => return,
         } * units.in_mm();
-        let own = || thread_in_block(cx, cx.origin().at, Wanted::Written);
-        // A pitch that is written needs no word that it is a tap.
-        let of_tool = || {
-            thread_of_tool(cx, changed, Wanted::Tap)
-                .or_else(|| thread_of_tool(cx, changed, Wanted::Written))
-                .or_else(|| thread_in_list(cx, Wanted::Tap))
-        };
-        let Some(thread) = own().or_else(of_tool) else { return };
+        let Some(thread) = thread_of_tap(cx, changed) else { return };
         let pitch = gcheck_geometry::Mm(thread.pitch);
         let right = if by_turns { thread.pitch } else { thread.pitch * speed } / units.in_mm();
         let is_rounded = (feed - right).abs() <= rounding(feed);
@@ -170,6 +165,15 @@ impl PathRule for TappingFeedOffPitch {
         }
         report.add(finding);
     }
+}
+
+/// The thread that the block, the tool or the list of tools names.
+fn thread_of_tap(cx: &PathCx<'_>, changed: At) -> Option<Thread> {
+    thread_in_block(cx, cx.origin().at, Wanted::Written)
+        .or_else(|| thread_of_tool(cx, changed, Wanted::Tap))
+        // A pitch that is written needs no word that it is a tap.
+        .or_else(|| thread_of_tool(cx, changed, Wanted::Written))
+        .or_else(|| thread_in_list(cx, Wanted::Tap))
 }
 
 fn is_speed(word: &gcheck_program::Word) -> bool {

@@ -90,19 +90,10 @@ fn waits_for_somebody(cx: &PathCx<'_>, head: At, turn: At) -> bool {
     };
     let waits = |effect: Effect| {
         probes(effect)
-            || matches!(
-                effect,
-                Effect::Stop
-                    | Effect::OptionalStop
-                    | Effect::PalletStop
-                    | Effect::BarFeed
-                    | Effect::WaitForInput
-                    | Effect::AskOperator
-            )
+            || effect.stops_program()
+            || matches!(effect, Effect::BarFeed | Effect::WaitForInput | Effect::AskOperator)
     };
-    let calls = |effect: Effect| {
-        matches!(effect, Effect::CallLocal | Effect::CallProgram | Effect::MacroCall | Effect::MacroModal)
-    };
+    let calls = |effect: Effect| effect.calls() || effect == Effect::MacroModal;
     let mut blocks = head.block..turn.block.saturating_add(1);
     if has(turn.block, &|effect| effect == Effect::Return) {
         // `M99 P10` in the main program; a return to the block after a call belongs to some larger loop.

@@ -60,14 +60,7 @@ fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
 
 /// Does the code switch coolant on or off, and nothing else?
 fn switches_coolant(effect: Effect) -> bool {
-    matches!(
-        effect,
-        Effect::MistOn
-            | Effect::FloodOn
-            | Effect::ThroughCoolantOn
-            | Effect::ThroughCoolantOff
-            | Effect::CoolantOff
-    )
+    effect.switches_coolant()
 }
 
 #[cfg(test)]

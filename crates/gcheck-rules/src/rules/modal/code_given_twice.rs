@@ -1,6 +1,6 @@
 //! One code written twice in a block.
 
-use gcheck_controls::{Code, Effect, Handling};
+use gcheck_controls::{Code, Handling};
 use gcheck_program::{BlockFlags, Word};
 
 use crate::declare::declare_rule;
@@ -60,7 +60,7 @@ fn finding(cx: &BlockCx<'_>, code: Code<'_>, first: &Word, second: &Word) -> Fin
         finding.at_most(Severity::Hint)
     };
     // A mode that is already set does not change. Stops have a group of their own and are not modes: two may be meant as two.
-    let is_stop = matches!(code.effect(), Effect::Stop | Effect::OptionalStop | Effect::PalletStop);
+    let is_stop = code.effect().stops_program();
     if code.group().modal && code.group().exclusive && !is_stop {
         finding.fix(Fix::safe(format!("remove the second `{text}`"), cx.with_blanks(second), ""))
     } else {

@@ -80,7 +80,7 @@ impl PathRule for IncrementalIntoSubprogram {
     }
 
     fn concerns(&self, program: &Uses<'_>) -> bool {
-        program.may(|effect| matches!(effect, Effect::CallLocal | Effect::CallProgram | Effect::MacroCall))
+        program.may(Effect::calls)
     }
 
     fn block(&mut self, cx: &PathCx<'_>, _: &mut Report<'_>) {

@@ -164,15 +164,7 @@ impl PathRule for ModalChangeInSkippedBlock {
 
 /// Does the code move the work zero?
 fn shifts(effect: Effect) -> bool {
-    matches!(
-        effect,
-        Effect::LocalShift
-            | Effect::SetPosition
-            | Effect::SpeedLimitOrSetPosition
-            | Effect::ClearShift
-            | Effect::SuspendShift
-            | Effect::RestoreShift
-    )
+    effect.is_about_shifts()
 }
 
 impl ModalChangeInSkippedBlock {

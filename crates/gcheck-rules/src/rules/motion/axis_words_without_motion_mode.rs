@@ -67,8 +67,7 @@ impl PathRule for AxisWordsWithoutMotionMode {
             // What a control does whose documentation does not refuse it is not known. The passes of a lathe are moves as well, and
             // machines go on with them.
             let is_documented = cx.model.semantics().strict || machine_alarm(cx).is_some();
-            let passes =
-                |effect| matches!(effect, Effect::TurningPass | Effect::ThreadingPass | Effect::FacingPass);
+            let passes = Effect::is_turning_pass;
             if !is_documented && mode.is_some_and(|code| passes(cx.model.effect(code))) {
                 return;
             }

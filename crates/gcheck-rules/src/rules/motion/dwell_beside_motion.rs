@@ -64,7 +64,7 @@ fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
 }
 
 fn is_motion(effect: Effect) -> bool {
-    matches!(effect, Effect::Rapid | Effect::Linear | Effect::ArcClockwise | Effect::ArcCounterClockwise)
+    effect.is_plain_move()
 }
 
 #[cfg(test)]

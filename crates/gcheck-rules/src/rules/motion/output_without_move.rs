@@ -95,5 +95,5 @@ impl PathRule for OutputWithoutMove {
 
 /// Does the code wait for the next move?
 fn queues(effect: Effect) -> bool {
-    matches!(effect, Effect::OutputOnWithMove | Effect::OutputOffWithMove | Effect::AnalogOutputWithMove)
+    effect.is_output_with_move()
 }

@@ -176,14 +176,24 @@ mod tests {
     #[test]
     fn five_axes() {
         check_rule(&RULE, "haas-mill", &blade("X1.1903 Y-0.3415 Z2.0621 A-13.5 B9.1"), &expect![[""]]);
-        check_rule(&RULE, "haas-mill", &blade("X1.9103 Y-0.3415 Z2.0621 A-13.5 B9.1"), &expect![[r#"
+        check_rule(
+            &RULE,
+            "haas-mill",
+            &blade("X1.9103 Y-0.3415 Z2.0621 A-13.5 B9.1"),
+            &expect![[r#"
             8 | X1.9103 Y-0.3415 Z2.0621 A-13.5 B9.1 F38.
               | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[stray-coordinate] `X` of this point is far from its neighbours
-        "#]]);
-        check_rule(&RULE, "haas-mill", &blade("X1.1903 Y-0.3415 Z2.0621 A13.5 B9.1"), &expect![[r#"
+        "#]],
+        );
+        check_rule(
+            &RULE,
+            "haas-mill",
+            &blade("X1.1903 Y-0.3415 Z2.0621 A13.5 B9.1"),
+            &expect![[r#"
             8 | X1.1903 Y-0.3415 Z2.0621 A13.5 B9.1 F38.
               | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[stray-coordinate] `A` of this point is far from its neighbours
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]

@@ -109,7 +109,7 @@ fn thread_from_feed<'a>(cx: &PathCx<'a>) -> Option<Code<'a>> {
 }
 
 fn is_thread(effect: Effect) -> bool {
-    matches!(effect, Effect::Thread | Effect::ThreadCycle | Effect::ThreadingPass)
+    effect.cuts_thread()
 }
 
 /// Does the code feed at its `F`?

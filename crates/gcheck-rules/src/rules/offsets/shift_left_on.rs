@@ -206,7 +206,7 @@ fn steps(cx: &PathCx<'_>) -> Option<[f64; 2]> {
 
 /// Does the code shift the work coordinates?
 fn is_shift(effect: Effect) -> bool {
-    matches!(effect, Effect::LocalShift | Effect::SetPosition | Effect::SpeedLimitOrSetPosition)
+    effect.shifts_coordinates()
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use gcheck_controls::{Effect, Ends};
+use gcheck_controls::Ends;
 use gcheck_program::{CallKind, OKeyword, OLabel};
 
 use crate::declare::declare_rule;
@@ -74,12 +74,7 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
     // The profile of a turning cycle is a subroutine.
     let reads_profiles = file_index.codes.iter().any(|(number, _)| {
         let code = cx.control().code_at(cx.control().code_ix(*number));
-        code.is_some_and(|code| {
-            matches!(
-                code.effect(),
-                Effect::FinishProfile | Effect::RoughAlongX | Effect::RoughAlongZ | Effect::RepeatPattern
-            )
-        })
+        code.is_some_and(|code| code.effect().cuts_profile())
     });
     if cx.control().syntax().o_words && !reads_profiles {
         o_words(cx, report);

@@ -97,6 +97,112 @@ struct SpindleStoppedWhileCutting {
 
 remembers!(SpindleStoppedWhileCutting: told);
 
+/// A cut while the spindle stands.
+#[expect(clippy::struct_excessive_bools, reason = "independent facts of the cut and its program")]
+struct CutAtRest {
+    stopped_by: Option<At>,
+    /// The move goes by turns of the spindle.
+    needs_turns: bool,
+    /// It cuts a thread.
+    threads: bool,
+    is_ever_started: bool,
+    /// The file uses tool lengths, as mills do.
+    has_length: bool,
+    /// A probe may be in the spindle.
+    probes: bool,
+    live: LiveTool,
+}
+
+impl SpindleStoppedWhileCutting {
+    /// What is wrong with a cut, if it needs a spindle that stands and was not reported for that stop.
+    fn judge(&self, cx: &PathCx<'_>, event: &Event) -> Option<CutAtRest> {
+        let stands = cx.state().spindle() == Some(Spindle::Stopped) && cx.state().live_tool() == Truth::False;
+        // A program that chose feed per turn needs the spindle for every move.
+        let by_turns = cx.state().feed_mode(cx.model) == Some(FeedMode::PerRevolution);
+        // Probing has the spindle stopped, but a feed per turn does not move the probe then.
+        let measures = is_probing_move(event) && cx.has_effect(is_measurement);
+        let needs_turns = by_turns
+            && cx.definitions().set_by(Fact::Mode(Role::FeedMode)).is_some()
+            && (goes_by_feed(event) || measures)
+            && !cx.has_effect(|effect| matches!(effect, Effect::MachineCoordinates | Effect::Skip));
+        // A strict control refuses the block, which is reported as a fault.
+        let is_refused =
+            by_turns && cx.model.semantics().strict && Abstract::known(cx.state().speed()) == Some(0.0);
+        let threads = is_thread(cx, event);
+        let is_work = needs_turns || threads || is_cut(cx, event);
+        if !stands || is_refused || !is_work || cx.is_called_only() {
+            return None;
+        }
+        let stopped_by = cx.definitions().set_by(Fact::Spindle);
+        let is_ever_started = cx.file_uses(starts_spindle);
+        // Neither start nor speed anywhere: a spindle that is switched by hand, or no spindle: a laser, a knife, a pen. The
+        // length of a tool is that of a mill; the strict controls are those of machines that people build themselves, with
+        // a switch for the spindle.
+        let has_length = !cx.model.semantics().strict && cx.file_uses(|effect| effect == Effect::LengthPlus);
+        if !is_ever_started && !needs_turns && cx.definitions().set_by(Fact::Speed).is_none() && !has_length {
+            return None;
+        }
+        if self.told.contains(&stopped_by) || !is_ever_started && !self.told.is_empty() {
+            return None;
+        }
+        let probes = !gives_speed_after(cx, touches_work);
+        if probes && !(needs_turns && measures) && is_near(cx, touches_work)
+            || feeds_bar(cx)
+            || !measures && ToolWords::of(cx).needs_no_spindle()
+        {
+            return None;
+        }
+        let live = live_tool(cx);
+        if live == LiveTool::MayTurn {
+            return None;
+        }
+        Some(CutAtRest { stopped_by, needs_turns, threads, is_ever_started, has_length, probes, live })
+    }
+}
+
+impl CutAtRest {
+    fn message(&self, cx: &PathCx<'_>, is_oriented: bool) -> String {
+        match (self.stopped_by, self.needs_turns) {
+            (Some(at), _) if self.threads => {
+                format!("thread cut after the spindle was stopped (`{}`)", stop_code(cx, at))
+            }
+            (None, _) if self.threads => "thread cut, and the spindle was not started (no `M3`)".to_owned(),
+            (Some(at), false) if is_oriented => {
+                format!("cut with the spindle held at an angle (`{}`)", stop_code(cx, at))
+            }
+            (Some(at), false) if stop_effect(cx, at) == Some(Effect::ToolChange) => format!(
+                "no `{}` since the tool change (`{}` stopped the spindle)",
+                cx.name_of_effect(Effect::SpindleClockwise).unwrap_or_else(|| "M3".to_owned()),
+                stop_code(cx, at)
+            ),
+            (Some(at), false) => format!("cut after the spindle was stopped (`{}`)", stop_code(cx, at)),
+            (None, false) => "cut, and the spindle was not started (no `M3`)".to_owned(),
+            (Some(at), true) => {
+                format!("feed per turn of a spindle that was stopped (`{}`)", stop_code(cx, at))
+            }
+            (None, true) => "feed per turn of a spindle that was not started (no `M3`)".to_owned(),
+        }
+    }
+
+    /// May the machine have no spindle, or the tool work without one?
+    fn may_be_meant(&self, cx: &PathCx<'_>, is_oriented: bool) -> bool {
+        // A speed, or the power of a laser, that nothing switches on is forgotten; a number for an M code of the shop is not.
+        let is_for_code = |at| cx.find_word(at, |word| word.letter.ascii() == b'M').is_some();
+        let has_speed = cx.definitions().set_by(Fact::Speed).is_some_and(|at| !is_for_code(at));
+        let is_mill = self.is_ever_started
+            || self.has_length
+            || has_speed
+            || cx.file_uses(|effect| effect == Effect::ToolChange);
+        // Held at an angle, a tool may broach.
+        // What starts the spindle may be in a program of another file.
+        let is_elsewhere = !self.is_ever_started && calls_other_files(cx.file_index);
+        !is_mill && !self.needs_turns
+            || is_oriented
+            || is_elsewhere
+            || self.probes && cx.file_uses(touches_work)
+    }
+}
+
 impl PathRule for SpindleStoppedWhileCutting {
     fn memory(&mut self) -> Remembers<'_> {
         Remembers::All(self)
@@ -142,46 +248,8 @@ impl PathRule for SpindleStoppedWhileCutting {
     }
 
     fn cut(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
-        let stands = cx.state().spindle() == Some(Spindle::Stopped) && cx.state().live_tool() == Truth::False;
-        // A program that chose feed per turn needs the spindle for every move.
-        let by_turns = cx.state().feed_mode(cx.model) == Some(FeedMode::PerRevolution);
-        // Probing has the spindle stopped, but a feed per turn does not move the probe then.
-        let measures = is_probing_move(event) && cx.has_effect(is_measurement);
-        let needs_turns = by_turns
-            && cx.definitions().set_by(Fact::Mode(Role::FeedMode)).is_some()
-            && (goes_by_feed(event) || measures)
-            && !cx.has_effect(|effect| matches!(effect, Effect::MachineCoordinates | Effect::Skip));
-        // A strict control refuses the block, which is reported as a fault.
-        let is_refused =
-            by_turns && cx.model.semantics().strict && Abstract::known(cx.state().speed()) == Some(0.0);
-        let threads = is_thread(cx, event);
-        let is_work = needs_turns || threads || is_cut(cx, event);
-        if !stands || is_refused || !is_work || cx.is_called_only() {
-            return;
-        }
-        let stopped_by = cx.definitions().set_by(Fact::Spindle);
-        let is_ever_started = cx.file_uses(starts_spindle);
-        // Neither start nor speed anywhere: a spindle that is switched by hand, or no spindle: a laser, a knife, a pen. The
-        // length of a tool is that of a mill; the strict controls are those of machines that people build themselves, with
-        // a switch for the spindle.
-        let has_length = !cx.model.semantics().strict && cx.file_uses(|effect| effect == Effect::LengthPlus);
-        if !is_ever_started && !needs_turns && cx.definitions().set_by(Fact::Speed).is_none() && !has_length {
-            return;
-        }
-        if self.told.contains(&stopped_by) || !is_ever_started && !self.told.is_empty() {
-            return;
-        }
-        let probes = !gives_speed_after(cx, touches_work);
-        if probes && !(needs_turns && measures) && is_near(cx, touches_work)
-            || feeds_bar(cx)
-            || !measures && ToolWords::of(cx).needs_no_spindle()
-        {
-            return;
-        }
-        let live = live_tool(cx);
-        if live == LiveTool::MayTurn {
-            return;
-        }
+        let Some(cut) = self.judge(cx, event) else { return };
+        let CutAtRest { stopped_by, needs_turns, is_ever_started, live, .. } = cut;
         self.told.push(stopped_by);
         // A boring cycle stops the spindle once more, at the bottom of its hole.
         if cycle_code(cx).is_some() {
@@ -193,29 +261,9 @@ impl PathRule for SpindleStoppedWhileCutting {
         if is_started_with_change.is_some() {
             return;
         }
-        let message = match (stopped_by, needs_turns) {
-            (Some(at), _) if threads => {
-                format!("thread cut after the spindle was stopped (`{}`)", stop_code(cx, at))
-            }
-            (None, _) if threads => "thread cut, and the spindle was not started (no `M3`)".to_owned(),
-            (Some(at), false) if self.is_oriented => {
-                format!("cut with the spindle held at an angle (`{}`)", stop_code(cx, at))
-            }
-            (Some(at), false) if stop_effect(cx, at) == Some(Effect::ToolChange) => format!(
-                "no `{}` since the tool change (`{}` stopped the spindle)",
-                cx.name_of_effect(Effect::SpindleClockwise).unwrap_or_else(|| "M3".to_owned()),
-                stop_code(cx, at)
-            ),
-            (Some(at), false) => format!("cut after the spindle was stopped (`{}`)", stop_code(cx, at)),
-            (None, false) => "cut, and the spindle was not started (no `M3`)".to_owned(),
-            (Some(at), true) => {
-                format!("feed per turn of a spindle that was stopped (`{}`)", stop_code(cx, at))
-            }
-            (None, true) => "feed per turn of a spindle that was not started (no `M3`)".to_owned(),
-        };
         let mut finding = cx
-            .finding(&META, cx.range(), message)
-            .label(match (needs_turns || threads, is_ever_started) {
+            .finding(&META, cx.range(), cut.message(cx, self.is_oriented))
+            .label(match (needs_turns || cut.threads, is_ever_started) {
                 (true, _) => "the axes wait for the spindle, which does not turn",
                 (false, _) if live == LiveTool::Stands => "neither the spindle nor a live tool turns here",
                 (false, true) => "the spindle does not turn here",
@@ -223,19 +271,7 @@ impl PathRule for SpindleStoppedWhileCutting {
             })
             .help(help(cx, live, needs_turns))
             .at_most(Severity::Warning);
-        // A speed, or the power of a laser, that nothing switches on is forgotten; a number for an M code of the shop is not.
-        let is_for_code = |at| cx.find_word(at, |word| word.letter.ascii() == b'M').is_some();
-        let has_speed = cx.definitions().set_by(Fact::Speed).is_some_and(|at| !is_for_code(at));
-        let is_mill =
-            is_ever_started || has_length || has_speed || cx.file_uses(|effect| effect == Effect::ToolChange);
-        // Held at an angle, a tool may broach.
-        // What starts the spindle may be in a program of another file.
-        let is_elsewhere = !is_ever_started && calls_other_files(cx.file_index);
-        if !is_mill && !needs_turns
-            || self.is_oriented
-            || is_elsewhere
-            || probes && cx.file_uses(touches_work)
-        {
+        if cut.may_be_meant(cx, self.is_oriented) {
             finding = finding.at_most(Severity::Info);
         }
         if needs_turns && let Some(name) = cx.code_name(Role::FeedMode) {
@@ -264,7 +300,7 @@ impl PathRule for SpindleStoppedWhileCutting {
 /// Does a pass of a thread wait for the angle of the spindle? Taps that a cycle drives start and stop it themselves.
 fn is_thread(cx: &PathCx<'_>, event: &Event) -> bool {
     let Event::Travel(travel) = event else { return false };
-    let is_pass = |effect| matches!(effect, Effect::Thread | Effect::ThreadingPass | Effect::ThreadCycle);
+    let is_pass = Effect::cuts_thread;
     let by_mode = || cx.state().effect(Role::Motion, cx.model).is_some_and(is_pass);
     travel.kind == TravelKind::Thread && (cx.has_effect(is_pass) || by_mode())
 }

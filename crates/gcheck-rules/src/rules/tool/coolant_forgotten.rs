@@ -81,9 +81,7 @@ impl PathRule for CoolantForgotten {
     }
 
     fn concerns(&self, program: &Uses<'_>) -> bool {
-        program.may(|effect| effect == Effect::CoolantOff)
-            && program
-                .may(|effect| matches!(effect, Effect::MistOn | Effect::FloodOn | Effect::ThroughCoolantOn))
+        program.may(|effect| effect == Effect::CoolantOff) && program.may(Effect::starts_coolant)
     }
 
     fn changed(&mut self, cx: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {

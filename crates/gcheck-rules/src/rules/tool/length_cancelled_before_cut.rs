@@ -105,12 +105,7 @@ impl PathRule for LengthCancelledBeforeCut {
             return;
         }
         let (Event::Travel(travel), Some(cancelled)) = (event, cx.definitions().set_by(fact)) else { return };
-        let goes_elsewhere = cx.has_effect(|effect| {
-            matches!(
-                effect,
-                Effect::MachineCoordinates | Effect::ReturnReference(_) | Effect::ReturnFromReference
-            )
-        });
+        let goes_elsewhere = cx.has_effect(Effect::moves_by_machine_places);
         let is_absolute = cx.state().is_incremental(cx.model) == Some(false);
         let is_near = travel.to.raw(Axis::Z) < NEAR_THE_PART;
         if goes_elsewhere || !is_absolute || !is_near || self.told == Some(cancelled) || self.was_no_longer()

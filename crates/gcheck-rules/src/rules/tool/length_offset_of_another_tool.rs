@@ -110,10 +110,7 @@ impl PathRule for LengthOffsetOfAnotherTool {
 
     fn cut(&mut self, cx: &PathCx<'_>, _: &Event, _: &mut Report<'_>) {
         let state = cx.state();
-        let is_on = |effect| {
-            matches!(effect, Effect::LengthPlus | Effect::LengthMinus | Effect::ToolCentrePoint)
-                || is_along_tool(effect)
-        };
+        let is_on = |effect: Effect| effect.takes_tool_length() || is_along_tool(effect);
         let by_t = cx.model.semantics().tools.offset_in_t;
         if !by_t && !state.effect(Role::Length, cx.model).is_some_and(is_on) {
             return;

@@ -65,7 +65,7 @@ impl PathRule for ToolChangeWithoutStop {
     }
 
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
-        let stops = |effect| matches!(effect, Effect::Stop | Effect::OptionalStop | Effect::PalletStop);
+        let stops = Effect::stops_program;
         if cx.has_effect(stops) {
             self.has_cut = false;
         }

@@ -73,7 +73,7 @@ impl PathRule for ToolCutsDry {
     }
 
     fn concerns(&self, program: &Uses<'_>) -> bool {
-        program.may(|effect| matches!(effect, Effect::MistOn | Effect::FloodOn | Effect::ThroughCoolantOn))
+        program.may(Effect::starts_coolant)
     }
 
     fn changed(&mut self, _: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {

@@ -123,33 +123,9 @@ impl ToolLengthMissing {
         if cx.definitions().set_by(Fact::Tool) != Some(at) {
             return;
         }
-        // A control that only takes lengths from the program, without a table, has the tool measured when it is changed.
-        let compensates =
-            |effect| matches!(effect, Effect::LengthPlus | Effect::LengthMinus | Effect::ToolCentrePoint);
-        let Some(on) = cx.control().codes().find(|code| compensates(code.effect())) else { return };
-        // Where the code is an option, machines without it measure the tool when it is changed.
-        if on.entry().option.is_some() {
-            return;
-        }
-        let on = on.number().to_string();
-        // A work offset is measured with the length off, and the probe moves to its place without it.
-        if cx.file_uses(|effect| matches!(effect, Effect::ProbeOffset | Effect::ProbeCentre)) {
-            return;
-        }
+        let Some(on) = code_that_compensates(cx) else { return };
+        let Some(is_touching) = is_touching_off(cx) else { return };
         let is_ever_used = cx.file_uses(compensates);
-        // A tool that is about to touch off finds its own zero. If no offset is written, the result is the position of
-        // the spindle nose, and the other tools move there with their tips.
-        let touches = |effect| matches!(effect, Effect::ProbeToward | Effect::ProbeTowardOptional);
-        let keeps = |effect| {
-            matches!(
-                effect,
-                Effect::WriteOffsets | Effect::SetPosition | Effect::LocalShift | Effect::LengthFromBlock
-            )
-        };
-        let is_touching = is_near(cx, touches);
-        if is_touching && (!is_ever_used || cx.file_uses(keeps)) {
-            return;
-        }
         let what = if matches!(event, Event::Travel(t) if t.kind == gcheck_engine::TravelKind::Rapid) {
             "moves"
         } else {
@@ -182,6 +158,38 @@ impl ToolLengthMissing {
             );
         }
     }
+}
+
+/// The code that gives a tool its length, unless it is an option of the control.
+fn code_that_compensates(cx: &PathCx<'_>) -> Option<String> {
+    // A control that only takes lengths from the program, without a table, has the tool measured when it is changed.
+    let on = cx.control().codes().find(|code| compensates(code.effect()))?;
+    // Where the code is an option, machines without it measure the tool when it is changed.
+    on.entry().option.is_none().then(|| on.number().to_string())
+}
+
+fn compensates(effect: Effect) -> bool {
+    effect.takes_tool_length()
+}
+
+/// Is the tool about to touch off? `None` when it needs no length for what it does.
+fn is_touching_off(cx: &PathCx<'_>) -> Option<bool> {
+    // A work offset is measured with the length off, and the probe moves to its place without it.
+    if cx.file_uses(|effect| matches!(effect, Effect::ProbeOffset | Effect::ProbeCentre)) {
+        return None;
+    }
+    // A tool that is about to touch off finds its own zero. If no offset is written, the result is the position of
+    // the spindle nose, and the other tools move there with their tips.
+    let touches = |effect| matches!(effect, Effect::ProbeToward | Effect::ProbeTowardOptional);
+    let keeps = |effect| {
+        matches!(
+            effect,
+            Effect::WriteOffsets | Effect::SetPosition | Effect::LocalShift | Effect::LengthFromBlock
+        )
+    };
+    let is_touching = is_near(cx, touches);
+    let goes_without = is_touching && (!cx.file_uses(compensates) || cx.file_uses(keeps));
+    (!goes_without).then_some(is_touching)
 }
 
 /// Length compensation is on: with no length at all, or with the one that the tool before had.

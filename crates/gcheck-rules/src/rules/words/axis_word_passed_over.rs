@@ -1,7 +1,6 @@
 //! An axis word that its block takes away from the motion, and does not read.
 
 use gcheck_controls::LetterSet;
-use gcheck_engine::owns_axes;
 use gcheck_program::BlockFlags;
 
 use crate::declare::declare_rule;
@@ -39,7 +38,7 @@ declare_rule! {
 }
 
 fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
-    let moves_axes = |code: &gcheck_controls::Code<'_>| code.entry().takes_axes || owns_axes(code.effect());
+    let moves_axes = |code: &gcheck_controls::Code<'_>| code.entry().takes_axes || code.effect().owns_axes();
     let Some((_, taker)) = cx.codes().find(|(_, code)| moves_axes(code)) else { return };
     let any = cx.codes().any(|(_, code)| code.entry().any_words || code.is_user());
     if any || !cx.words_are_plain() || cx.block().flags.contains(BlockFlags::UNKNOWN_CODE) {

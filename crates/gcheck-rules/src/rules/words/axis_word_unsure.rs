@@ -1,7 +1,6 @@
 //! An axis word beside a code whose manual does not name it.
 
 use gcheck_controls::{Code, Handling, Letter, Motion};
-use gcheck_engine::owns_axes;
 use gcheck_program::BlockFlags;
 
 use crate::declare::declare_rule;
@@ -57,7 +56,7 @@ fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
 /// The code that moves the axes of the block or makes them wait, where no code takes their words for itself.
 fn mover<'a>(cx: &BlockCx<'a>) -> Option<Code<'a>> {
     // Another rule reports words beside codes that take the axes.
-    let takes = |code: Code<'_>| code.entry().takes_axes || owns_axes(code.effect());
+    let takes = |code: Code<'_>| code.entry().takes_axes || code.effect().owns_axes();
     if cx.codes().any(|(_, code)| takes(code)) {
         return None;
     }

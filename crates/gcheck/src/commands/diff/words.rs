@@ -408,65 +408,10 @@ impl Sides<'_> {
     }
 
     pub(in crate::commands) fn json(&self, differences: &Differences) -> Json {
-        let place = |side: usize, place: Option<&Place>| {
-            place.map(
-                |place| json!({ "file": &*place.file, "line": place.line, "text": self.block(side, place) }),
-            )
-        };
-        let by_aspect: Vec<Json> = Aspect::ALL
-            .into_iter()
-            .filter(|aspect| differences.count(*aspect) > 0)
-            .map(|aspect| {
-                let kept = differences.kept().iter().filter(|difference| difference.aspect == aspect);
-                let first: Vec<Json> = kept
-                    .map(|difference| {
-                        let [of_a, of_b] = &difference.values;
-                        let value =
-                            |side, value: &Option<Value>| value.as_ref().map(|value| self.value(value, side));
-                        json!({
-                            "a": place(0, difference.a.as_ref()), "b": place(1, difference.b.as_ref()),
-                            "value_a": value(0, of_a), "value_b": value(1, of_b),
-                        })
-                    })
-                    .collect();
-                json!({ "aspect": aspect.name(), "count": differences.count(aspect), "first": first })
-            })
-            .collect();
-        let section = |side: usize, at: &SectionAt| {
-            json!({
-                "tool": tool_of(&at.title), "name": called(at), "place": at.place,
-                "first": place(side, Some(&at.first)), "last": at.last,
-            })
-        };
-        let sections: Vec<Json> = differences
-            .sections()
-            .iter()
-            .map(|of| {
-                let side = |index, at: &Option<SectionAt>| at.as_ref().map(|at| section(index, at));
-                json!({
-                    "change": of.change.name(), "a": side(0, &of.a), "b": side(1, &of.b),
-                    "compared": of.change == Change::Moved { is_compared: true },
-                })
-            })
-            .collect();
-        let parting = |parting: &Parting| {
-            let [to_a, to_b] = parting.to.map(|to| to.map(|to| coordinates(&to)));
-            json!({
-                "a": place(0, parting.a.as_ref()), "b": place(1, parting.b.as_ref()),
-                "at": coordinates(&parting.at), "to_a": to_a, "to_b": to_b,
-                "apart": Some(parting.apart).filter(|apart| apart.is_finite()),
-                "section": parting.within.as_deref().map(|[a, b]| {
-                    json!({ "a": section(0, a), "b": section(1, b) })
-                }),
-                "again": parting.again.as_ref().map(|again| {
-                    json!({ "tool": tool_of(&again.title), "a": place(0, Some(&again.a)), "b": place(1, Some(&again.b)) })
-                }),
-            })
-        };
-        let partings: Vec<Json> = differences.partings().map(parting).collect();
+        let partings: Vec<Json> = differences.partings().map(|parting| self.parting_json(parting)).collect();
         let corner = differences.corner.as_ref().map(|corner| {
             json!({
-                "a": place(0, Some(&corner.a)), "at": coordinates(&corner.at),
+                "a": self.place_json(0, Some(&corner.a)), "at": coordinates(&corner.at),
                 "off": corner.off, "count": corner.count,
             })
         });
@@ -476,18 +421,6 @@ impl Sides<'_> {
                 json!({ "file": prepared.shown, "control": prepared.chosen.choice, "fault": fault })
             })
         };
-        let not_compared: Vec<Json> = self
-            .left_out
-            .iter()
-            .map(|of| {
-                let [of_a, of_b] = &of.sides;
-                let side = |index: usize, side: &Option<(u64, Place)>| {
-                    side.as_ref()
-                        .map(|(count, first)| json!({ "count": count, "first": place(index, Some(first)) }))
-                };
-                json!({ "code": of.name, "a": side(0, of_a), "b": side(1, of_b) })
-            })
-            .collect();
         json!({
             "version": VERSION,
             "same": differences.is_same() && self.faults.iter().all(Option::is_none),
@@ -496,18 +429,97 @@ impl Sides<'_> {
             "a": side(0), "b": side(1),
             "moves": differences.moves,
             "unknown": differences.unknown,
-            "not_compared": not_compared,
+            "not_compared": self.not_compared_json(),
             "sections_by": differences.by().map(|by| match by {
                 By::Tools => "tools",
                 By::Operations => "operations",
             }),
-            "sections": sections,
+            "sections": self.sections_json(differences),
             "parting": partings.first(),
             "partings": partings,
             "partings_count": differences.partings_count(),
             "corner": corner,
-            "differences": by_aspect,
+            "differences": self.by_aspect_json(differences),
         })
+    }
+
+    fn place_json(&self, side: usize, place: Option<&Place>) -> Option<Json> {
+        place
+            .map(|place| json!({ "file": &*place.file, "line": place.line, "text": self.block(side, place) }))
+    }
+
+    /// What differs, by what it is about, with the first places of each.
+    fn by_aspect_json(&self, differences: &Differences) -> Vec<Json> {
+        let of_aspect = |aspect: Aspect| {
+            let kept = differences.kept().iter().filter(|difference| difference.aspect == aspect);
+            let first: Vec<Json> = kept
+                .map(|difference| {
+                    let [of_a, of_b] = &difference.values;
+                    let value =
+                        |side, value: &Option<Value>| value.as_ref().map(|value| self.value(value, side));
+                    json!({
+                        "a": self.place_json(0, difference.a.as_ref()),
+                        "b": self.place_json(1, difference.b.as_ref()),
+                        "value_a": value(0, of_a), "value_b": value(1, of_b),
+                    })
+                })
+                .collect();
+            json!({ "aspect": aspect.name(), "count": differences.count(aspect), "first": first })
+        };
+        Aspect::ALL.into_iter().filter(|aspect| differences.count(*aspect) > 0).map(of_aspect).collect()
+    }
+
+    fn section_json(&self, side: usize, at: &SectionAt) -> Json {
+        json!({
+            "tool": tool_of(&at.title), "name": called(at), "place": at.place,
+            "first": self.place_json(side, Some(&at.first)), "last": at.last,
+        })
+    }
+
+    fn sections_json(&self, differences: &Differences) -> Vec<Json> {
+        let side = |index, at: &Option<SectionAt>| at.as_ref().map(|at| self.section_json(index, at));
+        differences
+            .sections()
+            .iter()
+            .map(|of| {
+                json!({
+                    "change": of.change.name(), "a": side(0, &of.a), "b": side(1, &of.b),
+                    "compared": of.change == Change::Moved { is_compared: true },
+                })
+            })
+            .collect()
+    }
+
+    fn parting_json(&self, parting: &Parting) -> Json {
+        let [to_a, to_b] = parting.to.map(|to| to.map(|to| coordinates(&to)));
+        json!({
+            "a": self.place_json(0, parting.a.as_ref()), "b": self.place_json(1, parting.b.as_ref()),
+            "at": coordinates(&parting.at), "to_a": to_a, "to_b": to_b,
+            "apart": Some(parting.apart).filter(|apart| apart.is_finite()),
+            "section": parting.within.as_deref().map(|[a, b]| {
+                json!({ "a": self.section_json(0, a), "b": self.section_json(1, b) })
+            }),
+            "again": parting.again.as_ref().map(|again| {
+                json!({
+                    "tool": tool_of(&again.title),
+                    "a": self.place_json(0, Some(&again.a)), "b": self.place_json(1, Some(&again.b)),
+                })
+            }),
+        })
+    }
+
+    fn not_compared_json(&self) -> Vec<Json> {
+        let side = |index: usize, side: &Option<(u64, Place)>| {
+            side.as_ref()
+                .map(|(count, first)| json!({ "count": count, "first": self.place_json(index, Some(first)) }))
+        };
+        self.left_out
+            .iter()
+            .map(|of| {
+                let [of_a, of_b] = &of.sides;
+                json!({ "code": of.name, "a": side(0, of_a), "b": side(1, of_b) })
+            })
+            .collect()
     }
 }
 
