@@ -5,6 +5,7 @@
 //! Every function here ends: a block gives at most [`MAX_STROKES`] strokes, then [`CycleError::TooManyStrokes`].
 //! Strokes are handed out as they are found, so those before an error stay handed out, as they would on a machine.
 
+mod cycle_error;
 mod drilling;
 mod layered;
 mod patterns;
@@ -16,13 +17,13 @@ mod turning;
 use gcheck_geometry::{Mm, Seconds};
 
 use crate::event::Units;
-use crate::fault::CycleFault;
 
+pub use cycle_error::{CycleError, ProfileFault};
 pub use drilling::{Hole, Overrides, hole};
 pub use layered::{LayeredFinish, LayeredRoughing, Pockets, layered_finish, layered_roughing};
 pub use patterns::{bolt_arc, bolt_circle, bolt_line};
 pub use pockets::{CircularPocket, GeneralPocket, PocketPlan, circular_pocket, general_pocket};
-pub use profile::{ProfileFault, ProfileSegment};
+pub use profile::ProfileSegment;
 pub use roughing::{PatternRepeat, Roughing, RoughingDirection, finish_profile, pattern_repeat, roughing};
 pub use turning::{
     Grooving, InFeed, TaperEnds, TaperedThread, ThreadHeights, box_pass, grooving, multi_pass_thread,
@@ -91,33 +92,6 @@ impl Stroke {
             Self::Rapid(to) | Self::Feed(to) | Self::Arc { to, .. } | Self::Thread { to, .. } => Some(*to),
             _ => None,
         }
-    }
-}
-
-/// Why a cycle gives no strokes, or no more of them.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum CycleError {
-    /// The control refuses the block.
-    Fault(CycleFault),
-    /// The control refuses the profile.
-    Profile(ProfileFault),
-    /// A number that the cycle is built on is not known.
-    Unknown,
-    /// More than [`MAX_STROKES`].
-    TooManyStrokes,
-    /// The effect is no cycle of this kind.
-    NotThisKind,
-}
-
-impl From<CycleFault> for CycleError {
-    fn from(fault: CycleFault) -> Self {
-        Self::Fault(fault)
-    }
-}
-
-impl From<ProfileFault> for CycleError {
-    fn from(fault: ProfileFault) -> Self {
-        Self::Profile(fault)
     }
 }
 

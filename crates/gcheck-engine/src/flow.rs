@@ -40,7 +40,7 @@ pub use reaching_definitions::{Choice, Decision, Fact, Facts, Parting, ReachingD
 use crate::assumption::Assumption;
 use crate::eval::value::Abstract;
 use crate::event::Event;
-use crate::exec::{Ending, Executor, Options, Outcome};
+use crate::exec::context::{Ending, Executor, Options, Outcome};
 use crate::fault::Fault;
 use crate::lattice::Lattice;
 use crate::machine::Machine;

@@ -47,16 +47,16 @@ pub trait Lattice {
 macro_rules! lattice {
     (
         $(#[$meta:meta])*
-        $vis:vis struct $name:ident $(<$domain:ident: Domain>)? {
+        $vis:vis struct $name:ident $(<$domain:ident: $bound:ident>)? {
             $( $(#[$field_meta:meta])* $field_vis:vis $field:ident: $kind:ty, )*
         }
     ) => {
         $(#[$meta])*
-        $vis struct $name $(<$domain: $crate::eval::value::Domain>)? {
+        $vis struct $name $(<$domain: $bound>)? {
             $( $(#[$field_meta])* $field_vis $field: $kind, )*
         }
 
-        impl $(<$domain: $crate::eval::value::Domain>)? $crate::lattice::Lattice for $name $(<$domain>)? {
+        impl $(<$domain: $bound>)? $crate::lattice::Lattice for $name $(<$domain>)? {
             fn join(&self, other: &Self) -> Self {
                 Self { $( $field: $crate::lattice::merged!(
                     $name.$field,
@@ -94,14 +94,14 @@ macro_rules! lattice {
             }
         }
 
-        impl $(<$domain: $crate::eval::value::Domain>)? PartialEq for $name $(<$domain>)? {
+        impl $(<$domain: $bound>)? PartialEq for $name $(<$domain>)? {
             fn eq(&self, other: &Self) -> bool {
                 $crate::lattice::Lattice::same(self, other)
             }
         }
 
         #[cfg(feature = "forgetful")]
-        impl $(<$domain: $crate::eval::value::Domain>)? $name $(<$domain>)? {
+        impl $(<$domain: $bound>)? $name $(<$domain>)? {
             /// The type with the names of its fields.
             pub(crate) const FIELDS: (&str, &[&str]) = (stringify!($name), &[$( stringify!($field) ),*]);
         }

@@ -31,8 +31,8 @@ pub use block_lines::{BlockLines, CallLine, CallLines, outline_cycle};
 pub use cylinder::Cylinder;
 pub use eval::value::*;
 pub use event::*;
+pub use exec::context::{Ending, Options};
 pub use exec::look::{Look, Trial};
-pub use exec::{Ending, Options};
 pub use fault::{ArcFault, CompensationFault, CornerFault, CycleFault, Fault, ValueFault};
 pub use flow::{
     Branch, Budget, Checkpoint, Choice, Decision, Fact, Facts, FlowCx, FlowObserver, FlowResult, GivenUp,

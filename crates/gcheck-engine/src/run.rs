@@ -6,8 +6,8 @@ use std::collections::BTreeSet;
 
 use crate::assumption::Assumption;
 use crate::eval::value::Concrete;
+use crate::exec::context::{Ending, Executor, Options, Outcome};
 use crate::exec::past_alarm::choose_way;
-use crate::exec::{Ending, Executor, Options, Outcome};
 use crate::fault::Fault;
 use crate::machine::Machine;
 use crate::model::Model;

@@ -7,7 +7,7 @@
 
 use gcheck_geometry::Mm;
 
-use super::CycleError;
+use super::cycle_error::{CycleError, ProfileFault};
 
 /// A point `(z, x)`.
 pub(super) type Point = (f64, f64);
@@ -31,21 +31,6 @@ pub enum ProfileSegment {
         /// Counter-clockwise: from +Z toward +X.
         ccw: bool,
     },
-}
-
-/// Why a profile cannot be cut.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ProfileFault {
-    /// No piece.
-    Empty,
-    /// The first piece is not what the cycle wants: a move of X alone to rough along Z, of Z alone to rough along X.
-    FirstPiece,
-    /// A piece goes back in the direction in which the profile may only go forth; its index.
-    NotMonotonic(usize),
-    /// An arc whose ends do not stand on its circle; its index.
-    Arc(usize),
-    /// The start point does not lie outside the profile.
-    Start,
 }
 
 /// A piece with its start.

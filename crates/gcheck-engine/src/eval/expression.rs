@@ -7,7 +7,7 @@ use gcheck_program::{BinaryOp, BlockTable, Expr, Function, Op, Place};
 
 use super::variables::variable_number;
 use crate::eval::value::Domain;
-use crate::exec::{Executor, Step};
+use crate::exec::context::{Executor, Step};
 use crate::fault::{Fault, ValueFault};
 use crate::observer::Observer;
 use crate::state::State;

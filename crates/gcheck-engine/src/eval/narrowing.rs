@@ -6,7 +6,7 @@ use gcheck_controls::Unset;
 use gcheck_program::{BinaryOp, BlockTable, ExprIx, Op, Place};
 
 use crate::eval::value::{Domain, Truth};
-use crate::exec::{Executor, Step};
+use crate::exec::context::{Executor, Step};
 use crate::observer::Observer;
 use crate::state::State;
 

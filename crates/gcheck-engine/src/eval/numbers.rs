@@ -8,20 +8,13 @@ use gcheck_program::{BinaryOp, BlockTable, Function, Place, Value, Word};
 use crate::assumption::{Assumption, Assumptions};
 use crate::eval::value::{Domain, Truth};
 use crate::event::Units;
-use crate::exec::{Executor, Step};
+use crate::exec::context::{Count, Executor, Step};
 use crate::fault::Fault;
 use crate::lattice::Lattice;
 use crate::machine::Machine;
 use crate::model::Model;
 use crate::observer::Observer;
 use crate::state::State;
-
-/// A whole number, or a word whose value nobody knows.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Count {
-    Known(u32),
-    Unknown,
-}
 
 impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     pub(crate) fn read_words(

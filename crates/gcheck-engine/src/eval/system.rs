@@ -6,7 +6,7 @@ use gcheck_controls::{CodeNumber, Effect, Letter, SystemValue, SystemVariable, U
 
 use crate::eval::value::{Domain, Truth};
 use crate::event::{Event, FeedMode, Spindle, Stop, Units};
-use crate::exec::{Ending, Executor, Outcome, Step};
+use crate::exec::context::{Ending, Executor, Outcome, Step};
 use crate::fault::{CompensationFault, Fault};
 use crate::model::Role;
 use crate::observer::Observer;

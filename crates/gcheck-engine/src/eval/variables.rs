@@ -8,21 +8,12 @@ use gcheck_program::{BlockTable, Place, Target};
 
 use crate::assumption::{Assumption, Unsettled};
 use crate::eval::value::{Domain, Truth};
-use crate::exec::{Executor, Outcome, Step};
+use crate::exec::context::{Assignee, Executor, Outcome, Step};
 use crate::fault::Fault;
 use crate::lattice::Lattice;
 use crate::machine::Machine;
 use crate::observer::Observer;
 use crate::state::{NameId, State, Variable};
-
-/// What an assignment writes to.
-#[derive(Debug, Clone, Copy)]
-pub(crate) enum Assignee {
-    Number(u32),
-    Name(NameId),
-    /// A variable of unknown number.
-    Anywhere,
-}
 
 impl<'a, D: Domain, O: Observer<D>> Executor<'a, '_, D, O> {
     pub(crate) fn read_variable(&mut self, number: u32, state: &State<D>) -> Step<D::Value> {

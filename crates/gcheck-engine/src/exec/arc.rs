@@ -6,10 +6,9 @@
 use gcheck_controls::{Effect, Letter};
 use gcheck_geometry::{Arc, ArcDirection, ArcError, ArcTolerance, Mm, Plane};
 
-use super::{Executor, Step};
-use crate::eval::numbers::Count;
 use crate::eval::value::Domain;
 use crate::event::{ArcMove, Event, TravelKind, Units};
+use crate::exec::context::{Count, Executor, Step};
 use crate::fault::{ArcFault, Fault};
 use crate::model::Role;
 use crate::observer::Observer;

@@ -10,8 +10,8 @@ use gcheck_controls::{CodeIx, Effect, Letter, LetterSet};
 use gcheck_geometry::Plane;
 use gcheck_program::{Block, BlockFlags, Place, Value, Word};
 
-use super::{Executor, Step};
 use crate::eval::value::Domain;
+use crate::exec::context::{Executor, Step};
 use crate::fault::{CycleFault, Fault};
 use crate::model::Role;
 use crate::model::contract::{CodeContract, POLAR, ValueRange};

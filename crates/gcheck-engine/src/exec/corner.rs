@@ -15,10 +15,10 @@ use gcheck_program::BlockFlags;
 
 use super::arc::{arc_fault, plane_axes};
 use super::effects::compensation::above;
-use super::{Executor, Step};
 use crate::cycles::ProfileSegment;
 use crate::eval::value::Domain;
 use crate::event::{Event, TravelKind};
+use crate::exec::context::{Executor, Step};
 use crate::fault::{CornerFault, Fault};
 use crate::lattice::Perhaps;
 use crate::model::Role;

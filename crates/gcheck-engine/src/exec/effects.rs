@@ -25,11 +25,10 @@ use gcheck_controls::{CodeIx, Effect as E, Letter};
 use gcheck_geometry::Plane;
 use gcheck_program::{Place, Word};
 
-use super::{Ending, Executor, Flow, Step};
 use crate::assumption::Assumption;
-use crate::eval::numbers::Count;
 use crate::eval::value::{Domain, Truth};
 use crate::event::{Coolant, Event, FeedMode, Override, PathMode, Spindle, Stop, Units};
+use crate::exec::context::{Count, Ending, Executor, Flow, Step};
 use crate::fault::Fault;
 use crate::lattice::Perhaps;
 use crate::observer::Observer;

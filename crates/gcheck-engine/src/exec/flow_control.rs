@@ -7,29 +7,15 @@ use std::rc::Rc;
 use gcheck_controls::{CodeIx, Effect, Letter, ReturnTo, Unset};
 use gcheck_program::{BlockFlags, BlockTable, ExprIx, Place, Value, Word};
 
-use super::{Ending, Executor, Flow, Outcome, Step};
 use crate::assumption::{Assumption, Assumptions, Unsettled};
-use crate::eval::numbers::Count;
 use crate::eval::value::{Domain, Truth};
+use crate::exec::context::{Callee, Count, Ending, Executor, Flow, Outcome, Step};
 use crate::fault::Fault;
 use crate::lattice::{Flat, Lattice, Perhaps};
 use crate::observer::Observer;
 use crate::origin::At;
 use crate::start::start_state;
 use crate::state::{BarCommand, Frame, FrameKind, Kept, Locals, ModalCall, ModalCalls, State};
-
-/// A program about to be entered.
-#[derive(Debug, Clone)]
-pub(super) struct Callee<D: Domain> {
-    kind: FrameKind,
-    target: At,
-    /// Further turns to come; `None` unknown.
-    repeats: Option<u32>,
-    /// The unknown number of turns may be none.
-    may_be_skipped: bool,
-    arguments: Vec<(u32, D::Value)>,
-    bar_feed: Perhaps<Rc<BarCommand>>,
-}
 
 impl<D: Domain> Callee<D> {
     /// A program that is called without words.

@@ -7,9 +7,9 @@ use std::ops::Range;
 use gcheck_controls::Letter;
 use gcheck_program::{ExprIx, Place, Value, Word};
 
-use super::{Executor, Options, Outcome};
 use crate::eval::value::{Abstract, AbstractValue};
 use crate::event::{Event, Units};
+use crate::exec::context::{Executor, Options, Outcome};
 use crate::fault::Fault;
 use crate::machine::Machine;
 use crate::model::Model;

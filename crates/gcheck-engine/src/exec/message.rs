@@ -8,9 +8,9 @@ use std::rc::Rc;
 use gcheck_controls::{MessageComment, Semicolon};
 use gcheck_program::{Place, Statement};
 
-use super::Executor;
 use crate::eval::value::Domain;
 use crate::event::Event;
+use crate::exec::context::Executor;
 use crate::observer::Observer;
 use crate::state::State;
 

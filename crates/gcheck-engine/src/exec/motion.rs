@@ -10,11 +10,10 @@ use gcheck_geometry::{Bezier, CurveArc, Degrees, Mm, Plane};
 use nalgebra::Point2;
 
 use super::arc::{axes_of_plane, plane_axes};
-use super::{Executor, Step};
 use crate::assumption::{Assumption, Unsettled};
-use crate::eval::numbers::Count;
 use crate::eval::value::Domain;
 use crate::event::{Curve, CurvePiece, Event, FeedMode, Spindle, Travel, TravelKind};
+use crate::exec::context::{Count, Executor, Step};
 use crate::fault::{CompensationFault, Fault};
 use crate::lattice::Perhaps;
 use crate::model::Role;

@@ -8,12 +8,10 @@ use std::rc::Rc;
 
 use gcheck_controls::Letter;
 use gcheck_program::{BlockTable, ExprIx, OKeyword, OLabel, OWordLinks, Place, StatementKind};
-use rustc_hash::FxHashMap;
 
-use super::flow_control::Callee;
-use super::{Executor, Outcome, Step};
 use crate::assumption::Assumption;
 use crate::eval::value::{Domain, Truth};
+use crate::exec::context::{Callee, Executor, OLabels, Outcome, Step};
 use crate::fault::Fault;
 use crate::lattice::{Flat, Perhaps};
 use crate::observer::Observer;
@@ -502,15 +500,6 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
 /// Computed labels that are looked at for the partner of an O-word: each is computed every time.
 const MOST_LABELS: usize = 256;
-
-/// The labels of the O-words of a file that open, go on with or close a structure.
-#[derive(Debug, Default)]
-pub(super) struct OLabels {
-    /// Blocks by their label, in text order.
-    written: FxHashMap<OLabel, Vec<(u32, OKeyword)>>,
-    /// Blocks whose label is computed, in text order.
-    computed: Vec<(u32, OKeyword)>,
-}
 
 impl OLabels {
     /// Those of a label that is written, among the blocks.

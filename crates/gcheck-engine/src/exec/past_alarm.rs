@@ -14,9 +14,9 @@ use gcheck_geometry::Mm;
 
 use super::arc::plane_axes;
 use super::order::Action;
-use super::{Ending, Executor, Flow, Outcome, Step};
 use crate::eval::value::{Domain, Truth};
 use crate::event::{Event, Travel, TravelKind};
+use crate::exec::context::{Before, Ending, Executor, Flow, Outcome, Step};
 use crate::fault::Fault;
 use crate::lattice::{Flat, Perhaps};
 use crate::model::Role;
@@ -26,15 +26,6 @@ use crate::position::{Axis, Position};
 use crate::state::{
     Bar, Blending, Course, KeptTurningWords, ModalCalls, ModeSet, State, ToolData, Transform, TurningWords,
 };
-
-/// What went before a block that may be refused.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Before {
-    /// Where the axes were.
-    actual: Position,
-    /// Moves given out until then.
-    moves: u64,
-}
 
 impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// What going on has to know of the state before the block.

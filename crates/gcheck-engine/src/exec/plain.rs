@@ -7,9 +7,9 @@
 use gcheck_controls::{CodeIx, Effect, LetterSet};
 use gcheck_program::{Block, Value, Word};
 
-use super::{Cursor, Executor};
 use crate::eval::value::{Domain, Truth};
 use crate::event::{Event, FeedMode, Travel, TravelKind, Units};
+use crate::exec::context::{Cursor, Executor};
 use crate::model::Role;
 use crate::observer::Observer;
 use crate::origin::{At, Origin};

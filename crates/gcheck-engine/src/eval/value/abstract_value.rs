@@ -246,6 +246,16 @@ fn gather(results: impl Iterator<Item = Result<f64, ValueFault>>) -> Result<Abst
     }
 }
 
+impl Range {
+    fn into_value(self) -> AbstractValue {
+        AbstractValue::interval(self.lo, self.hi, false)
+    }
+
+    fn with_vacancy(self, vacant: bool) -> AbstractValue {
+        AbstractValue::interval(self.lo, self.hi, vacant)
+    }
+}
+
 impl Domain for Abstract {
     type Value = AbstractValue;
 

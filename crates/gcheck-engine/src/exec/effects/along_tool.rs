@@ -12,7 +12,7 @@ use crate::assumption::Assumption;
 use crate::cycles::{CycleError, Hole, Stroke, hole};
 use crate::eval::value::Domain;
 use crate::event::{Event, TravelKind};
-use crate::exec::{Executor, Step};
+use crate::exec::context::{Executor, Step};
 use crate::fault::{CycleFault, Fault};
 use crate::observer::Observer;
 use crate::position::Position;

@@ -8,10 +8,9 @@ use gcheck_geometry::Mm;
 use gcheck_program::Word;
 
 use crate::assumption::Assumption;
-use crate::eval::numbers::Count;
 use crate::eval::value::{Domain, Truth};
 use crate::event::{BarLengths, Event, Spindle, Units};
-use crate::exec::{Ending, Executor, Step};
+use crate::exec::context::{Count, Ending, Executor, Step};
 use crate::fault::Fault;
 use crate::lattice::Flat;
 use crate::observer::Observer;

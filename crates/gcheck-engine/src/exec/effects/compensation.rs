@@ -11,11 +11,10 @@ use gcheck_geometry::{
 };
 
 use crate::assumption::{Assumption, Unsettled};
-use crate::eval::numbers::Count;
 use crate::eval::value::Domain;
 use crate::event::{ArcMove, Event, Travel, TravelKind};
 use crate::exec::arc::axes_of_plane;
-use crate::exec::{Executor, Step};
+use crate::exec::context::{Count, Executor, Step};
 use crate::fault::{CompensationFault, Fault};
 use crate::lattice::{Flat, Lattice, Perhaps};
 use crate::model::Role;

@@ -7,11 +7,10 @@ use gcheck_geometry::{Mm, Plane, Seconds, sweep_about};
 
 use crate::assumption::Assumption;
 use crate::cycles::{CycleError, Hole, Overrides, Stroke, hole};
-use crate::eval::numbers::Count;
 use crate::eval::value::{Domain, Truth};
 use crate::event::{ArcMove, Event, FeedMode, Override, PathMode, Spindle, Stop, TravelKind, Units};
 use crate::exec::arc::plane_axes;
-use crate::exec::{Executor, Step};
+use crate::exec::context::{Count, Executor, Step};
 use crate::fault::{CycleFault, Fault};
 use crate::lattice::{Flat, Lattice, Perhaps};
 use crate::model::Role;

@@ -9,7 +9,7 @@ use crate::assumption::Assumption;
 use crate::cylinder::Cylinder;
 use crate::eval::value::{Domain, Truth};
 use crate::event::{Event, Units};
-use crate::exec::{Executor, Step};
+use crate::exec::context::{Executor, Step};
 use crate::fault::Fault;
 use crate::lattice::Perhaps;
 use crate::model::Role;

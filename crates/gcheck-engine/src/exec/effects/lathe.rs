@@ -19,7 +19,7 @@ use crate::cycles::{
 };
 use crate::eval::value::{Domain, Truth};
 use crate::event::{FeedMode, Units};
-use crate::exec::{Executor, Step};
+use crate::exec::context::{Executor, Step};
 use crate::fault::{CycleFault, Fault};
 use crate::lattice::{Lattice, Perhaps};
 use crate::model::Role;

@@ -8,10 +8,9 @@ use gcheck_program::{Place, Word};
 
 use super::CodeInBlock;
 use crate::assumption::Assumption;
-use crate::eval::numbers::Count;
 use crate::eval::value::{Domain, Truth};
 use crate::event::{Coolant, Event, FeedMode, Override, PathMode, Smoothing, Spindle, Travel, TravelKind};
-use crate::exec::{Executor, Step};
+use crate::exec::context::{Count, Executor, Step};
 use crate::fault::{CompensationFault, Fault};
 use crate::lattice::{Flat, Lattice, Perhaps};
 use crate::model::Role;

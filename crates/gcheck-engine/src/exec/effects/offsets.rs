@@ -11,10 +11,9 @@ use gcheck_geometry::Mm;
 use gcheck_program::{BlockTable, Place, Value, Word};
 
 use crate::assumption::Assumption;
-use crate::eval::numbers::Count;
 use crate::eval::value::{Domain, Truth};
 use crate::event::{Event, ToolEntry};
-use crate::exec::{Executor, Step};
+use crate::exec::context::{Count, Executor, Step};
 use crate::fault::{CompensationFault, Fault};
 use crate::lattice::{Flat, Lattice, Perhaps};
 use crate::machine::WorkOffset;

@@ -12,11 +12,10 @@ use crate::cycles::{
     CircularPocket, CycleError, GeneralPocket, PocketPlan, ProfileSegment, Stroke, bolt_arc, bolt_circle,
     bolt_line, circular_pocket, general_pocket,
 };
-use crate::eval::numbers::Count;
 use crate::eval::value::Domain;
 use crate::event::{Clearing, Event, TravelKind};
 use crate::exec::arc::plane_axes;
-use crate::exec::{Executor, Step};
+use crate::exec::context::{Count, Executor, Step};
 use crate::fault::{CycleFault, Fault};
 use crate::model::Role;
 use crate::observer::Observer;

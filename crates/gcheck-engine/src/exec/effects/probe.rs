@@ -8,7 +8,7 @@ use gcheck_geometry::Mm;
 use crate::assumption::Assumption;
 use crate::eval::value::{Domain, Truth};
 use crate::event::{Event, FeedMode, TravelKind};
-use crate::exec::{Executor, Step};
+use crate::exec::context::{Executor, Step};
 use crate::fault::Fault;
 use crate::observer::Observer;
 use crate::position::{Axis, Position};

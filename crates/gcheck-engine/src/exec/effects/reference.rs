@@ -5,10 +5,9 @@
 use gcheck_controls::{Letter, LetterSet};
 
 use crate::assumption::Assumption;
-use crate::eval::numbers::Count;
 use crate::eval::value::Domain;
 use crate::event::TravelKind;
-use crate::exec::{Executor, Step};
+use crate::exec::context::{Count, Executor, Step};
 use crate::fault::{CompensationFault, Fault};
 use crate::observer::Observer;
 use crate::position::{Axis, Position};

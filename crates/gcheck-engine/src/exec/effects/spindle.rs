@@ -5,10 +5,9 @@
 use gcheck_controls::{DwellWord, Effect, Letter};
 use gcheck_geometry::Seconds;
 
-use crate::eval::numbers::Count;
 use crate::eval::value::{Domain, Truth};
 use crate::event::{Coolant, Event, FeedMode, Spindle};
-use crate::exec::{Executor, Step};
+use crate::exec::context::{Count, Executor, Step};
 use crate::fault::Fault;
 use crate::lattice::{Flat, Lattice, Perhaps};
 use crate::model::Role;

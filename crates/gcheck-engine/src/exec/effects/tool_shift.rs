@@ -9,10 +9,9 @@ use gcheck_controls::{CodeIx, Effect, Letter};
 use gcheck_geometry::{Arrangement, Kinematics, Mm, RotaryAxis};
 
 use crate::assumption::Assumption;
-use crate::eval::numbers::Count;
 use crate::eval::value::Domain;
 use crate::event::Event;
-use crate::exec::{Executor, Step};
+use crate::exec::context::{Count, Executor, Step};
 use crate::fault::Fault;
 use crate::lattice::Perhaps;
 use crate::model::Role;

@@ -8,7 +8,7 @@ use gcheck_geometry::{Mm, Plane};
 use super::tool_shift::shifted;
 use crate::eval::value::Domain;
 use crate::exec::arc::plane_axes;
-use crate::exec::{Executor, Step};
+use crate::exec::context::{Executor, Step};
 use crate::lattice::{Lattice, Perhaps};
 use crate::observer::Observer;
 use crate::position::{Axis, Position};

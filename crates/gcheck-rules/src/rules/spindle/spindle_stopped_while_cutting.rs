@@ -97,7 +97,7 @@ struct SpindleStoppedWhileCutting {
 
 remembers!(SpindleStoppedWhileCutting: told);
 
-/// A cut while the spindle stands.
+/// A cut while the spindle is stopped.
 #[expect(clippy::struct_excessive_bools, reason = "independent facts of the cut and its program")]
 struct CutAtRest {
     stopped_by: Option<At>,
@@ -114,7 +114,7 @@ struct CutAtRest {
 }
 
 impl SpindleStoppedWhileCutting {
-    /// What is wrong with a cut, if it needs a spindle that stands and was not reported for that stop.
+    /// What is wrong with a cut, if it needs a spindle that is stopped and was not reported for that stop.
     fn judge(&self, cx: &PathCx<'_>, event: &Event) -> Option<CutAtRest> {
         let stands = cx.state().spindle() == Some(Spindle::Stopped) && cx.state().live_tool() == Truth::False;
         // A program that chose feed per turn needs the spindle for every move.

@@ -10,7 +10,6 @@ use gcheck_controls::Semantics;
 use gcheck_program::{BinaryOp, Function};
 
 use super::super::{Truth, scalar};
-use super::AbstractValue;
 use crate::fault::ValueFault;
 
 /// Numbers from `lo` to `hi`, either of which may be infinite. `lo` ≤ `hi`, and neither is NaN.
@@ -71,14 +70,6 @@ impl Range {
             out = Self { lo: out.lo.next_down(), hi: out.hi.next_up() };
         }
         out
-    }
-
-    pub(super) fn into_value(self) -> AbstractValue {
-        AbstractValue::interval(self.lo, self.hi, false)
-    }
-
-    pub(super) fn with_vacancy(self, vacant: bool) -> AbstractValue {
-        AbstractValue::interval(self.lo, self.hi, vacant)
     }
 
     /// `after`, but a bound that lies beyond this range's goes on to the next threshold.

@@ -19,12 +19,12 @@ use crate::cycles::{
     CycleError, LayeredFinish, LayeredRoughing, PatternRepeat, Pockets, ProfileFault, ProfileSegment,
     Roughing, RoughingDirection, layered_finish, layered_roughing, pattern_repeat, roughing,
 };
-use crate::eval::numbers::Count;
 use crate::eval::value::Domain;
 use crate::event::{Event, TravelKind, Units};
+use crate::exec::Statements;
 use crate::exec::arc::{arc_fault, plane_axes};
+use crate::exec::context::{Count, Executor, Flow, Outcome, Step};
 use crate::exec::corner::{Corner, Fit, cut_corner};
-use crate::exec::{Executor, Flow, Outcome, Statements, Step};
 use crate::fault::{ArcFault, CycleFault, Fault};
 use crate::lattice::Perhaps;
 use crate::model::Role;
