@@ -310,6 +310,9 @@ pub struct CodeList {
     pub m_codes: Confidence,
     /// The machine builder adds M codes of his own.
     pub builder_m_codes: bool,
+    /// M codes from this number on mean what the configuration of the machine gives them.
+    #[serde(default)]
+    pub configured_m_codes: Option<u32>,
     /// Codes that the control has, or that mean something else, only under a setting that chooses another set of G codes.
     #[serde(default)]
     pub by_setting: Vec<String>,
@@ -331,6 +334,7 @@ impl Default for CodeList {
             g_codes: Confidence::Assumed,
             m_codes: Confidence::Assumed,
             builder_m_codes: true,
+            configured_m_codes: None,
             by_setting: Vec::new(),
             source: "general knowledge".to_owned(),
         }

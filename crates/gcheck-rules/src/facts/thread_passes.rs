@@ -30,9 +30,17 @@ remembers!(Pass: at);
 const SAME: f64 = 0.01;
 
 impl Pass {
-    /// Does the pass run over the same length as another one, whatever its depth?
+    /// Does the pass run over the same length as another one, whatever its depth? On a face the length is along X.
     pub(crate) fn is_along(&self, other: &Self) -> bool {
-        self.z.into_iter().zip(other.z).all(|(one, other)| (one - other).abs() < SAME)
+        let is_one =
+            |one: [f64; 2], other: [f64; 2]| one.into_iter().zip(other).all(|(a, b)| (a - b).abs() < SAME);
+        let is_level = |[from, to]: [f64; 2]| (from - to).abs() < SAME;
+        match (is_level(self.z), is_level(other.z)) {
+            (false, false) => is_one(self.z, other.z),
+            // A step that is shorter is a piece of a longer way.
+            (true, true) => !is_level(self.x) && is_one(self.x, other.x),
+            _ => false,
+        }
     }
 }
 

@@ -45,6 +45,7 @@ pub(crate) mod compensation {
     pub(crate) mod lead_in_too_short;
     pub(crate) mod maybe_compensation_left_on;
     pub(crate) mod nose_compensated_into_part;
+    pub(crate) mod radius_given_for_diameter;
     pub(crate) mod refused_under_compensation;
 }
 
@@ -212,6 +213,7 @@ pub(crate) mod mapping {
     pub(crate) mod cylinder_end_without_begin;
     pub(crate) mod cylinder_feed_mode;
     pub(crate) mod cylinder_left_on;
+    pub(crate) mod cylinder_turns_many_times;
     pub(crate) mod cylinder_without_rotary_axis;
     pub(crate) mod cylinder_word_value_ignored;
     pub(crate) mod maybe_cylinder_left_on;
@@ -341,6 +343,7 @@ pub(crate) mod probing {
     pub(crate) mod shift_of_axis_not_probed;
     pub(crate) mod spindle_turns_while_probing;
     pub(crate) mod touch_code_without_probing;
+    pub(crate) mod touch_never_checked;
     pub(crate) mod touch_of_another_axis;
     pub(crate) mod touch_read_without_probing;
     pub(crate) mod touches_do_not_meet;
@@ -466,6 +469,7 @@ pub(crate) mod tool {
     pub(crate) mod tool_change_without_t;
     pub(crate) mod tool_comment_of_another_tool;
     pub(crate) mod tool_cuts_dry;
+    pub(crate) mod tool_cuts_nothing;
     pub(crate) mod tool_does_unlike_work;
     pub(crate) mod tool_length_missing;
 }
@@ -548,6 +552,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &compensation::lead_in_too_short::RULE,
     &compensation::maybe_compensation_left_on::RULE,
     &compensation::nose_compensated_into_part::RULE,
+    &compensation::radius_given_for_diameter::RULE,
     &compensation::refused_under_compensation::RULE,
     &cycles::allowance_into_contour::RULE,
     &cycles::back_bore_r_above_z::RULE,
@@ -697,6 +702,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &mapping::cylinder_end_without_begin::RULE,
     &mapping::cylinder_feed_mode::RULE,
     &mapping::cylinder_left_on::RULE,
+    &mapping::cylinder_turns_many_times::RULE,
     &mapping::cylinder_without_rotary_axis::RULE,
     &mapping::cylinder_word_value_ignored::RULE,
     &mapping::maybe_cylinder_left_on::RULE,
@@ -814,6 +820,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &probing::shift_of_axis_not_probed::RULE,
     &probing::spindle_turns_while_probing::RULE,
     &probing::touch_code_without_probing::RULE,
+    &probing::touch_never_checked::RULE,
     &probing::touch_of_another_axis::RULE,
     &probing::touch_read_without_probing::RULE,
     &probing::touches_do_not_meet::RULE,
@@ -921,6 +928,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &tool::tool_change_without_t::RULE,
     &tool::tool_comment_of_another_tool::RULE,
     &tool::tool_cuts_dry::RULE,
+    &tool::tool_cuts_nothing::RULE,
     &tool::tool_does_unlike_work::RULE,
     &tool::tool_length_missing::RULE,
     &words::arc_without_centre::RULE,

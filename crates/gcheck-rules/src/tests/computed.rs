@@ -65,7 +65,7 @@ fn a_mistake_is_found_whether_its_words_are_written_or_computed() {
     };
     let shown: String = silent.into_iter().map(line).collect();
     expect![[r#"
-        6444 words
+        6556 words
         allowance-into-contour: F G X Z
         blank-inside-number: G Y
         block-number-not-first: G

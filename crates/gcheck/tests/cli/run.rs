@@ -210,7 +210,7 @@ fn an_endless_loop_runs_out_of_fuel() {
             !   |
             ! 1 | o1 while [1]
             !   | ^^^^^^^^^^^^
-            !   note: a loop may never end, or repeats give very many moves
+            !   note: a loop may never end, or repeats give very many moves, which count as blocks too
             !   help: `--fuel BLOCKS` allows more
             exit 1
         "#]],

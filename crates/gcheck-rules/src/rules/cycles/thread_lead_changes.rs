@@ -111,6 +111,12 @@ mod tests {
     use crate::testing::{World, check_rule, findings, only, words};
 
     #[test]
+    fn a_way_in_short_steps_is_no_pass() {
+        let steps = "G21 G18 G99 T101\nG97 S40 M3\nG0 X28.284 Z0.\nG32 X28.283 F86.58\nG32 X28.28 F82.21\nG32 X28.281 F78.1\nG0 X60.\nM30\n";
+        check_rule(&RULE, "haas-lathe", steps, &expect![[""]]);
+    }
+
+    #[test]
     fn all_passes_have_one_lead() {
         let program = |second: &str| {
             format!("G21 G99 T101\nG97 S500 M3\nG0 X32. Z5.\nG92 X29.5 Z-20. F1.5\n{second}\nG0 X60.\nM30\n")

@@ -2,11 +2,12 @@
 
 use std::ops::Range;
 
-use gcheck_engine::{Axis, Event, Position, TravelKind};
+use gcheck_controls::LetterSet;
+use gcheck_engine::{Axis, Event, TravelKind};
 use gcheck_geometry::{Mm, Plane};
 
 use crate::declare::declare_rule;
-use crate::{PathCx, PathRule, Remembers, Report, Run, Watch, remembers};
+use crate::{Finding, PathCx, PathRule, Remembers, Report, Run, Watch, remembers};
 
 declare_rule! {
     /// The tool is fed down into the part and, at the same place, up out of it again, and then cuts a contour of three or more pieces there, above the
@@ -55,8 +56,6 @@ struct ContourInAir {
     step: Step,
     /// The block that was fed down.
     bytes: Range<u32>,
-    /// Where the last move ended, as programmed.
-    at: Option<[f64; 3]>,
 }
 
 remembers!(ContourInAir: bytes);
@@ -72,6 +71,8 @@ enum Step {
     Up { depth: f64, level: f64, pieces: usize },
 }
 
+/// Words of a move that is not straight down or up.
+const SIDEWAYS: LetterSet = LetterSet::of("XYUVIJR");
 /// Levels that differ by less are one: millimetres.
 const SLACK: f64 = 0.01;
 /// Fewer pieces are a way to the next place.
@@ -83,35 +84,43 @@ impl PathRule for ContourInAir {
     }
 
     fn moved(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
+        // Hardly any block is a plunge: the rest is asked of few.
+        let goes_sideways = cx.origin().letters.intersects(SIDEWAYS);
+        if goes_sideways && self.step == Step::None {
+            return;
+        }
         if !cx.is_mill() {
             cx.enough();
             return;
         }
-        let (kind, to) = match event {
-            Event::Travel(travel) if !travel.expanded => (travel.kind, point(&travel.programmed)),
-            Event::Arc(arc) if !arc.expanded => (TravelKind::Feed, point(&arc.programmed)),
-            _ => (TravelKind::Rapid, None),
+        let (kind, programmed, from) = match event {
+            Event::Travel(travel) if !travel.expanded => (travel.kind, &travel.programmed, &travel.from),
+            Event::Arc(arc) if !arc.expanded => (TravelKind::Feed, &arc.programmed, &arc.from),
+            // A piece that compensation puts in, or a stroke of a cycle.
+            _ => return,
         };
         let step = std::mem::take(&mut self.step);
-        let from = std::mem::replace(&mut self.at, to);
-        let (Some(from), Some(to)) = (from, to) else { return };
-        if kind != TravelKind::Feed || cx.state().plane(cx.model) != Some(Plane::Xy) {
-            if kind == TravelKind::Rapid
-                && let Step::Up { depth, level, pieces } = step
+        if kind == TravelKind::Rapid {
+            if let Step::Up { depth, level, pieces } = step
                 && pieces >= FEWEST
             {
                 report.add(finding(cx, depth, self.bytes.clone(), level, pieces));
             }
             return;
         }
-        let is_straight = from[..2].iter().zip(&to[..2]).all(|(from, to)| (from - to).abs() < SLACK);
-        self.step = match (step, is_straight) {
-            (_, true) if to[2] < from[2] - SLACK && to[2] < -SLACK => {
+        let is_in_plane = cx.state().plane(cx.model) == Some(Plane::Xy);
+        let Some(z) = programmed.get(Axis::Z).filter(|_| kind == TravelKind::Feed && is_in_plane) else {
+            return;
+        };
+        // Only the direction: beside the programmed path the axes are elsewhere.
+        let goes_down = || from.get(Axis::Z).is_some_and(|from| z < from - SLACK);
+        self.step = match step {
+            _ if !goes_sideways && z < -SLACK && goes_down() => {
                 self.bytes = cx.range();
-                Step::Down(to[2])
+                Step::Down(z)
             }
-            (Step::Down(depth), true) if to[2] > SLACK => Step::Up { depth, level: to[2], pieces: 0 },
-            (Step::Up { depth, level, pieces }, false) if (to[2] - level).abs() < SLACK => {
+            Step::Down(depth) if !goes_sideways && z > SLACK => Step::Up { depth, level: z, pieces: 0 },
+            Step::Up { depth, level, pieces } if goes_sideways && (z - level).abs() < SLACK => {
                 Step::Up { depth, level, pieces: pieces + 1 }
             }
             _ => Step::None,
@@ -119,11 +128,7 @@ impl PathRule for ContourInAir {
     }
 }
 
-fn point(position: &Position) -> Option<[f64; 3]> {
-    Some([position.get(Axis::X)?, position.get(Axis::Y)?, position.get(Axis::Z)?])
-}
-
-fn finding(cx: &PathCx<'_>, depth: f64, bytes: Range<u32>, level: f64, pieces: usize) -> crate::Finding {
+fn finding(cx: &PathCx<'_>, depth: f64, bytes: Range<u32>, level: f64, pieces: usize) -> Finding {
     let [depth, level] = [depth, level].map(|z| cx.shown(Mm(z)));
     cx.finding(&META, bytes, "the tool is fed down and up again before the contour")
         .label(format!("down to Z {depth}, and then up to Z {level}"))

@@ -1,12 +1,10 @@
 //! A point of a path in three or more axes of which one coordinate is far from those before and after it.
 
-use std::ops::Range;
-
-use gcheck_engine::{Axis, Event, Position, TravelKind};
+use gcheck_engine::{At, Axis, Event, Position, TravelKind};
 use gcheck_geometry::Mm;
 
 use crate::declare::declare_rule;
-use crate::{PathCx, PathRule, Remembers, Report, Run, Watch, remembers};
+use crate::{Finding, PathCx, PathRule, Remembers, Report, Run, Watch, remembers};
 
 declare_rule! {
     /// A path is cut in three or more axes. At one of its points all coordinates lie between those of the points before and after it, but one
@@ -55,19 +53,22 @@ declare_rule! {
 
 #[derive(Default, Clone, PartialEq)]
 struct StrayCoordinate {
-    /// The last two points of cuts that follow each other.
-    before: [Option<Point>; 2],
+    /// Where the last move ended, as programmed.
+    last: Option<Position>,
+    /// The last move, if it is a long one: its end may be stray.
+    long: Option<Long>,
 }
 
-remembers!(StrayCoordinate: before);
+remembers!(StrayCoordinate: long);
 
+/// A move at feed that is long in some axis.
 #[derive(Clone, PartialEq)]
-struct Point {
-    at: Position,
-    bytes: Range<u32>,
+struct Long {
+    from: Position,
+    at: At,
 }
 
-remembers!(Point: bytes);
+remembers!(Long: at);
 
 /// So many times as far as its neighbours are apart a coordinate is far off.
 const TIMES: f64 = 6.0;
@@ -82,33 +83,29 @@ impl PathRule for StrayCoordinate {
     }
 
     fn moved(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
-        let Event::Travel(travel) = event else {
-            self.before = [None, None];
+        let (last, long) = (self.last.take(), self.long.take());
+        let Event::Travel(travel) = event else { return };
+        if travel.expanded || !matches!(travel.kind, TravelKind::Feed | TravelKind::Rapid) {
             return;
-        };
-        let cuts = travel.kind == TravelKind::Feed && !travel.expanded;
+        }
+        let to = travel.programmed;
+        self.last = Some(to);
         // A path may begin where the tool came to at rapid.
-        let begins = travel.kind == TravelKind::Rapid && !travel.expanded;
-        if !cuts && !begins {
-            self.before = [None, None];
-            return;
-        }
-        let point = Point { at: travel.programmed, bytes: cx.range() };
-        if begins {
-            self.before = [None, Some(point)];
-            return;
-        }
-        if let [Some(first), Some(middle)] = &self.before
-            && let Some(axis) = stray(&first.at, &middle.at, &point.at)
+        let Some(from) = last.filter(|_| travel.kind == TravelKind::Feed) else { return };
+        if let Some(long) = long
+            && let Some(axis) = stray(&long.from, &from, &to)
         {
-            report.add(finding(cx, axis, first, middle, &point));
             // The next point would look stray beside this one.
-            self.before = [None, Some(point)];
-            return;
+            report.add(finding(cx, axis, long.at, [&long.from, &from, &to]));
+        } else if is_long(&from, &to) {
+            self.long = Some(Long { from, at: cx.origin().at });
         }
-        let [_, last] = std::mem::take(&mut self.before);
-        self.before = [last, Some(point)];
     }
+}
+
+/// Hardly any move of a long path is: the rest is asked of few.
+fn is_long(from: &Position, to: &Position) -> bool {
+    Axis::ALL.into_iter().any(|axis| (to.raw(axis) - from.raw(axis)).abs() > NEAR)
 }
 
 /// The axis in which the middle point alone is far from the other two, which two or more other axes pass on their way.
@@ -143,13 +140,14 @@ fn stray(first: &Position, middle: &Position, last: &Position) -> Option<Axis> {
     (passed >= 2 && off > NEAR && off > step * TIMES).then_some(axis)
 }
 
-fn finding(cx: &PathCx<'_>, axis: Axis, first: &Point, middle: &Point, last: &Point) -> crate::Finding {
-    let shown = |point: &Point| {
-        let value = point.at.raw(axis);
+fn finding(cx: &PathCx<'_>, axis: Axis, at: At, [first, middle, last]: [&Position; 3]) -> Finding {
+    let shown = |point: &Position| {
+        let value = point.raw(axis);
         if axis.is_rotary() { format!("{value}°") } else { cx.shown(Mm(value)) }
     };
     let name = axis.name();
-    cx.finding(&META, middle.bytes.clone(), format!("`{name}` of this point is far from its neighbours"))
+    let range = cx.range_of(at).unwrap_or_else(|| cx.range());
+    cx.finding(&META, range, format!("`{name}` of this point is far from its neighbours"))
         .label(format!(
             "{name} {}, between {name} {} and {name} {}",
             shown(middle),

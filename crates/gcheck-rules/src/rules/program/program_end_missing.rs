@@ -85,7 +85,10 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
         if !jumps_at_end {
             let fix = if is_last { end(cx, last) } else { None };
             let found = finding(cx, section, is_last.then(|| last.clone())).fix_if(fix);
-            report.add(if syntax.program_end_optional { as_streamed(found) } else { found });
+            // Where nothing tells the control, a sender may send the program line by line.
+            let has_form = section.number.is_some() || !file_index.tape_marks.is_empty();
+            let is_optional = syntax.program_end_optional || cx.environment.control_is_unknown() && !has_form;
+            report.add(if is_optional { as_streamed(found) } else { found });
         }
     }
 }

@@ -4,11 +4,13 @@ use gcheck_controls::Effect;
 use gcheck_engine::{Fact, Spindle};
 
 use crate::declare::declare_rule;
-use crate::{PathCx, PathRule, Report, Run, Uses, Watch, limit};
+use crate::facts::tool_comment::{ToolComment, comment_at_work};
+use crate::{PathCx, PathRule, Report, Run, Severity, Uses, Watch, limit};
 
 declare_rule! {
     /// A tapping cycle begins while the spindle turns in the wrong direction for its thread: a right-hand tap under
-    /// `M4`, a left-hand tap under `M3`.
+    /// `M4`, a left-hand tap under `M3`. On controls that set the direction themselves, a left-hand cycle after `M3` is reported if the
+    /// tool's comment names a tap and no left-hand thread.
     ///
     /// ## Why it matters
     /// A control that checks the direction refuses the cycle. A control that does not would unscrew the tap while it
@@ -57,6 +59,7 @@ impl PathRule for TapInWrongDirection {
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
         // A control that does not check the direction sets it itself.
         if !cx.model.semantics().cycles.tap_needs_spindle {
+            judge_by_comment(cx, report);
             return;
         }
         let wanted = cx.codes().iter().find_map(|code| wanted(cx.model.effect(*code)));
@@ -81,6 +84,25 @@ impl PathRule for TapInWrongDirection {
     }
 }
 
+/// A left-hand cycle after `M3`, with a tap whose comment says nothing of a left-hand thread.
+fn judge_by_comment(cx: &PathCx<'_>, report: &mut Report<'_>) {
+    let is_left = |effect: Effect| wanted(effect) == Some(Spindle::CounterClockwise);
+    if !cx.has_effect(is_left) || cx.state().spindle() != Some(Spindle::Clockwise) {
+        return;
+    }
+    let is_right_hand = |comment: &ToolComment| comment.has(&["TAP", "TAPPING"]) && !comment.is_left_hand();
+    if comment_at_work(cx).is_some_and(|comment| is_right_hand(&comment)) {
+        let right = cx.name_of_effect(Effect::CycleTap).unwrap_or_default();
+        report.add(
+            cx.finding(&META, cx.effect_range(is_left), "left-hand tapping with a tap that is not called left-hand")
+                .label("drives the tap in backwards")
+                .note("the spindle was started clockwise, and the tool's comment says nothing of a left-hand thread")
+                .help(format!("tap with `{right}`, or write the hand into the tool's comment"))
+                .at_most(Severity::Warning),
+        );
+    }
+}
+
 /// The direction in which the spindle must turn.
 fn wanted(effect: Effect) -> Option<Spindle> {
     match effect {
@@ -96,6 +118,25 @@ mod tests {
 
     use super::RULE;
     use crate::testing::check_rule;
+
+    #[test]
+    fn the_comment_tells_the_hand_where_the_control_sets_the_direction() {
+        let program = |comment: &str| {
+            format!(
+                "({comment})\nG21 G90 G54 T5 M6\nG0 X0. Y0. S300 M3\nG43 H5 Z5.\nG74 Z-20. R5. F525.\nG80\nM30\n"
+            )
+        };
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            &program("T5 M12 TAP"),
+            &expect![[r#"
+            5 | G74 Z-20. R5. F525.
+              | ^^^ warning[tap-in-wrong-direction] left-hand tapping with a tap that is not called left-hand
+        "#]],
+        );
+        check_rule(&RULE, "fanuc-mill", &program("T5 M12 LH TAP"), &expect![[""]]);
+    }
 
     #[test]
     fn left_hand_threads_too() {

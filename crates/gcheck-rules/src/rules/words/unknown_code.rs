@@ -88,6 +88,15 @@ fn finding(cx: &BlockCx<'_>, word: &Word) -> Finding {
     };
     let elsewhere = elsewhere(cx, number);
     let finding = finding.fix_if(instead(cx, word, &elsewhere));
+    let is_configured = list.configured_m_codes.is_some_and(|from| {
+        word.letter == Letter::of('M') && word.number().is_some_and(|number| number >= f64::from(from))
+    });
+    if is_configured {
+        return finding
+            .label("only the configuration of the machine gives it a meaning")
+            .help(format!("declare `{number}` under `[codes]` if the machine has it"))
+            .at_most(Severity::Info);
+    }
     if list.depends_on_setting(number) {
         let finding = finding
             .label("not in the set of codes that is assumed")
@@ -202,6 +211,28 @@ mod tests {
     use crate::testing::{World, check_rule, check_rule_in, findings, only, words};
 
     #[test]
+    fn codes_that_a_configuration_may_give() {
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "M248\nM2\n",
+            &expect![[r#"
+            1 | M248
+              | ^^^^ info[unknown-code] unknown code `M248`
+        "#]],
+        );
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "M77\nM2\n",
+            &expect![[r#"
+            1 | M77
+              | ^^^ warning[unknown-code] unknown code `M77`
+        "#]],
+        );
+    }
+
+    #[test]
     fn each_unknown_code_is_marked() {
         check_rule(
             &RULE,
@@ -213,7 +244,7 @@ mod tests {
                 1 | G54.25 G154 P2
                   |        ^^^^ warning[unknown-code] unknown code `G154`
                 2 | M200
-                  | ^^^^ warning[unknown-code] unknown code `M200`
+                  | ^^^^ info[unknown-code] unknown code `M200`
             "#]],
         );
     }

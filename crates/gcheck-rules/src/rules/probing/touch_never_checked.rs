@@ -1,0 +1,165 @@
+//! The touch of a probing move that need not touch, used without a look at whether it did.
+
+use std::ops::Range;
+
+use gcheck_controls::{Effect, SystemValue};
+use gcheck_engine::Ending;
+use gcheck_program::{BlockFlags, Op};
+
+use crate::declare::declare_rule;
+use crate::facts::probing::touches_work;
+use crate::{PathCx, PathRule, Remembers, Report, Run, Uses, Watch, remembers};
+
+declare_rule! {
+    /// A probing move that goes on without a touch (`G38.3`) is followed by a use of the touch (`#5063`), and nothing reads whether there was
+    /// one (`#5070`).
+    ///
+    /// ## Why it matters
+    /// If the probe touches nothing, the program goes on with the end of the move, as if the part were there. The move that stops
+    /// with an alarm (`G38.2`) does not.
+    ///
+    /// ## Reported
+    /// ```nc,reported,linuxcnc
+    /// G21 G17 G90 G94 G54
+    /// G0 X20 Y20 Z10
+    /// G38.3 Z-5 F60
+    /// #<top> = #5063
+    /// G0 Z10
+    /// M2
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,linuxcnc
+    /// G21 G17 G90 G94 G54
+    /// G0 X20 Y20 Z10
+    /// G38.3 Z-5 F60
+    /// o1 if [#5070 EQ 0]
+    /// (abort, nothing touched)
+    /// o1 endif
+    /// #<top> = #5063
+    /// G0 Z10
+    /// M2
+    /// ```
+    rule "touch-never-checked" in "probing" {
+        summary: "touch used without a look at whether there was one",
+        severity: Warning,
+        tier: Path,
+        since: "0.1.0",
+        run: Run::Path {
+            watch: Watch::ALL_BLOCKS.union(Watch::ENDS),
+            make: || Box::new(TouchNeverChecked::default()),
+        },
+    }
+}
+
+#[derive(Default, Clone, PartialEq)]
+struct TouchNeverChecked {
+    /// The code of the last probing move, if that goes on without a touch.
+    probed: Option<Range<u32>>,
+    /// The first use of its touch.
+    used: Option<Range<u32>>,
+}
+
+remembers!(TouchNeverChecked: probed, used);
+
+impl PathRule for TouchNeverChecked {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
+    /// Another way may look.
+    fn counts_on_some_path(&self) -> bool {
+        false
+    }
+
+    fn concerns(&self, program: &Uses<'_>) -> bool {
+        program.may(need_not_touch)
+    }
+
+    fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
+        if cx.origin().flags.intersects(BlockFlags::EXPRESSION | BlockFlags::STATEMENT) {
+            self.look(cx);
+        }
+        if cx.has_effect(touches_work) {
+            self.tell(cx, report);
+            self.probed = cx.has_effect(need_not_touch).then(|| cx.effect_range(need_not_touch));
+        }
+    }
+
+    fn ended(&mut self, cx: &PathCx<'_>, _: Ending, report: &mut Report<'_>) {
+        if !cx.is_called_only() {
+            self.tell(cx, report);
+        }
+    }
+}
+
+impl TouchNeverChecked {
+    /// What the block reads.
+    fn look(&mut self, cx: &PathCx<'_>) {
+        if self.probed.is_none() {
+            return;
+        }
+        let Some((table, expressions)) = cx.expressions() else { return };
+        let variables = &cx.control().semantics().system_variables;
+        let holds = |number: u32, value: SystemValue| {
+            variables.iter().any(|variable| variable.holds == value && variable.cell(number).is_some())
+        };
+        for op in expressions.iter().flat_map(|expr| table.ops(table.expr(*expr))) {
+            match op {
+                Op::Variable(number) if holds(*number, SystemValue::ProbePosition) => {
+                    self.used.get_or_insert_with(|| cx.range());
+                }
+                Op::Variable(number) if holds(*number, SystemValue::ProbeResult) => self.probed = None,
+                // Any variable may be the result.
+                Op::Indirect => self.probed = None,
+                _ => {}
+            }
+        }
+    }
+
+    fn tell(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
+        let Self { probed, used } = std::mem::take(self);
+        let (Some(probed), Some(used)) = (probed, used) else { return };
+        if !cx.is_on_every_path() {
+            return;
+        }
+        let alarms = cx.name_of_effect(Effect::ProbeToward).unwrap_or_default();
+        report.add(
+            cx.finding(&META, probed, "nothing looks whether this probing move has touched")
+                .label("the program goes on without a touch")
+                .also(used, "its touch is used here")
+                .help(format!("probe with `{alarms}`, which stops without a touch, or test the result before the touch is used")),
+        );
+    }
+}
+
+/// Does the move go on where nothing is touched, on a control that also has one that stops?
+fn need_not_touch(effect: Effect) -> bool {
+    matches!(effect, Effect::ProbeTowardOptional | Effect::ProbeAwayOptional)
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::check_rule;
+
+    #[test]
+    fn the_code_is_marked() {
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "G21 G90 G0 Z10\nG38.3 Z-5 F60\n#<top> = #5063\nM2\n",
+            &expect![[r#"
+            2 | G38.3 Z-5 F60
+              | ^^^^^ warning[touch-never-checked] nothing looks whether this probing move has touched
+        "#]],
+        );
+        check_rule(&RULE, "linuxcnc", "G21 G90 G0 Z10\nG38.2 Z-5 F60\n#<top> = #5063\nM2\n", &expect![[""]]);
+    }
+
+    #[test]
+    fn a_touch_that_is_not_used_needs_no_look() {
+        check_rule(&RULE, "linuxcnc", "G21 G90 G0 Z10\nG38.3 Z-5 F60\nG0 Z10\nM2\n", &expect![[""]]);
+    }
+}
