@@ -213,7 +213,7 @@ mod tests {
 
             Rules, groups and sets that run, in place of `["recommended"]`.
 
-            There are 463 values; completion lists them.
+            There are 477 values; completion lists them.
         "#]],
         );
     }

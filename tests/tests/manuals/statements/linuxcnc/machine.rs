@@ -202,7 +202,7 @@ const STATEMENTS: &[Statement] = &[
         "A remapped M code can be declared",
         "`codes` of the configuration, rule `unknown-code`",
         &[Proof::Rule {
-            finding: "warning[unknown-code]",
+            finding: "info[unknown-code]",
             violates: ngc("G21 G90\nM400\nG0 X1\nM2\n"),
             conforms: ngc("G21 G90\nM400\nG0 X1\nM2\n").with(&["codes.M400.title=\"loads a pallet\""]),
         }],

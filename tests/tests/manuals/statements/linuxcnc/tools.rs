@@ -383,7 +383,7 @@ const STATEMENTS: &[Statement] = &[
         "rule `unknown-code`",
         &[
             stops("M200\nM2\n"),
-            rule("warning[unknown-code]", "M200\nM2\n", "M100\nM2\n"),
+            rule("info[unknown-code]", "M200\nM2\n", "M100\nM2\n"),
             refused("error[unknown-code]", "M1000\nM2\n", "G0 X1\nM2\n"),
         ],
     ),
