@@ -109,6 +109,30 @@ macro_rules! lattice {
 }
 pub(crate) use lattice;
 
+/// Implements the lattice of a type whose values exclude each other, but for `Unknown`, which stands for all of them.
+macro_rules! flat_lattice {
+    ($name:ty) => {
+        impl $crate::lattice::Lattice for $name {
+            fn join(&self, other: &Self) -> Self {
+                if self == other { *self } else { Self::Unknown }
+            }
+
+            fn widen(&self, newer: &Self) -> Self {
+                self.join(newer)
+            }
+
+            fn covers(&self, inner: &Self) -> bool {
+                *self == Self::Unknown || self == inner
+            }
+
+            fn same(&self, other: &Self) -> bool {
+                self == other
+            }
+        }
+    };
+}
+pub(crate) use flat_lattice;
+
 /// A field of two values that become one.
 ///
 /// A build with the feature `forgetful`, which tests alone make, can be told to leave a field as the older value has it: then

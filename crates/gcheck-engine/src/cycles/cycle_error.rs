@@ -15,7 +15,7 @@ pub enum CycleError {
     Unknown,
     /// More than [`MAX_STROKES`](super::MAX_STROKES).
     TooManyStrokes,
-    /// The effect is no cycle of this kind.
+    /// The effect is not a cycle of this kind.
     NotThisKind,
 }
 

@@ -176,22 +176,26 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         match self.unpointed_of(letter) {
             Unpointed::AsWritten => number,
             Unpointed::LeastIncrement => {
-                let numbers = self.model.control().numbers();
                 let least = match kind {
-                    WordKind::Angle => numbers.least_angle,
-                    _ => match units {
-                        Some(Units::Inch) => numbers.least_inch,
-                        Some(Units::Mm) => numbers.least_mm,
-                        None => f64::NAN,
-                    },
+                    WordKind::Angle => self.model.control().numbers().least_angle,
+                    _ => self.least_increment(units),
                 };
-                // Divided by a power of ten rather than multiplied: `X1500` is 1.5, not 1.5000000000000002.
-                number / (1.0 / least).round()
+                in_steps(number, least)
             }
             Unpointed::ByParameter => {
                 self.assumptions.insert(Assumption::UnpointedNumbers);
                 number
             }
+        }
+    }
+
+    /// The least increment of lengths; NaN where the units are not known.
+    pub(crate) fn least_increment(&self, units: Option<Units>) -> f64 {
+        let numbers = self.model.control().numbers();
+        match units {
+            Some(Units::Inch) => numbers.least_inch,
+            Some(Units::Mm) => numbers.least_mm,
+            None => f64::NAN,
         }
     }
 
@@ -223,15 +227,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         }
         match self.unpointed {
             Unpointed::AsWritten => number,
-            Unpointed::LeastIncrement => {
-                let numbers = self.model.control().numbers();
-                let least = match units {
-                    Some(Units::Inch) => numbers.least_inch,
-                    Some(Units::Mm) => numbers.least_mm,
-                    None => f64::NAN,
-                };
-                number / (1.0 / least).round()
-            }
+            Unpointed::LeastIncrement => in_steps(number, self.least_increment(units)),
             Unpointed::ByParameter => {
                 self.assumptions.insert(Assumption::UnpointedNumbers);
                 number
@@ -349,4 +345,9 @@ pub(crate) fn settle_unpointed(
         Some(value) if Some(value) == entry.as_written.as_ref() => Unpointed::AsWritten,
         Some(_) => Unpointed::LeastIncrement,
     }
+}
+
+/// So many steps, as a number. Divided by a power of ten rather than multiplied: `X1500` is 1.5, not 1.5000000000000002.
+pub(crate) fn in_steps(number: f64, least: f64) -> f64 {
+    number / (1.0 / least).round()
 }

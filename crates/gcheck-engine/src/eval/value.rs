@@ -16,7 +16,7 @@ use gcheck_controls::Semantics;
 use gcheck_program::{BinaryOp, Function};
 
 use crate::fault::ValueFault;
-use crate::lattice::Lattice;
+use crate::lattice::{Lattice, flat_lattice};
 
 pub use abstract_value::{Abstract, AbstractValue, NumberSet};
 pub use concrete::{Concrete, ConcreteValue};
@@ -39,23 +39,7 @@ impl From<bool> for Truth {
     }
 }
 
-impl Lattice for Truth {
-    fn join(&self, other: &Self) -> Self {
-        if self == other { *self } else { Self::Unknown }
-    }
-
-    fn widen(&self, newer: &Self) -> Self {
-        self.join(newer)
-    }
-
-    fn covers(&self, inner: &Self) -> bool {
-        *self == Self::Unknown || self == inner
-    }
-
-    fn same(&self, other: &Self) -> bool {
-        self == other
-    }
-}
+flat_lattice!(Truth);
 
 impl std::ops::Not for Truth {
     type Output = Self;

@@ -16,7 +16,7 @@ pub(crate) const POLAR: LetterSet = {
     letters
 };
 
-/// What is said about the value of one address.
+/// Which values one address takes.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct ValueRange {
     pub(crate) letter: Letter,

@@ -4,7 +4,7 @@
 //! beforehand), codes, tables.
 
 use crate::eval::value::Truth;
-use crate::lattice::{Lattice, lattice};
+use crate::lattice::{Lattice, flat_lattice, lattice};
 use crate::position::{Axis, Position};
 
 lattice! {
@@ -101,23 +101,7 @@ impl Ways {
     }
 }
 
-impl Lattice for Way {
-    fn join(&self, other: &Self) -> Self {
-        if self == other { *self } else { Self::Unknown }
-    }
-
-    fn widen(&self, newer: &Self) -> Self {
-        self.join(newer)
-    }
-
-    fn covers(&self, inner: &Self) -> bool {
-        *self == Self::Unknown || self == inner
-    }
-
-    fn same(&self, other: &Self) -> bool {
-        self == other
-    }
-}
+flat_lattice!(Way);
 
 impl Lattice for Touch {
     fn join(&self, other: &Self) -> Self {

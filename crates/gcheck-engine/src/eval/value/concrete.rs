@@ -9,7 +9,7 @@ use gcheck_program::{BinaryOp, Function};
 
 use super::{Domain, Truth, scalar};
 use crate::fault::ValueFault;
-use crate::lattice::Lattice;
+use crate::lattice::flat_lattice;
 
 /// The domain of a run.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -180,23 +180,7 @@ impl Domain for Concrete {
     }
 }
 
-impl Lattice for ConcreteValue {
-    fn join(&self, other: &Self) -> Self {
-        if self == other { *self } else { Self::Unknown }
-    }
-
-    fn widen(&self, newer: &Self) -> Self {
-        self.join(newer)
-    }
-
-    fn covers(&self, inner: &Self) -> bool {
-        *self == Self::Unknown || self == inner
-    }
-
-    fn same(&self, other: &Self) -> bool {
-        self == other
-    }
-}
+flat_lattice!(ConcreteValue);
 
 /// An operator whose result may be certain though an operand is not known.
 #[cold]

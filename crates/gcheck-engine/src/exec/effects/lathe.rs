@@ -17,6 +17,7 @@ use crate::cycles::{
     CycleError, Grooving, InFeed, Stroke, TaperEnds, TaperedThread, ThreadHeights, box_pass, grooving,
     multi_pass_thread, tapered_thread,
 };
+use crate::eval::numbers::in_steps;
 use crate::eval::value::{Domain, Truth};
 use crate::event::{FeedMode, Units};
 use crate::exec::context::{Executor, Step};
@@ -407,16 +408,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             return self.length(Letter::of(letter), state);
         }
         let count = self.raw(Letter::of(letter), state)?;
-        let numbers = self.model.control().numbers();
-        if numbers.unpointed == Unpointed::AsWritten {
+        if self.model.control().numbers().unpointed == Unpointed::AsWritten {
             return Some(count * unit);
         }
-        let least = match state.units(self.model) {
-            Some(Units::Inch) => numbers.least_inch,
-            Some(Units::Mm) => numbers.least_mm,
-            None => f64::NAN,
-        };
-        Some(count / (1.0 / least).round() * unit)
+        Some(in_steps(count, self.least_increment(state.units(self.model))) * unit)
     }
 
     /// Does a word of a code name a block of the program?

@@ -232,26 +232,27 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     pub(in crate::exec) fn switch_override(&mut self, effect: Effect, state: &mut State<D>) {
         let on = self.words.number(Letter::of('P')).is_none_or(|p| p != 0.0);
-        let truth = if on { Truth::True } else { Truth::False };
         let kind = match effect {
             Effect::FeedOverride => {
-                state.feed.overridable = truth;
                 state.cycle.feed_override_on = Truth::False;
                 Override::Feed
             }
-            Effect::SpeedOverride => {
-                state.spindle.overridable = truth;
-                Override::Speed
-            }
-            Effect::AdaptiveFeed => {
-                state.feed.adaptive = truth;
-                Override::Adaptive
-            }
-            _ => {
-                state.feed.hold = truth;
-                Override::FeedStop
-            }
+            Effect::SpeedOverride => Override::Speed,
+            Effect::AdaptiveFeed => Override::Adaptive,
+            _ => Override::FeedStop,
         };
+        self.set_override(kind, on, state);
+    }
+
+    /// One override or one way to hold the feed is switched on or off.
+    pub(in crate::exec) fn set_override(&mut self, kind: Override, on: bool, state: &mut State<D>) {
+        let switch = match kind {
+            Override::Feed => &mut state.feed.overridable,
+            Override::Speed => &mut state.spindle.overridable,
+            Override::Adaptive => &mut state.feed.adaptive,
+            Override::FeedStop => &mut state.feed.hold,
+        };
+        *switch = Truth::from(on);
         self.emit(state, Event::Override { kind, on });
     }
 
@@ -261,7 +262,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         {
             return;
         }
-        let truth = if on { Truth::True } else { Truth::False };
+        let truth = Truth::from(on);
         match kind {
             Coolant::Mist => state.coolant.mist = truth,
             Coolant::Flood => state.coolant.flood = truth,

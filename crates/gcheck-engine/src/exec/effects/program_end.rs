@@ -301,38 +301,22 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// One M code of a restored state. `p` is what a `G64` of its block gives it by accident.
     fn restore_switch(&mut self, switch: Switch, p: Option<f64>, state: &mut State<D>) {
         let on = p.is_none_or(|p| p != 0.0);
-        let truth = if on { Truth::True } else { Truth::False };
-        let kind = match switch {
+        match switch {
             Switch::CoolantOff => {
                 self.coolant(Coolant::Mist, false, state);
                 self.coolant(Coolant::Flood, false, state);
-                return;
             }
-            Switch::Coolant(kind) => {
-                self.coolant(kind, true, state);
-                return;
-            }
+            Switch::Coolant(kind) => self.coolant(kind, true, state),
             Switch::Overrides => {
                 state.feed.overridable = Truth::True;
                 state.spindle.overridable = Truth::True;
                 self.emit(state, Event::Override { kind: Override::Feed, on: true });
                 self.emit(state, Event::Override { kind: Override::Speed, on: true });
-                return;
             }
-            Switch::Speed => {
-                state.spindle.overridable = truth;
-                Override::Speed
-            }
-            Switch::Adaptive => {
-                state.feed.adaptive = truth;
-                Override::Adaptive
-            }
-            Switch::FeedStop => {
-                state.feed.hold = truth;
-                Override::FeedStop
-            }
-        };
-        self.emit(state, Event::Override { kind, on });
+            Switch::Speed => self.set_override(Override::Speed, on, state),
+            Switch::Adaptive => self.set_override(Override::Adaptive, on, state),
+            Switch::FeedStop => self.set_override(Override::FeedStop, on, state),
+        }
     }
 }
 
