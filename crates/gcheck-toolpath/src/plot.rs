@@ -257,7 +257,7 @@ impl Plot {
         }
     }
 
-    /// Keeps the points that are known on all drawn axes; after a gap the path starts anew.
+    /// Keeps the points that are known on all drawn axes; after a gap a new path starts.
     fn keep_known(&mut self, drawn: &[usize]) {
         let mut kept = 0;
         let mut is_gap = true;

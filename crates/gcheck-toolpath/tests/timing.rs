@@ -118,7 +118,7 @@ fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fixtures/timing")
 }
 
-/// The programs of our own, or those of the corpus; none of these where there is no corpus.
+/// Our own programs, or those of the corpus: an empty list without a corpus.
 fn rows(of_corpus: bool) -> Vec<Row> {
     let corpus_folder = corpus::folder();
     let table = std::fs::read_to_string(folder().join("measured.tsv")).unwrap();

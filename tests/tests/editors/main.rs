@@ -81,7 +81,7 @@ fn neovim_with(nvim: &Path, script: &str, folder: &Path) -> Command {
     command
 }
 
-/// The command that opens a page for Neovim's test of it, each argument on a line of its own; `None` where there is no browser.
+/// The command by which Neovim's test opens a page, one argument a line; `None` without a browser.
 fn browser_for_neovim() -> Option<OsString> {
     let (node, chromium) = (program("NODE", "node")?, program("CHROMIUM", "chromium")?);
     if !tools().join("node_modules/playwright-core").is_dir() {

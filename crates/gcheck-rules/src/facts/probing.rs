@@ -2,8 +2,9 @@
 //!
 //! Knows: effects of codes that touch with a probe, modes as a block has them while it moves. Must not know: any rule.
 
-use gcheck_controls::{Code, CodeIx, CodeNumber, Effect, Letter};
+use gcheck_controls::{Code, CodeIx, CodeNumber, Effect, Letter, SystemValue};
 use gcheck_engine::{Abstract, At, Axis, Domain, Event, Role, TravelKind, Way, Ways};
+use gcheck_program::{BlockFlags, Op};
 
 use crate::{Finding, PathCx, Severity, limit};
 
@@ -73,6 +74,28 @@ pub(crate) fn probes(effect: Effect) -> bool {
 /// Does it touch the work with a probe, whatever comes of it?
 pub(crate) fn touches_work(effect: Effect) -> bool {
     effect.is_probing_move() || is_touch(effect)
+}
+
+/// The variables that the block reads; `None` for one whose number is computed.
+pub(crate) fn reads(cx: &PathCx<'_>) -> Vec<Option<u32>> {
+    if !cx.origin().flags.intersects(BlockFlags::EXPRESSION | BlockFlags::STATEMENT) {
+        return Vec::new();
+    }
+    let Some((table, expressions)) = cx.expressions() else { return Vec::new() };
+    let ops = expressions.iter().flat_map(|expr| table.ops(table.expr(*expr)));
+    let read = ops.filter_map(|op| match op {
+        Op::Variable(number) => Some(Some(*number)),
+        Op::Indirect => Some(None),
+        _ => None,
+    });
+    read.collect()
+}
+
+/// Which of the variables that hold this the number is, counted from the first; `None` for a variable that holds something else.
+pub(crate) fn column_of(cx: &PathCx<'_>, number: u32, value: SystemValue) -> Option<u32> {
+    let variables = &cx.control().semantics().system_variables;
+    let mut holding = variables.iter().filter(|variable| variable.holds == value);
+    holding.find_map(|variable| Some(variable.cell(number)?.1))
 }
 
 /// Is the move one that the probe ends?

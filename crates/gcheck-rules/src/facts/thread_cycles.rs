@@ -3,7 +3,7 @@
 //! Knows: the forms of one block and of two, where the tool is when the cycle starts. Must not know: any rule, what was turned.
 
 use gcheck_controls::{Effect, LetterSet};
-use gcheck_engine::Axis;
+use gcheck_engine::{Axis, Event, Travel, TravelKind};
 use gcheck_program::Word;
 
 use crate::PathCx;
@@ -82,8 +82,37 @@ pub(crate) fn radii(cx: &PathCx<'_>, height: &Word) -> Option<[f64; 3]> {
     length(cx, height).filter(|_| is_plain).map(|height| [start, root, height])
 }
 
+/// The words of a cycle whose crest and root are known diameters: it runs on every path, is not a taper, has its height as a written number, and
+/// counts from its root. The form that names the peak begins at its drive line.
+pub(crate) fn straight_words(cx: &PathCx<'_>) -> Option<Words> {
+    let is_judged = cx.has_effect(is_cycle) && !cx.is_malformed() && cx.is_on_every_path() && !is_tapered(cx);
+    // Whether a computed height counts least increments differs from control to control.
+    words(cx).filter(|words| is_judged && cx.word('J').is_none() && !words.height.is_computed())
+}
+
+/// A straight cycle from its block to its first pass.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(crate) struct FirstPass {
+    /// As [`radii`] has them, before the first pass.
+    radii: Option<[f64; 3]>,
+}
+
+impl FirstPass {
+    /// Takes note of the block.
+    pub(crate) fn block(&mut self, cx: &PathCx<'_>) {
+        self.radii = straight_words(cx).and_then(|words| radii(cx, &words.height));
+    }
+
+    /// Radii of the start and of the root, the height, and the move, if it is the first pass of the cycle.
+    pub(crate) fn moved<'e>(&mut self, event: &'e Event) -> Option<([f64; 3], &'e Travel)> {
+        let Event::Travel(travel) = event else { return None };
+        let is_pass = travel.kind == TravelKind::Thread;
+        Some((self.radii.take_if(|_| is_pass)?, travel))
+    }
+}
+
 /// Does a word of the block make the thread a taper, as far as is known?
-pub(crate) fn is_tapered(cx: &PathCx<'_>) -> bool {
+fn is_tapered(cx: &PathCx<'_>) -> bool {
     let taper = ['R', 'I'].into_iter().find(|letter| cx.word(*letter).is_some());
     taper.is_some_and(|letter| cx.known_number(letter) != Some(0.0))
 }

@@ -10,7 +10,7 @@ use crate::facts::reach::is_on_the_face;
 use crate::{PathCx, Uses};
 use gcheck_controls::{Effect, LetterSet, Machine};
 use gcheck_engine::{At, Axis, Fact, Role, Truth};
-use gcheck_geometry::Plane;
+use gcheck_geometry::{Mm, Plane};
 use gcheck_program::{BlockFlags, Place};
 
 /// A profile that can be read.
@@ -77,6 +77,12 @@ pub(crate) fn turns_the_part(cx: &PathCx<'_>) -> bool {
         && !is_on_the_face(cx)
         && state.plane(cx.model) == Some(Plane::Zx)
         && state.live_tool() == Truth::False
+}
+
+/// A radius as programs write it in X, and as findings name it.
+pub(crate) fn shown_radius(cx: &PathCx<'_>, radius: f64) -> String {
+    let is_diameter = cx.state().is_diameter(cx.model) == Some(true);
+    cx.shown(Mm(if is_diameter { radius * 2.0 } else { radius }))
 }
 
 /// Does the code remove material layer by layer down to a profile?

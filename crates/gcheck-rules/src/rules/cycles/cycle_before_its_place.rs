@@ -1,6 +1,6 @@
 //! A hole that is made without a move after the shift that should have moved it.
 
-use gcheck_controls::Effect;
+use gcheck_controls::{Effect, LetterSet};
 use gcheck_engine::{At, Axis, Event};
 
 use crate::declare::declare_rule;
@@ -58,6 +58,9 @@ struct CycleBeforeItsPlace {
 
 remembers!(CycleBeforeItsPlace: shifted);
 
+/// Words that name the place of a hole.
+const PLACE: LetterSet = LetterSet::of("XYUV");
+
 impl PathRule for CycleBeforeItsPlace {
     fn memory(&mut self) -> Remembers<'_> {
         Remembers::All(self)
@@ -71,8 +74,11 @@ impl PathRule for CycleBeforeItsPlace {
         if cx.has_effect(|effect| effect == Effect::LocalShift) {
             self.shifted = Some(cx.origin().at);
         }
-        let names_place = ['X', 'Y', 'U', 'V'].into_iter().any(|letter| cx.word(letter).is_some());
-        if names_place || !cx.has_effect(is_cycle) || !cx.is_certain() || cx.is_malformed() {
+        if cx.origin().letters.intersects(PLACE)
+            || !cx.has_effect(is_cycle)
+            || !cx.is_certain()
+            || cx.is_malformed()
+        {
             return;
         }
         let (Some(moved), Some(now), Some(at)) = (self.moved, shift(cx), self.shifted) else { return };
@@ -100,8 +106,7 @@ impl PathRule for CycleBeforeItsPlace {
             }
         };
         let moves = |axis| (from.raw(axis) - to.raw(axis)).abs() > 0.0 || to.raw(axis).is_nan();
-        let names = ['X', 'Y', 'U', 'V'].into_iter().any(|letter| cx.word(letter).is_some());
-        if names || moves(Axis::X) || moves(Axis::Y) {
+        if cx.origin().letters.intersects(PLACE) || moves(Axis::X) || moves(Axis::Y) {
             (self.moved, self.shifted) = (shift(cx), None);
         }
     }

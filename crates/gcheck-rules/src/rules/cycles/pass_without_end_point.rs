@@ -51,8 +51,7 @@ fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
     if is_odd || cx.block().letters.intersects(END_POINT) {
         return;
     }
-    let is_pass = Effect::is_turning_pass;
-    let Some((word, code)) = cx.codes().find(|(_, code)| is_pass(code.effect())) else { return };
+    let Some((word, code)) = cx.codes().find(|(_, code)| code.effect().is_turning_pass()) else { return };
     let meant = meant(cx, code);
     if meant.is_none_or(|(effect, _)| effect != Effect::Absolute) {
         report.add(finding(cx, word, code, meant));

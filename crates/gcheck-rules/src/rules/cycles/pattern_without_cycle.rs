@@ -40,11 +40,11 @@ struct PatternWithoutCycle;
 
 impl PathRule for PatternWithoutCycle {
     fn concerns(&self, program: &Uses<'_>) -> bool {
-        program.may(is_pattern)
+        program.may(Effect::is_hole_pattern)
     }
 
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
-        if !cx.has_effect(is_pattern) || cx.is_called_only() || cx.is_after_unknown_program() {
+        if !cx.has_effect(Effect::is_hole_pattern) || cx.is_called_only() || cx.is_after_unknown_program() {
             return;
         }
         let own = cx.code_of_role(Role::Cycle).is_some_and(|code| is_cycle(cx.model.effect(code)));
@@ -54,17 +54,17 @@ impl PathRule for PatternWithoutCycle {
             return;
         }
         let finding = cx
-            .finding(&META, cx.effect_range(is_pattern), "a pattern of holes without a canned cycle")
+            .finding(
+                &META,
+                cx.effect_range(Effect::is_hole_pattern),
+                "a pattern of holes without a canned cycle",
+            )
             .label("moves from point to point and makes no hole")
             .help(
                 "give the cycle with `L0` in the block before, so that the pattern makes its holes with it",
             );
         report.add(finding);
     }
-}
-
-fn is_pattern(effect: Effect) -> bool {
-    effect.is_hole_pattern()
 }
 
 #[cfg(test)]

@@ -77,9 +77,9 @@ impl PathRule for RoughingInOnePass {
         }
         let [from, to] = [&travel.from, &travel.to].map(|place| place.raw(Axis::X));
         let before = self.pass.filter(|(of, _)| *of == at).map_or(from, |(_, radius)| radius);
-        self.pass = Some((at, if is_pass(travel) { before.min(to) } else { before }));
-        let depth = before - to;
-        if !is_pass(travel) || depth.is_nan() || depth <= DEEP || self.told == Some(at) {
+        let (is_pass, depth) = (is_pass(travel), before - to);
+        self.pass = Some((at, if is_pass { before.min(to) } else { before }));
+        if !is_pass || depth.is_nan() || depth <= DEEP || self.told == Some(at) {
             return;
         }
         self.told = Some(at);

@@ -1,12 +1,12 @@
 //! A threading cycle that starts inside the part as it is turned, or that lies in front of all that is turned.
 
-use gcheck_engine::{Event, TravelKind};
+use gcheck_engine::Event;
 use gcheck_geometry::Mm;
 
 use crate::declare::declare_rule;
-use crate::facts::thread_cycles::{is_cycle, is_tapered, radii, words};
+use crate::facts::thread_cycles::{FirstPass, is_cycle};
 use crate::facts::turned::{SLACK, Turned, UNDER, spot};
-use crate::facts::turning::is_turned;
+use crate::facts::turning::{is_turned, shown_radius};
 use crate::{MakeShared, PathCx, PathRule, Remembers, Report, Run, Uses, Watch, remembers};
 
 declare_rule! {
@@ -63,8 +63,7 @@ declare_rule! {
 
 #[derive(Default, Clone, PartialEq)]
 struct ThreadBesidePart {
-    /// Radii of the start and of the root, and the height, of the cycle of this block, before its first pass.
-    thread: Option<[f64; 3]>,
+    pass: FirstPass,
 }
 
 remembers!(ThreadBesidePart);
@@ -86,21 +85,11 @@ impl PathRule for ThreadBesidePart {
     }
 
     fn block(&mut self, cx: &PathCx<'_>, _: &mut Report<'_>) {
-        self.thread = None;
-        let is_judged =
-            cx.has_effect(is_cycle) && !cx.is_malformed() && cx.is_on_every_path() && !is_tapered(cx);
-        // The form that names the peak counts from its drive line.
-        let words =
-            words(cx).filter(|words| is_judged && cx.word('J').is_none() && !words.height.is_computed());
-        self.thread = words.and_then(|words| radii(cx, &words.height));
+        self.pass.block(cx);
     }
 
     fn moved(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
-        let Event::Travel(travel) = event else { return };
-        if travel.kind != TravelKind::Thread {
-            return;
-        }
-        let Some([start, root, height]) = self.thread.take() else { return };
+        let Some(([start, root, height], travel)) = self.pass.moved(event) else { return };
         let Some(turned) = Turned::of(cx).filter(|turned| turned.knows(cx)) else { return };
         let [begins, ends] = [&travel.from, &travel.programmed].map(|at| spot(at)[1]);
         let is_in_front = |front: f64| begins > front - SLACK && ends > front - SLACK;
@@ -118,8 +107,7 @@ impl PathRule for ThreadBesidePart {
         let Some(radius) = surface.filter(|_| begins < -UNDER && !turned.is_open_across(begins, root)) else {
             return;
         };
-        let is_diameter = cx.state().is_diameter(cx.model) == Some(true);
-        let shown = |radius: f64| cx.shown(Mm(if is_diameter { radius * 2.0 } else { radius }));
+        let shown = |radius: f64| shown_radius(cx, radius);
         let mut finding = cx
             .finding(&META, cx.effect_range(is_cycle), "the thread starts inside the part")
             .label(format!("starts at Z {}, where the part is turned to X {}", cx.shown(Mm(begins)), shown(radius)))

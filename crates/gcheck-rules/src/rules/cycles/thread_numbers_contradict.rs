@@ -7,6 +7,7 @@ use gcheck_program::Word;
 
 use crate::declare::declare_rule;
 use crate::facts::thread_cycles::{is_cycle, is_pointed, length, number, words};
+use crate::facts::turning::shown_radius;
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 use crate::{Remembers, remembers};
 
@@ -166,10 +167,7 @@ impl ThreadNumbersContradict {
         if start > pass - SLACK || !crest.contains(&turned) {
             return;
         }
-        let shown = |radius: f64| {
-            let is_diameter = cx.state().is_diameter(cx.model) == Some(true);
-            cx.shown(Mm(if is_diameter { radius * 2.0 } else { radius }))
-        };
+        let shown = |radius: f64| shown_radius(cx, radius);
         report.add(
             cx.finding(&META, cx.effect_range(is_cycle), "an outside thread that starts inside its root")
                 .label(format!("starts at X {}, and the part is turned to X {}", shown(start), shown(turned)))

@@ -3,7 +3,8 @@
 use gcheck_geometry::Mm;
 
 use crate::declare::declare_rule;
-use crate::facts::thread_cycles::{is_cycle, is_tapered, radii, words};
+use crate::facts::thread_cycles::{is_cycle, radii, straight_words};
+use crate::facts::turning::shown_radius;
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 
 declare_rule! {
@@ -63,18 +64,7 @@ impl PathRule for ThreadStartBelowCrest {
     }
 
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
-        if !cx.has_effect(is_cycle) || cx.is_malformed() || !cx.is_on_every_path() || cx.is_called_only() {
-            return;
-        }
-        // The form that names the peak begins at its drive line, and has no word for X.
-        let Some(words) = words(cx).filter(|_| cx.word('J').is_none()) else { return };
-        // Whether a computed height counts least increments differs from control to control.
-        if words.height.is_computed() {
-            return;
-        }
-        if is_tapered(cx) {
-            return;
-        }
+        let Some(words) = straight_words(cx).filter(|_| !cx.is_called_only()) else { return };
         let Some([start, root, height]) = radii(cx, &words.height) else { return };
         let crest = if start > root { root + height } else { root - height };
         let lacks = (crest - start) * (crest - root).signum();
@@ -82,8 +72,7 @@ impl PathRule for ThreadStartBelowCrest {
             return;
         }
         let is_outside = start > root;
-        let is_diameter = cx.state().is_diameter(cx.model) == Some(true);
-        let shown = |radius: f64| cx.shown(Mm(if is_diameter { radius * 2.0 } else { radius }));
+        let shown = |radius: f64| shown_radius(cx, radius);
         let letter = words.height.letter;
         let height_range = cx.word_range(|word| word.letter == letter);
         let (place, sign, side) =

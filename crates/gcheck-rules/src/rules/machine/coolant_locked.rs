@@ -1,6 +1,5 @@
 //! A coolant code under a setting that refuses it.
 
-use gcheck_controls::Effect;
 use gcheck_program::BlockFlags;
 
 use crate::declare::declare_rule;
@@ -41,7 +40,7 @@ fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
         return;
     }
     for (word, code) in cx.codes() {
-        if !switches_coolant(code.effect()) {
+        if !code.effect().switches_coolant() {
             continue;
         }
         let (name, entry) = (code.number(), code.entry());
@@ -56,11 +55,6 @@ fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
                 .at_most(limit(entry.confidence)),
         );
     }
-}
-
-/// Does the code switch coolant on or off, and nothing else?
-fn switches_coolant(effect: Effect) -> bool {
-    effect.switches_coolant()
 }
 
 #[cfg(test)]

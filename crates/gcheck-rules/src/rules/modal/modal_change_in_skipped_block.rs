@@ -162,11 +162,6 @@ impl PathRule for ModalChangeInSkippedBlock {
     }
 }
 
-/// Does the code move the work zero?
-fn shifts(effect: Effect) -> bool {
-    effect.is_about_shifts()
-}
-
 impl ModalChangeInSkippedBlock {
     /// The code that begins mapping ends it too, so its mode does not tell them apart.
     fn note_mapping(&mut self, cx: &PathCx<'_>) {
@@ -212,7 +207,8 @@ impl ModalChangeInSkippedBlock {
     }
 
     fn note_shift(&mut self, cx: &PathCx<'_>) {
-        let Some(code) = cx.codes().iter().copied().find(|code| shifts(cx.model.effect(*code))) else {
+        let Some(code) = cx.codes().iter().copied().find(|code| cx.model.effect(*code).is_about_shifts())
+        else {
             return;
         };
         if !is_optional(cx) {

@@ -32,7 +32,7 @@ declare_rule! {
 
 fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
     let Some((_, dwell)) = cx.codes().find(|(_, code)| code.effect() == Effect::Dwell) else { return };
-    let Some((_, motion)) = cx.codes().find(|(_, code)| is_motion(code.effect())) else { return };
+    let Some((_, motion)) = cx.codes().find(|(_, code)| code.effect().is_plain_move()) else { return };
     if !cx.words_are_plain() {
         return;
     }
@@ -61,10 +61,6 @@ fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
             .at_most(limit(dwell.entry().confidence)),
         );
     }
-}
-
-fn is_motion(effect: Effect) -> bool {
-    effect.is_plain_move()
 }
 
 #[cfg(test)]

@@ -62,7 +62,7 @@ impl PathRule for OutputWithoutMove {
     }
 
     fn concerns(&self, program: &Uses<'_>) -> bool {
-        program.may(queues)
+        program.may(Effect::is_output_with_move)
     }
 
     fn moved(&mut self, _: &PathCx<'_>, _: &Event, _: &mut Report<'_>) {
@@ -80,7 +80,8 @@ impl PathRule for OutputWithoutMove {
             return;
         }
         let Some(range) = self.waits.take().and_then(|at| {
-            cx.find_word(at, |word| queues(cx.model.effect(word.code))).or_else(|| cx.range_of(at))
+            cx.find_word(at, |word| cx.model.effect(word.code).is_output_with_move())
+                .or_else(|| cx.range_of(at))
         }) else {
             return;
         };
@@ -91,9 +92,4 @@ impl PathRule for OutputWithoutMove {
                 .help("use the code that switches at once (`M64`, `M65`, `M68`), or put it before the last move"),
         );
     }
-}
-
-/// Does the code wait for the next move?
-fn queues(effect: Effect) -> bool {
-    effect.is_output_with_move()
 }

@@ -7,7 +7,7 @@ use gcheck_geometry::Mm;
 use crate::declare::declare_rule;
 use crate::facts::tool_words::ToolWords;
 use crate::facts::turned::{Cut, SLACK, Spot, Turned, end, is_level};
-use crate::facts::turning::is_turned;
+use crate::facts::turning::{is_turned, shown_radius};
 use crate::{Finding, MakeShared, PathCx, PathRule, Remembers, Report, Run, Uses, Watch, remembers};
 
 declare_rule! {
@@ -143,8 +143,11 @@ impl RapidIntoTurnedPart {
         } else if let Some(cut) = turned.shoulder_crossed(from, to) {
             self.told = Some(cx.origin().at);
             let message = "rapid move along Z into the part, through a shoulder";
-            let label =
-                format!("at X {} to Z {}, where nothing was cut", shown(cx, to[0]), cx.shown(Mm(to[1])));
+            let label = format!(
+                "at X {} to Z {}, where nothing was cut",
+                shown_radius(cx, to[0]),
+                cx.shown(Mm(to[1]))
+            );
             let help = "check X and Z of the move, or make it at feed (`G1`)";
             report.add(into_part(cx, cut, message, label, help));
         } else if let Some(cut) = turned.outside_beside(from, to) {
@@ -152,19 +155,13 @@ impl RapidIntoTurnedPart {
             let radius = cut.radius();
             report.add(
                 cx.finding(&META, cx.range(), "rapid retract that goes inwards past a turned surface")
-                    .label(format!("ends at X {}, nearer to the centre", shown(cx, to[0])))
-                    .also(cut.bytes.clone(), format!("the outside is turned to X {} here", shown(cx, radius)))
+                    .label(format!("ends at X {}, nearer to the centre", shown_radius(cx, to[0])))
+                    .also(cut.bytes.clone(), format!("the outside is turned to X {} here", shown_radius(cx, radius)))
                     .note("axes that leave together need not arrive together: X may be there while the tool is still in the part")
                     .help("check X, or retract Z first"),
             );
         }
     }
-}
-
-/// A radius as programs write it.
-fn shown(cx: &PathCx<'_>, radius: f64) -> String {
-    let is_diameter = cx.state().is_diameter(cx.model) == Some(true);
-    cx.shown(Mm(if is_diameter { radius * 2.0 } else { radius }))
 }
 
 fn through_outside(cx: &PathCx<'_>, cut: &Cut, from: Spot, to: Spot) -> Finding {
@@ -181,7 +178,8 @@ fn through_outside(cx: &PathCx<'_>, cut: &Cut, from: Spot, to: Spot) -> Finding 
             "check X and Z of the move, or make it at feed (`G1`)",
         )
     };
-    let label = format!("to X {} at Z {}, where nothing was cut", shown(cx, to[0]), cx.shown(Mm(to[1])));
+    let label =
+        format!("to X {} at Z {}, where nothing was cut", shown_radius(cx, to[0]), cx.shown(Mm(to[1])));
     into_part(cx, cut, message, label, help)
 }
 
@@ -189,7 +187,10 @@ fn through_outside(cx: &PathCx<'_>, cut: &Cut, from: Spot, to: Spot) -> Finding 
 fn into_part(cx: &PathCx<'_>, cut: &Cut, message: &str, label: String, help: &str) -> Finding {
     cx.finding(&META, cx.range(), message)
         .label(label)
-        .also(cut.bytes.clone(), format!("the outside is turned to X {} here", shown(cx, cut.radius())))
+        .also(
+            cut.bytes.clone(),
+            format!("the outside is turned to X {} here", shown_radius(cx, cut.radius())),
+        )
         .assuming("the part is not hollow there before the program starts")
         .help(help)
 }

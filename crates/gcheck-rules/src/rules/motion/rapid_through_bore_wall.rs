@@ -6,7 +6,7 @@ use gcheck_geometry::Mm;
 
 use crate::declare::declare_rule;
 use crate::facts::turned::{SLACK, Spot, Turned, UNDER, end};
-use crate::facts::turning::is_turned;
+use crate::facts::turning::{is_turned, shown_radius};
 use crate::{MakeShared, PathCx, PathRule, Remembers, Report, Run, Uses, Watch, remembers};
 
 declare_rule! {
@@ -115,8 +115,7 @@ impl RapidThroughBoreWall {
             return;
         }
         self.told = Some(cx.origin().at);
-        let is_diameter = cx.state().is_diameter(cx.model) == Some(true);
-        let shown = |radius: f64| cx.shown(Mm(if is_diameter { radius * 2.0 } else { radius }));
+        let shown = |radius: f64| shown_radius(cx, radius);
         let finding = cx
             .finding(&META, cx.range(), "rapid move out of a bore, through its wall")
             .label(format!("outwards at Z {}, from inside the bore", cx.shown(Mm(from[1]))))

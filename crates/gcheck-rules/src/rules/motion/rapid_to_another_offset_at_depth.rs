@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use gcheck_controls::Effect;
+use gcheck_controls::{Effect, LetterSet};
 use gcheck_engine::{Axis, Event, Position, TravelKind};
 use gcheck_geometry::{Mm, Plane};
 
@@ -99,7 +99,7 @@ impl PathRule for RapidToAnotherOffsetAtDepth {
             Event::Arc(arc) if !arc.expanded => self.cut = cut(cx, &arc.programmed),
             Event::Travel(travel) if travel.kind == TravelKind::Rapid && !travel.expanded => {
                 let Some(cut) = self.cut.take() else { return };
-                let names = |letters: &str| letters.chars().any(|letter| cx.word(letter).is_some());
+                let names = |letters: &str| cx.origin().letters.intersects(LetterSet::of(letters));
                 // A word of Z lifts the tool, or another rule judges it.
                 if names("ZWUV") || cx.has_effect(Effect::goes_to_machine_place) {
                     return;

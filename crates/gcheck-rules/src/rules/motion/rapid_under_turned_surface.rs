@@ -4,10 +4,11 @@ use std::ops::Range;
 
 use gcheck_controls::Machine;
 use gcheck_engine::{At, Axis, Event, Position, Travel, TravelKind};
-use gcheck_geometry::{Mm, Plane};
+use gcheck_geometry::Plane;
 
 use crate::declare::declare_rule;
 use crate::facts::tool_words::ToolWords;
+use crate::facts::turning::shown_radius;
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 use crate::{Remembers, remembers};
 
@@ -180,8 +181,7 @@ impl RapidUnderTurnedSurface {
         }
         let Some(surface) = self.cuts.iter().rev().find(|cut| cut.is_above(dive, radius)) else { return };
         self.told = Some(dive.at);
-        let is_diameter = cx.state().is_diameter(cx.model) == Some(true);
-        let shown = |radius: f64| cx.shown(Mm(if is_diameter { radius * 2.0 } else { radius }));
+        let shown = |radius: f64| shown_radius(cx, radius);
         report.add(
             cx.finding(
                 &META,

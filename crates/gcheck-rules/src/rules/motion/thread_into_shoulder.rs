@@ -5,7 +5,7 @@ use gcheck_geometry::Mm;
 
 use crate::declare::declare_rule;
 use crate::facts::turned::{SLACK, Spot, Turned, UNDER, spot};
-use crate::facts::turning::is_turned;
+use crate::facts::turning::{is_turned, shown_radius};
 use crate::{MakeShared, PathCx, PathRule, Remembers, Report, Run, Uses, Watch, remembers};
 
 declare_rule! {
@@ -118,8 +118,7 @@ impl ThreadIntoShoulder {
         let Some([radius, z]) = (0..=PLACES).map(place).find(is_shoulder) else { return };
         let Some((part, cut)) = turned.least_outside(z) else { return };
         self.told = cx.definitions().set_by(Fact::Tool).or(Some(cx.origin().at));
-        let is_diameter = cx.state().is_diameter(cx.model) == Some(true);
-        let shown = |radius: f64| cx.shown(Mm(if is_diameter { radius * 2.0 } else { radius }));
+        let shown = |radius: f64| shown_radius(cx, radius);
         let finding = cx
             .finding(&META, cx.range(), "the thread goes on into a larger diameter of the part")
             .label(format!(

@@ -99,17 +99,13 @@ fn thread_from_feed<'a>(cx: &PathCx<'a>) -> Option<Code<'a>> {
         return None;
     }
     let codes = cx.codes();
-    let ix = codes.iter().copied().find(|ix| is_thread(cx.model.effect(*ix)))?;
+    let ix = codes.iter().copied().find(|ix| cx.model.effect(*ix).cuts_thread())?;
     // The passes after the first one have its lead.
-    let goes_on = cx.state().mode(Role::Motion).only().is_none_or(|mode| is_thread(cx.model.effect(mode)));
+    let goes_on = cx.state().mode(Role::Motion).only().is_none_or(|mode| cx.model.effect(mode).cuts_thread());
     let code = cx.control().code_at(ix)?;
     let is_lead =
         |word: &WordEntry| word.letter == "F" && matches!(word.need, Need::Modal | Need::Conditional);
     (!goes_on && code.entry().words.iter().any(is_lead)).then_some(code)
-}
-
-fn is_thread(effect: Effect) -> bool {
-    effect.cuts_thread()
 }
 
 /// Does the code feed at its `F`?

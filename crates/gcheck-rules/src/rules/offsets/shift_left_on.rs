@@ -80,14 +80,14 @@ impl PathRule for ShiftLeftOn {
     }
 
     fn concerns(&self, program: &Uses<'_>) -> bool {
-        program.may(is_shift)
+        program.may(Effect::shifts_coordinates)
     }
 
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
         if boundary(cx) == Some(Boundary::ProgramEnd) {
             self.judge(cx, report);
         }
-        let code = cx.codes().iter().copied().find(|code| is_shift(cx.model.effect(*code)));
+        let code = cx.codes().iter().copied().find(|code| cx.model.effect(*code).shifts_coordinates());
         if let Some(code) = code.filter(|_| is_step(cx)) {
             self.set = Some((cx.origin().at, code));
             let sums = self.steps.zip(steps(cx));
@@ -97,7 +97,8 @@ impl PathRule for ShiftLeftOn {
 
     fn changed(&mut self, cx: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
         if let Event::Shift(_) = event
-            && let Some(code) = cx.codes().iter().copied().find(|code| is_shift(cx.model.effect(*code)))
+            && let Some(code) =
+                cx.codes().iter().copied().find(|code| cx.model.effect(*code).shifts_coordinates())
         {
             self.set = Some((cx.origin().at, code));
             self.steps = self.steps.filter(|_| is_step(cx));
@@ -202,11 +203,6 @@ fn steps(cx: &PathCx<'_>) -> Option<[f64; 2]> {
         if is_given { cx.known_number(letter) } else { Some(0.0) }
     };
     Some([by('U')?, by('W')?])
-}
-
-/// Does the code shift the work coordinates?
-fn is_shift(effect: Effect) -> bool {
-    effect.shifts_coordinates()
 }
 
 #[cfg(test)]

@@ -4,10 +4,9 @@ use std::ops::Range;
 
 use gcheck_controls::{Effect, SystemValue};
 use gcheck_engine::Ending;
-use gcheck_program::{BlockFlags, Op};
 
 use crate::declare::declare_rule;
-use crate::facts::probing::touches_work;
+use crate::facts::probing::{column_of, reads, touches_work};
 use crate::{PathCx, PathRule, Remembers, Report, Run, Uses, Watch, remembers};
 
 declare_rule! {
@@ -76,9 +75,7 @@ impl PathRule for TouchNeverChecked {
     }
 
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
-        if cx.origin().flags.intersects(BlockFlags::EXPRESSION | BlockFlags::STATEMENT) {
-            self.look(cx);
-        }
+        self.look(cx);
         if cx.has_effect(touches_work) {
             self.tell(cx, report);
             self.probed = cx.has_effect(need_not_touch).then(|| cx.effect_range(need_not_touch));
@@ -98,20 +95,13 @@ impl TouchNeverChecked {
         if self.probed.is_none() {
             return;
         }
-        let Some((table, expressions)) = cx.expressions() else { return };
-        let variables = &cx.control().semantics().system_variables;
-        let holds = |number: u32, value: SystemValue| {
-            variables.iter().any(|variable| variable.holds == value && variable.cell(number).is_some())
-        };
-        for op in expressions.iter().flat_map(|expr| table.ops(table.expr(*expr))) {
-            match op {
-                Op::Variable(number) if holds(*number, SystemValue::ProbePosition) => {
-                    self.used.get_or_insert_with(|| cx.range());
-                }
-                Op::Variable(number) if holds(*number, SystemValue::ProbeResult) => self.probed = None,
-                // Any variable may be the result.
-                Op::Indirect => self.probed = None,
-                _ => {}
+        for number in reads(cx) {
+            let holds = |value| number.is_some_and(|number| column_of(cx, number, value).is_some());
+            if holds(SystemValue::ProbePosition) {
+                self.used.get_or_insert_with(|| cx.range());
+            } else if number.is_none() || holds(SystemValue::ProbeResult) {
+                // A computed number may be that of the result.
+                self.probed = None;
             }
         }
     }

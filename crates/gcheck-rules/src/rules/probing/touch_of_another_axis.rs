@@ -4,10 +4,9 @@ use std::ops::Range;
 
 use gcheck_controls::SystemValue;
 use gcheck_engine::{Axis, Ending, Touch};
-use gcheck_program::{BlockFlags, Op};
 
 use crate::declare::declare_rule;
-use crate::facts::probing::{driven, touches_work};
+use crate::facts::probing::{column_of, driven, reads, touches_work};
 use crate::{PathCx, PathRule, Remembers, Report, Run, Uses, Watch, remembers};
 
 declare_rule! {
@@ -85,9 +84,7 @@ impl PathRule for TouchOfAnotherAxis {
     }
 
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
-        if cx.origin().flags.intersects(BlockFlags::EXPRESSION | BlockFlags::STATEMENT) {
-            self.look(cx);
-        }
+        self.look(cx);
         if cx.has_effect(touches_work) {
             self.tell(cx, report);
         }
@@ -104,19 +101,19 @@ impl TouchOfAnotherAxis {
     /// The variables that the block reads.
     fn look(&mut self, cx: &PathCx<'_>) {
         let Touch::Made(ways) = cx.state().touched() else { return };
-        let Some((table, expressions)) = cx.expressions() else { return };
-        let ops = expressions.iter().flat_map(|expr| table.ops(table.expr(*expr)));
-        for op in ops {
-            let Op::Variable(number) = op else { continue };
-            let Some(axis) = axis_of(cx, *number) else { continue };
+        for number in reads(cx).into_iter().flatten() {
+            let column = column_of(cx, number, SystemValue::ProbePosition);
+            let Some(axis) = column.and_then(|column| Axis::ALL.get(column as usize).copied()) else {
+                continue;
+            };
             let mut driven = driven(ways).map(|(axis, _)| axis);
             let Some(first) = driven.next() else { continue };
             if first == axis || driven.any(|other| other == axis) {
                 self.is_used = true;
             } else if self.read.is_none() && cx.depth() == 1 {
                 let step = |axis: Axis| Axis::ALL.iter().position(|other| *other == axis).unwrap_or(0);
-                let right = (*number + step(first) as u32).saturating_sub(step(axis) as u32);
-                self.read = Some(Read { bytes: cx.range(), number: *number, axis, probed: (first, right) });
+                let right = (number + step(first) as u32).saturating_sub(step(axis) as u32);
+                self.read = Some(Read { bytes: cx.range(), number, axis, probed: (first, right) });
             }
         }
     }
@@ -136,17 +133,6 @@ impl TouchOfAnotherAxis {
                 .help(format!("read `#{right}`, or probe along `{axis}`")),
         );
     }
-}
-
-/// The axis of which the variable holds the touch.
-fn axis_of(cx: &PathCx<'_>, number: u32) -> Option<Axis> {
-    let variables = &cx.control().semantics().system_variables;
-    let column = variables.iter().find_map(|variable| {
-        (variable.holds == SystemValue::ProbePosition && variable.of.is_none())
-            .then(|| variable.cell(number).map(|(_, column)| column))
-            .flatten()
-    })?;
-    Axis::ALL.get(column as usize).copied()
 }
 
 #[cfg(test)]

@@ -2,9 +2,9 @@
 
 use gcheck_controls::{SystemValue, SystemVariable};
 use gcheck_engine::Touch;
-use gcheck_program::{BlockFlags, Op};
 
 use crate::declare::declare_rule;
+use crate::facts::probing::{column_of, reads};
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 
 declare_rule! {
@@ -50,22 +50,11 @@ impl PathRule for TouchReadWithoutProbing {
     }
 
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
-        let computes = cx.origin().flags.intersects(BlockFlags::EXPRESSION | BlockFlags::STATEMENT);
-        if !computes || cx.state().touched() != Touch::None || cx.is_called_only() {
+        if cx.state().touched() != Touch::None || cx.is_called_only() {
             return;
         }
-        let Some((table, expressions)) = cx.expressions() else { return };
-        let variables = &cx.control().semantics().system_variables;
-        let touches = |number: u32| {
-            let of_touch = |variable: &SystemVariable| is_touch(variable) && variable.cell(number).is_some();
-            variables.iter().any(of_touch)
-        };
-        let ops = expressions.iter().flat_map(|expr| table.ops(table.expr(*expr)));
-        let read = ops.filter_map(|op| match op {
-            Op::Variable(number) => Some(*number),
-            _ => None,
-        });
-        let Some(number) = read.into_iter().find(|number| touches(*number)) else { return };
+        let is_of_touch = |number: &u32| column_of(cx, *number, SystemValue::ProbePosition).is_some();
+        let Some(number) = reads(cx).into_iter().flatten().find(is_of_touch) else { return };
         report.add(
             cx.finding(&META, cx.range(), format!("`#{number}` is read, and nothing has probed before"))
                 .label("holds a touch of an earlier program, or nothing")

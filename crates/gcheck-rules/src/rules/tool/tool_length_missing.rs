@@ -125,7 +125,7 @@ impl ToolLengthMissing {
         }
         let Some(on) = code_that_compensates(cx) else { return };
         let Some(is_touching) = is_touching_off(cx) else { return };
-        let is_ever_used = cx.file_uses(compensates);
+        let is_ever_used = cx.file_uses(Effect::takes_tool_length);
         let what = if matches!(event, Event::Travel(t) if t.kind == gcheck_engine::TravelKind::Rapid) {
             "moves"
         } else {
@@ -163,13 +163,9 @@ impl ToolLengthMissing {
 /// The code that gives a tool its length, unless it is an option of the control.
 fn code_that_compensates(cx: &PathCx<'_>) -> Option<String> {
     // A control that only takes lengths from the program, without a table, has the tool measured when it is changed.
-    let on = cx.control().codes().find(|code| compensates(code.effect()))?;
+    let on = cx.control().codes().find(|code| code.effect().takes_tool_length())?;
     // Where the code is an option, machines without it measure the tool when it is changed.
     on.entry().option.is_none().then(|| on.number().to_string())
-}
-
-fn compensates(effect: Effect) -> bool {
-    effect.takes_tool_length()
 }
 
 /// Is the tool about to touch off? `None` when it needs no length for what it does.
@@ -188,7 +184,7 @@ fn is_touching_off(cx: &PathCx<'_>) -> Option<bool> {
         )
     };
     let is_touching = is_near(cx, touches);
-    let goes_without = is_touching && (!cx.file_uses(compensates) || cx.file_uses(keeps));
+    let goes_without = is_touching && (!cx.file_uses(Effect::takes_tool_length) || cx.file_uses(keeps));
     (!goes_without).then_some(is_touching)
 }
 
