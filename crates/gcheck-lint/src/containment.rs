@@ -3,7 +3,7 @@
 //! Knows: which rule is called at the moment, on this thread. Must not know: how rules are called, any rule.
 //!
 //! Rules see a program together, in one pass; one that panics leaves that pass unfinished. So the pass begins again without it.
-//! As long as no rule panics this costs two writes to memory for each call.
+//! As long as no rule panics this costs a write to memory or two for each call.
 
 use std::borrow::Cow;
 use std::cell::Cell;
@@ -20,10 +20,20 @@ thread_local! {
 
 /// Calls a rule.
 pub(crate) fn call<T>(rule: &'static RuleMeta, call: impl FnOnce() -> T) -> T {
-    CALLED.set(Some(rule));
+    begin(rule);
     let result = call();
-    CALLED.set(None);
+    end();
     result
+}
+
+/// From here on this rule is called; for many rules one after another.
+pub(crate) fn begin(rule: &'static RuleMeta) {
+    CALLED.set(Some(rule));
+}
+
+/// From here on no rule is called.
+pub(crate) fn end() {
+    CALLED.set(None);
 }
 
 /// Does some work with a selection of rules; when a rule panics in it, again without that rule. Gives the rules that panicked.

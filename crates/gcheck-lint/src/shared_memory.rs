@@ -2,6 +2,8 @@
 //!
 //! Knows: how a rule names such a memory, and how one is found by its type. Must not know: any rule, what is remembered.
 
+use std::any::TypeId;
+
 use gcheck_engine::Event;
 
 use crate::{Memory, PathCx};
@@ -34,15 +36,23 @@ pub type MakeShared = fn() -> Box<dyn SharedMemory>;
 
 /// The shared memories of an analysis: one of each type.
 #[derive(Default)]
-pub(crate) struct SharedMemories(Vec<(MakeShared, Box<dyn SharedMemory>)>);
+pub(crate) struct SharedMemories(Vec<Shared>);
+
+/// One of them.
+struct Shared {
+    /// Its type, so that looking for another one asks nothing of it.
+    type_id: TypeId,
+    make: MakeShared,
+    memory: Box<dyn SharedMemory>,
+}
 
 impl SharedMemories {
     /// Takes one in, unless there is one of its type.
     pub(crate) fn add(&mut self, make: MakeShared) {
-        let new = make();
-        let type_of = |memory: &dyn SharedMemory| memory.as_any().type_id();
-        if self.0.iter().all(|(_, own)| type_of(&**own) != type_of(&*new)) {
-            self.0.push((make, new));
+        let memory = make();
+        let type_id = (*memory).as_any().type_id();
+        if self.0.iter().all(|own| own.type_id != type_id) {
+            self.0.push(Shared { type_id, make, memory });
         }
     }
 
@@ -53,18 +63,19 @@ impl SharedMemories {
 
     /// All of them forget.
     pub(crate) fn restart(&mut self) {
-        for (make, memory) in &mut self.0 {
-            *memory = make();
+        for shared in &mut self.0 {
+            shared.memory = (shared.make)();
         }
     }
 
     /// The one of a type.
     pub(crate) fn get<T: SharedMemory + 'static>(&self) -> Option<&T> {
-        self.0.iter().find_map(|(_, memory)| memory.as_any().downcast_ref())
+        let shared = self.0.iter().find(|shared| shared.type_id == TypeId::of::<T>())?;
+        (*shared.memory).as_any().downcast_ref()
     }
 
     /// All of them, always in the same order.
     pub(crate) fn iter_mut(&mut self) -> impl Iterator<Item = &mut (dyn SharedMemory + 'static)> {
-        self.0.iter_mut().map(|(_, memory)| &mut **memory)
+        self.0.iter_mut().map(|shared| &mut *shared.memory)
     }
 }

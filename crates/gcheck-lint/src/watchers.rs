@@ -246,21 +246,19 @@ impl<'a, 'c> Watchers<'a, 'c> {
             }
         };
         let mut report = Report::new(&mut once);
-        let mut next = 0;
-        while let Some(index) = list.get(next) {
-            let Some(active) = self.rules.get_mut(*index) else { break };
+        let rules = &mut self.rules;
+        // Moves come by the million: this loop does nothing for a rule that it could do for all of them.
+        list.retain(|index| {
+            let Some(active) = rules.get_mut(*index) else { return false };
             if is_one_way && !active.rule.counts_on_some_path() {
-                next += 1;
-                continue;
+                return true;
             }
             severity.set(active.severity);
-            containment::call(active.entry.meta, || call(&mut *active.rule, &mut report));
-            if had_enough.take() {
-                list.remove(next);
-            } else {
-                next += 1;
-            }
-        }
+            containment::begin(active.entry.meta);
+            call(&mut *active.rule, &mut report);
+            !had_enough.take()
+        });
+        containment::end();
     }
 
     fn read_block(&mut self, at: At) -> Option<Rc<ReadBlock>> {
@@ -386,12 +384,17 @@ impl<'a, 'c> Watchers<'a, 'c> {
         let (none, evaluated) = (SharedMemories::default(), Evaluated::default());
         let alone = self.context(flow, read.as_deref(), &had_enough, &none, &memo, &evaluated);
         let cx = PathCx { shared: &shared, ..alone };
+        let flags = flow.origin.flags;
         for kind in kinds {
-            self.each(*kind, flow.origin.flags, &had_enough, |rule, report| match *kind {
-                Watch::RAPIDS => rule.rapid(&cx, event, report),
-                Watch::CUTS => rule.cut(&cx, event, report),
-                _ => rule.moved(&cx, event, report),
-            });
+            match *kind {
+                Watch::RAPIDS => {
+                    self.each(*kind, flags, &had_enough, |rule, report| rule.rapid(&cx, event, report));
+                }
+                Watch::CUTS => {
+                    self.each(*kind, flags, &had_enough, |rule, report| rule.cut(&cx, event, report));
+                }
+                _ => self.each(*kind, flags, &had_enough, |rule, report| rule.moved(&cx, event, report)),
+            }
         }
         for shared in shared.iter_mut() {
             shared.moved(&alone, event);
