@@ -129,6 +129,13 @@ impl Position {
         [Degrees(a), Degrees(b), Degrees(c)]
     }
 
+    /// Is one of the coordinates more than `by` away from that of `other`? Unknown ones are not.
+    ///
+    /// Looks at all axes at once: this is asked of moves by the million.
+    pub fn is_apart(&self, other: &Self, by: f64) -> bool {
+        self.0.iter().zip(&other.0).fold(false, |apart, (own, other)| apart | ((own - other).abs() > by))
+    }
+
     /// Is every coordinate known?
     pub fn is_known(&self) -> bool {
         self.0.iter().all(|value| !value.is_nan())

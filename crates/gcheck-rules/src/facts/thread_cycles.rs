@@ -7,6 +7,7 @@ use gcheck_engine::{Axis, Event, Travel, TravelKind};
 use gcheck_program::Word;
 
 use crate::PathCx;
+use crate::facts::threads::trimmed;
 
 /// Does the code cut a thread in several passes?
 pub(crate) fn is_cycle(effect: Effect) -> bool {
@@ -53,7 +54,21 @@ pub(crate) fn is_pointed(cx: &PathCx<'_>, word: &Word) -> bool {
 /// Millimetres; `None` for a computed word that is not known. Without a point, lengths of a cycle count least increments on the controls that
 /// write leads with a point.
 pub(crate) fn length(cx: &PathCx<'_>, word: &Word) -> Option<f64> {
-    let number = number(cx, word)?;
+    Some(number(cx, word)? * step(cx, word)?)
+}
+
+/// The number that the word needs for a length in millimetres, with as many digits as it may have.
+pub(crate) fn written(cx: &PathCx<'_>, word: &Word, length: f64) -> Option<String> {
+    let step = step(cx, word)?;
+    let number = length / step;
+    Some(trimmed(if step < COUNTED { number.round() } else { number }))
+}
+
+/// A word whose one is shorter counts least increments: millimetres.
+const COUNTED: f64 = 0.01;
+
+/// What one stands for in the word: millimetres.
+fn step(cx: &PathCx<'_>, word: &Word) -> Option<f64> {
     let units = cx.state().units(cx.model)?;
     let as_written = cx.control().numbers().unpointed == gcheck_controls::Unpointed::AsWritten;
     let least = match units {
@@ -66,7 +81,7 @@ pub(crate) fn length(cx: &PathCx<'_>, word: &Word) -> Option<f64> {
     let counts_twice = word.letter == gcheck_controls::Letter::of('K')
         && cx.word('J').is_some()
         && cx.state().is_diameter(cx.model)?;
-    Some(number * step * units.in_mm() / if counts_twice { 2.0 } else { 1.0 })
+    Some(step * units.in_mm() / if counts_twice { 2.0 } else { 1.0 })
 }
 
 /// Radii of the start and of the root, and the height: millimetres. The tool still is where the cycle of the block starts.

@@ -104,6 +104,8 @@ pub(crate) fn names_unread_thread(cx: &PathCx<'_>, at: At) -> bool {
 
 /// Comments above an operation are not further away than this: blocks.
 const ABOVE: u32 = 6;
+/// So many blocks after a tool change, at most, the list at the head of the program tells which thread is cut.
+const LIST_COUNTS: usize = 40;
 /// The title of a program is in its first blocks.
 const TITLE: u32 = 3;
 
@@ -132,7 +134,14 @@ pub(crate) fn named_thread(cx: &PathCx<'_>, changed: Option<At>) -> Option<(Thre
             .flatten()
             .filter(is_beside_tool)
             .find_map(named)
-            .or_else(|| thread_in_list(cx, Wanted::Written).map(Some))
+            .or_else(|| {
+                // A comment further up may name another thread of the same tool.
+                let since = changed.block..here.block;
+                let is_near = changed.file == here.file && since.len() <= LIST_COUNTS;
+                let mut comments = since.map(|block| At { block, ..here });
+                let names_another = is_near && comments.any(|at| named(at).is_some());
+                (is_near && !names_another).then(|| thread_in_list(cx, Wanted::Written)).flatten().map(Some)
+            })
     };
     let is_title = |at: &At| {
         let letters = cx.place_of(*at).map(|place| place.block().letters);
@@ -265,7 +274,7 @@ fn thread_in(comment: &str, wanted: Wanted) -> Option<(String, f64)> {
         if is_alone && has_own_pitch {
             continue;
         }
-        let of_turns = || turns_to_the_inch(piece, all.get(ix + 1).copied());
+        let of_turns = || turns_to_the_inch(&all, ix);
         if let Some(pitch) = metric(piece).or_else(|| inch(piece)).filter(|_| is_written) {
             found.push((piece.to_owned(), pitch));
         } else if let Some(turns) = of_turns() {
@@ -282,12 +291,19 @@ fn thread_in(comment: &str, wanted: Wanted) -> Option<(String, f64)> {
     }
 }
 
-/// `12 TPI`, `12TPI`.
-fn turns_to_the_inch(piece: &str, after: Option<&str>) -> Option<f64> {
-    let turns = match piece.strip_suffix("TPI") {
-        Some(turns) => turns,
-        None => Some(piece).filter(|_| after == Some("TPI"))?,
+/// `12 TPI`, `12TPI`. What an insert can cut (`8 - 16 TPI`, `24 TPI MAX`) is not a thread.
+fn turns_to_the_inch(pieces: &[&str], ix: usize) -> Option<f64> {
+    let at = |ix: Option<usize>| ix.and_then(|ix| pieces.get(ix)).copied().unwrap_or_default();
+    let piece = at(Some(ix));
+    let (turns, next) = match piece.strip_suffix("TPI") {
+        Some(turns) => (turns, ix + 1),
+        None => (Some(piece).filter(|_| at(Some(ix + 1)) == "TPI")?, ix + 2),
     };
+    let before = at(ix.checked_sub(1));
+    let is_range = |word: &str| matches!(word, "-" | "TO" | "THRU" | "MAX" | "MIN") || number(word).is_some();
+    if is_range(before) || is_range(at(Some(next))) {
+        return None;
+    }
     number(turns).filter(|turns| (1.0..=120.0).contains(turns))
 }
 

@@ -33,7 +33,13 @@ impl ToolComment {
 
     /// Does it name a tool that cuts counter-clockwise?
     pub(crate) fn is_left_hand(&self) -> bool {
+        // `M12X1.75LH` is cut at its point.
+        let ends_left = |word: &String| {
+            let number = word.strip_suffix("LH").or_else(|| word.strip_suffix('L')).unwrap_or_default();
+            number.ends_with(|c: char| c.is_ascii_digit())
+        };
         self.has(&["LH", "L", "LEFT", "LEFTHAND", "REVERSE", "CCW", "M4", "M04"])
+            || self.words.iter().any(ends_left)
     }
 
     /// The one size that it gives, as `10 MM`, `1/4 IN` or `DRILL 3/4`: of a drill or an end mill its diameter. `None` where it
@@ -101,7 +107,11 @@ pub(crate) fn comment_at_work(cx: &PathCx<'_>) -> Option<Rc<ToolComment>> {
 /// What the comment of the tool says that a block put in: the one of its block, the tool's entry in a list at the head of the
 /// program, or one alone in the block before or after.
 pub(crate) fn comment_of_tool(cx: &PathCx<'_>, changed: At) -> Option<Rc<ToolComment>> {
-    let tool = Abstract::known(cx.state().tool()).and_then(whole);
+    comment_of_number(cx, changed, Abstract::known(cx.state().tool()).and_then(whole))
+}
+
+/// The same, of a tool that is known by its number, and need not be in the spindle any more.
+pub(crate) fn comment_of_number(cx: &PathCx<'_>, changed: At, tool: Option<u32>) -> Option<Rc<ToolComment>> {
     cx.from_text(changed, tool.unwrap_or(u32::MAX), || {
         // A comment alone near the change may name the operation: `(2D ADAPTIVE1)`.
         let own = comments_in(cx, changed).map(|text| (changed, text));

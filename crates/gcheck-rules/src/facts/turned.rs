@@ -261,7 +261,7 @@ impl Turned {
 
     /// Does a cut plunge straight across into what was turned, from outside of it: into a groove that is not made yet?
     pub(crate) fn plunges(&self, from: Spot, to: Spot) -> bool {
-        let Some(wall) = self.outside_along(to[1]) else { return false };
+        let Some((wall, _)) = self.outside_along(to[1]) else { return false };
         // Begun inside the wall it is the way out of a bore, or the end of a shoulder.
         let is_from_outside = from[0] > wall - SLACK;
         let is_into = to[0] > SLACK && to[0] < wall - UNDER;
@@ -379,16 +379,25 @@ impl Turned {
         self.outside(z).min_by(|a, b| a.0.total_cmp(&b.0))
     }
 
-    /// The radius to which the outside of the part was turned along Z at this level, whatever went into it across.
-    pub(crate) fn outside_along(&self, z: f64) -> Option<f64> {
+    /// The radius to which the outside of the part was turned along Z at this level, whatever went into it across, and the cut that
+    /// left it.
+    pub(crate) fn outside_along(&self, z: f64) -> Option<(f64, &Cut)> {
         let along = self.outside(z).filter(|(_, cut)| cut.side == Side::Outside && cut.is_surface());
-        along.map(|(radius, _)| radius).min_by(f64::total_cmp)
+        along.min_by(|a, b| a.0.total_cmp(&b.0))
     }
 
-    /// The end away from the chuck of all that was cut along Z into the part.
+    /// The same, if it is certain that no later cut went along there: one whose side is not known may have been of the outside
+    /// too.
+    pub(crate) fn finished_along(&self, z: f64) -> Option<(f64, &Cut)> {
+        let (radius, cut) = self.outside_along(z)?;
+        let may_be_finish = |(own, cut): (f64, &Cut)| cut.side == Side::Unknown && own < radius - SLACK;
+        (!self.outside(z).any(may_be_finish)).then_some((radius, cut))
+    }
+
+    /// The end away from the chuck of all that was cut along Z.
     pub(crate) fn front(&self) -> Option<f64> {
-        let deep = self.cuts.iter().filter(|cut| is_deep(cut.ends[0], cut.ends[1]));
-        deep.map(Cut::front).max_by(f64::total_cmp)
+        let along = self.cuts.iter().filter(|cut| cut.front() - cut.back() > UNDER);
+        along.map(Cut::front).max_by(f64::total_cmp)
     }
 
     /// Cuts from outside that came by this level, with the radius that each has there.
@@ -406,11 +415,11 @@ impl Turned {
         })
     }
 
-    /// Was the part cut through this radius near this level, so that a tool can go in or out there?
-    pub(crate) fn is_open_across(&self, z: f64, radius: f64) -> bool {
+    /// Was the part cut through this radius near this level, from at least `by` outside of it, so that a tool can go in or out there?
+    pub(crate) fn is_open_across(&self, z: f64, radius: f64, by: f64) -> bool {
         self.cuts.iter().any(|cut| {
             let [[r0, z0], [r1, z1]] = cut.ends;
-            let is_across = r0.min(r1) < radius + SLACK && r0.max(r1) > radius + UNDER;
+            let is_across = r0.min(r1) < radius + SLACK && r0.max(r1) > radius + by;
             is_across && z0.min(z1) - WIDTH < z && z < z0.max(z1) + WIDTH
         })
     }
@@ -446,7 +455,8 @@ impl Turned {
         let is_up = is_level(from, to) && to[0] > from[0] + SLACK && (to[1] < -SLACK || is_cut());
         let is_off_bore = in_bore && is_level(from, to) && to[0] < from[0] - SLACK;
         let is_before_face = from[1] > SLACK && to[1] > -SLACK;
-        let is_beside = |spot: Spot| self.outside_along(spot[1]).is_some_and(|wall| spot[0] > wall + SLACK);
+        let is_beside =
+            |spot: Spot| self.outside_along(spot[1]).is_some_and(|(wall, _)| spot[0] > wall + SLACK);
         is_outward || is_up && !in_bore || is_off_bore || is_before_face || is_beside(from) && is_beside(to)
     }
 
@@ -539,6 +549,11 @@ impl Cut {
     /// Its end away from the chuck.
     fn front(&self) -> f64 {
         self.ends[0][1].max(self.ends[1][1])
+    }
+
+    /// At one radius.
+    pub(crate) fn is_straight(&self) -> bool {
+        (self.ends[0][0] - self.ends[1][0]).abs() < SLACK
     }
 
     /// Its end nearer to the chuck.

@@ -13,7 +13,8 @@ declare_rule! {
     /// comment names, or twice.
     ///
     /// ## Why it matters
-    /// The contour is cut too small or too large by half of the cutter. Other codes and controls take the radius.
+    /// With half of the diameter each side is off by a quarter of the cutter, with twice the diameter by half of it. Other codes take the number
+    /// of an offset or of a tool, and some controls count offsets as radii.
     ///
     /// ## Reported
     /// ```nc,reported,linuxcnc
@@ -50,6 +51,25 @@ struct RadiusGivenForDiameter;
 
 /// What a size that was rounded may be off, as a part of it.
 const ROUNDED: f64 = 0.01;
+/// Tools that do not cut with the diameter that names them.
+const OTHER_SHAPES: [&str; 16] = [
+    "CHAMFER",
+    "CHAMFERING",
+    "V",
+    "VBIT",
+    "BIT",
+    "SPOT",
+    "SPOTTING",
+    "BALL",
+    "BALLNOSE",
+    "T",
+    "TSLOT",
+    "FLUTE",
+    "NECK",
+    "DOVETAIL",
+    "TAPER",
+    "TAPERED",
+];
 
 impl PathRule for RadiusGivenForDiameter {
     fn concerns(&self, program: &Uses<'_>) -> bool {
@@ -65,7 +85,8 @@ impl PathRule for RadiusGivenForDiameter {
         else {
             return;
         };
-        let Some(Mm(named)) = comment_at_work(cx).and_then(|comment| comment.size(units)) else { return };
+        let Some(comment) = comment_at_work(cx).filter(|comment| !comment.has(&OTHER_SHAPES)) else { return };
+        let Some(Mm(named)) = comment.size(units) else { return };
         let is = |part: f64| (given / named - part).abs() < part * ROUNDED;
         let other = match (is(0.5), is(2.0)) {
             (true, _) => "half of",
@@ -113,5 +134,15 @@ mod tests {
         "#]],
         );
         check_rule(&RULE, "linuxcnc", &plate("7.9"), &expect![[""]]);
+    }
+
+    #[test]
+    fn sizes_that_are_not_what_cuts() {
+        for comment in ["10 mm CHAMFER MILL", "10 mm V-BIT", "10 mm SPOT DRILL", "BALL END MILL 10 mm"] {
+            let program = format!(
+                "(T1 {comment})\nG21 G90 G54 T1 M6\nG43 H1 S3000 M3\nG0 X-20 Y-20 Z-2\nG41.1 D5 G1 X0 Y-10 F300\nY40\nG40 X-20\nM2\n"
+            );
+            check_rule(&RULE, "linuxcnc", &program, &expect![[""]]);
+        }
     }
 }

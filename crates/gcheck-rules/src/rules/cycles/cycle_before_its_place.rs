@@ -1,11 +1,11 @@
 //! A hole that is made without a move after the shift that should have moved it.
 
 use gcheck_controls::{Effect, LetterSet};
-use gcheck_engine::{At, Axis, Event};
+use gcheck_engine::{At, Axis, Event, Travel, TravelKind};
 
 use crate::declare::declare_rule;
 use crate::facts::cycles::is_cycle;
-use crate::{PathCx, PathRule, Remembers, Report, Run, Uses, Watch, remembers};
+use crate::{Finding, PathCx, PathRule, Remembers, Report, Run, Uses, Watch, remembers};
 
 declare_rule! {
     /// A shift of X or Y (`G52`) comes after the move that goes to the hole, and the cycle after it names neither X nor Y: the hole is
@@ -54,9 +54,11 @@ struct CycleBeforeItsPlace {
     moved: Option<[u64; 2]>,
     /// The block that shifted since.
     shifted: Option<At>,
+    /// What is reported when the cycle of the block makes a hole: one that repeats zero times makes none.
+    waiting: Option<Finding>,
 }
 
-remembers!(CycleBeforeItsPlace: shifted);
+remembers!(CycleBeforeItsPlace: shifted, waiting);
 
 /// Words that name the place of a hole.
 const PLACE: LetterSet = LetterSet::of("XYUV");
@@ -70,7 +72,8 @@ impl PathRule for CycleBeforeItsPlace {
         program.may(|effect| effect == Effect::LocalShift)
     }
 
-    fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
+    fn block(&mut self, cx: &PathCx<'_>, _: &mut Report<'_>) {
+        self.waiting = None;
         if cx.has_effect(|effect| effect == Effect::LocalShift) {
             self.shifted = Some(cx.origin().at);
         }
@@ -82,7 +85,8 @@ impl PathRule for CycleBeforeItsPlace {
             return;
         }
         let (Some(moved), Some(now), Some(at)) = (self.moved, shift(cx), self.shifted) else { return };
-        if moved == now {
+        // Where the shift is taken back, the next cycle works at the same place once more.
+        if moved == now || now == [0; 2] {
             return;
         }
         self.shifted = None;
@@ -93,10 +97,19 @@ impl PathRule for CycleBeforeItsPlace {
         if let Some(range) = cx.range_of(at) {
             finding = finding.also(range, "shifts the zero, and moves nothing");
         }
-        report.add(finding);
+        self.waiting = Some(finding);
     }
 
-    fn moved(&mut self, cx: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
+    fn moved(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
+        if cx.origin().letters.intersects(PLACE) {
+            self.waiting = None;
+        }
+        let is_stroke = |travel: &Travel| travel.expanded && travel.kind != TravelKind::Rapid;
+        if let Some(finding) =
+            self.waiting.take_if(|_| matches!(event, Event::Travel(travel) if is_stroke(travel)))
+        {
+            report.add(finding);
+        }
         let [from, to] = match event {
             Event::Travel(travel) => [&travel.from, &travel.to],
             Event::Arc(arc) => [&arc.from, &arc.to],
@@ -167,5 +180,19 @@ mod tests {
             &bore("G0 X0. Y0.\nG52 Z-5.\nG73 Z-30. R2. Q4. F180.\n"),
             &expect![[""]],
         );
+    }
+
+    #[test]
+    fn cycles_that_make_no_hole_there() {
+        let pattern = |cycle: &str| bore(&format!("G52 X50. Y0.\n{cycle}X10. Y10.\nX20.\n"));
+        check_rule(&RULE, "haas-mill", &pattern("G81 Z-10. R2. F100. L0\n"), &expect![[""]]);
+        check_rule(&RULE, "fanuc-mill", &pattern("G81 Z-10. R2. F100. K0\n"), &expect![[""]]);
+    }
+
+    #[test]
+    fn a_second_cycle_after_the_shift_is_taken_back() {
+        let blocks =
+            "G52 X0. Y25.\nG0 X0. Y0.\nG81 Z-3. R2. F100.\nG80\nG52 X0. Y0.\nG83 Z-30. R2. Q4. F100.\n";
+        check_rule(&RULE, "haas-mill", &bore(blocks), &expect![[""]]);
     }
 }

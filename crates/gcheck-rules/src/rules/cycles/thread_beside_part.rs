@@ -13,7 +13,9 @@ declare_rule! {
     /// The Z of a threading cycle does not fit the part that the program has turned:
     ///
     /// * an outside thread starts at a Z where the part is as large as the crest, with no groove near it,
-    /// * all of the thread is in front of the part, away from the chuck.
+    /// * an outside thread starts in front of the part, and goes away from the chuck.
+    ///
+    /// Threads of one pass at a time (`G92`) and cycles that name the crest (`J` of LinuxCNC's `G76`) are not judged.
     ///
     /// ## Why it matters
     /// A cycle goes to the depth of each pass at rapid, at the Z where it starts. If the part is there, the insert breaks. A thread in front of the part
@@ -92,7 +94,9 @@ impl PathRule for ThreadBesidePart {
         let Some(([start, root, height], travel)) = self.pass.moved(event) else { return };
         let Some(turned) = Turned::of(cx).filter(|turned| turned.knows(cx)) else { return };
         let [begins, ends] = [&travel.from, &travel.programmed].map(|at| spot(at)[1]);
-        let is_in_front = |front: f64| begins > front - SLACK && ends > front - SLACK;
+        // Toward the chuck a thread comes to the part at last; one in a bore may lie where nothing was turned.
+        let leaves_part = start > root && begins > -SLACK && ends > begins + SLACK;
+        let is_in_front = |front: f64| leaves_part && begins > front - SLACK;
         if let Some(front) = turned.front().filter(|front| is_in_front(*front)) {
             report.add(
                 cx.finding(&META, cx.letter_range('Z'), "the thread lies in front of the part")
@@ -103,19 +107,17 @@ impl PathRule for ThreadBesidePart {
             return;
         }
         let is_in_part = |radius: f64| radius > root + height * IN_THE_WAY;
-        let surface = turned.outside_along(begins).filter(|radius| start > root && is_in_part(*radius));
-        let Some(radius) = surface.filter(|_| begins < -UNDER && !turned.is_open_across(begins, root)) else {
-            return;
-        };
+        let surface = turned.finished_along(begins).filter(|(radius, _)| start > root && is_in_part(*radius));
+        let wall = UNDER.min(height / 2.0);
+        let is_solid = || begins < -UNDER && !turned.is_open_across(begins, root, wall);
+        let Some((radius, cut)) = surface.filter(|_| is_solid()) else { return };
         let shown = |radius: f64| shown_radius(cx, radius);
-        let mut finding = cx
+        let finding = cx
             .finding(&META, cx.effect_range(is_cycle), "the thread starts inside the part")
             .label(format!("starts at Z {}, where the part is turned to X {}", cx.shown(Mm(begins)), shown(radius)))
             .note("the cycle goes to the depth of each pass at rapid, at the Z where it starts")
-            .help("start the cycle in front of the part, or in a groove: check the sign of `Z` in the move before it");
-        if let Some((_, cut)) = turned.least_outside(begins) {
-            finding = finding.also(cut.bytes.clone(), format!("turned to X {} here", shown(radius)));
-        }
+            .help("start the cycle in front of the part, or in a groove: check the sign of `Z` in the move before it")
+            .also(cut.bytes.clone(), format!("turned to X {} here", shown(radius)));
         report.add(finding);
     }
 }
@@ -164,5 +166,22 @@ mod tests {
                |            ^^^^ warning[thread-beside-part] the thread lies in front of the part
         "#]],
         );
+    }
+
+    fn threaded(turning: &str, start: &str, thread: &str) -> String {
+        format!(
+            "G21 G18 G99 T0101\nG97 S900 M3\n{turning}G0 X60. Z50.\nT0404\nG97 S900 M3\nG0 {start}\nG76 P020060 Q100 R.05\n{thread}M30\n"
+        )
+    }
+
+    #[test]
+    fn ground_bars_and_fine_threads() {
+        let shank = "G0 X34. Z-20.\nG1 X26. F.1\nZ-40.\nX34.\n";
+        let ground = threaded(shank, "X34. Z6.", "G76 X28.16 Z-18. P920 Q300 F1.5\n");
+        check_rule(&RULE, "fanuc-lathe", &ground, &expect![[""]]);
+        let groove =
+            "G0 X24. Z2.\nX19.9\nG1 Z-30. F.1\nX24.\nG0 X60. Z50.\nG0 X20.5 Z-30.\nG1 X18.6 F.05\nX20.5\n";
+        let fine = threaded(groove, "X22. Z-28.5", "G76 X18.77 Z3. P613 Q200 F1.\n");
+        check_rule(&RULE, "fanuc-lathe", &fine, &expect![[""]]);
     }
 }

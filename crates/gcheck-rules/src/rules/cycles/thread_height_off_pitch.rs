@@ -1,12 +1,13 @@
 //! A threading cycle whose height does not belong to the thread that a comment names.
 
-use gcheck_engine::Fact;
+use gcheck_engine::{At, Fact};
 use gcheck_geometry::Mm;
+use gcheck_program::Word;
 
 use crate::declare::declare_rule;
-use crate::facts::thread_cycles::{is_cycle, length, words};
-use crate::facts::threads::{named_thread, trimmed};
-use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
+use crate::facts::thread_cycles::{is_cycle, length, words, written};
+use crate::facts::threads::{Thread, named_thread, trimmed};
+use crate::{Finding, FollowedCx, PathCx, PathRule, Remembers, Report, Run, Uses, Watch, remembers};
 
 declare_rule! {
     /// A comment names a thread, the cycle cuts its pitch, and the height that the cycle is given belongs to another pitch.
@@ -45,58 +46,91 @@ declare_rule! {
         severity: Warning,
         tier: Path,
         since: "0.1.0",
-        run: Run::Path { watch: Watch::BLOCKS, make: || Box::new(ThreadHeightOffPitch) },
+        run: Run::Path {
+            watch: Watch::BLOCKS.union(Watch::FOLLOWED),
+            make: || Box::new(ThreadHeightOffPitch::default()),
+        },
     }
 }
 
-struct ThreadHeightOffPitch;
+#[derive(Default, Clone, PartialEq)]
+struct ThreadHeightOffPitch {
+    /// Tools, by the block that put each in, that cut a thread with a cycle of the right height: another one before it roughs.
+    right: Vec<Option<At>>,
+    found: Vec<Found>,
+}
+
+remembers!(ThreadHeightOffPitch: right, found);
+
+/// A cycle of another height.
+#[derive(Clone, PartialEq)]
+struct Found {
+    /// The block that put its tool in.
+    tool: Option<At>,
+    finding: Finding,
+}
+
+remembers!(Found: tool, finding);
 
 /// Heights of threads of 60°, as parts of their pitch: 0.541 and 0.613, and what shops make of them.
 const HEIGHTS: std::ops::RangeInclusive<f64> = 0.45..=0.9;
 /// For pitches that were rounded, as a part of them.
 const ROUNDED: f64 = 0.006;
+/// Findings and tools that are kept.
+const MOST: usize = 64;
 
 impl PathRule for ThreadHeightOffPitch {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn concerns(&self, program: &Uses<'_>) -> bool {
         program.may(is_cycle)
     }
 
-    fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
-        if !cx.has_effect(is_cycle) || cx.is_malformed() || cx.depth() > 1 {
+    fn block(&mut self, cx: &PathCx<'_>, _: &mut Report<'_>) {
+        if !cx.has_effect(is_cycle) || cx.is_malformed() || cx.depth() > 1 || self.found.len() >= MOST {
             return;
         }
         let Some(words) = words(cx).filter(|words| !words.height.is_computed()) else { return };
         let lengths = length(cx, &words.height).zip(words.lead.as_ref().and_then(|lead| length(cx, lead)));
         let Some((height, lead)) = lengths else { return };
-        let changed = cx.definitions().set_by(Fact::Tool);
+        let tool = cx.definitions().set_by(Fact::Tool);
         // A thread that only the title names may be another one of the part.
-        let Some((thread, false)) = named_thread(cx, changed) else { return };
-        let is_its_lead = (lead - thread.pitch).abs() <= thread.pitch * ROUNDED;
-        if !is_its_lead || HEIGHTS.contains(&(height / thread.pitch)) {
+        let Some((thread, false)) = named_thread(cx, tool) else { return };
+        if (lead - thread.pitch).abs() > thread.pitch * ROUNDED {
             return;
         }
-        let Some(units) = cx.state().units(cx.model) else { return };
-        let right = |part: f64| trimmed(thread.pitch * part / units.in_mm());
-        let letter = words.height.letter;
-        let message = format!(
-            "the thread is {} high, for a pitch of {}",
-            cx.shown(Mm(height)),
-            cx.shown(Mm(thread.pitch))
-        );
-        let mut finding = cx
-            .finding(&META, cx.word_range(|word| word.letter == letter), message)
-            .label(format!("{} of the pitch", trimmed((height / thread.pitch * 100.0).round() / 100.0)))
-            .note("the height counts from the crest to the root, on the radius, if the control does not say otherwise")
-            .help(format!(
-                "check `{letter}`: {} outside, {} in a bore, as heights on the radius",
-                right(0.613),
-                right(0.541)
-            ));
-        if let Some(range) = cx.range_of(thread.at) {
-            finding = finding.also(range, format!("names the thread: {}", thread.name));
+        if !HEIGHTS.contains(&(height / thread.pitch)) {
+            let finding = finding(cx, &words.height, height, &thread);
+            self.found.extend(finding.map(|finding| Found { tool, finding }));
+        } else if self.right.len() < MOST && !self.right.contains(&tool) {
+            self.right.push(tool);
         }
-        report.add(finding);
     }
+
+    fn followed(&mut self, _: &FollowedCx<'_>, report: &mut Report<'_>) {
+        let found = std::mem::take(&mut self.found);
+        for found in found.into_iter().filter(|found| !self.right.contains(&found.tool)) {
+            report.add(found.finding);
+        }
+    }
+}
+
+fn finding(cx: &PathCx<'_>, word: &Word, height: f64, thread: &Thread) -> Option<Finding> {
+    let right = |part: f64| written(cx, word, thread.pitch * part);
+    let letter = word.letter;
+    let message =
+        format!("the thread is {} high, for a pitch of {}", cx.shown(Mm(height)), cx.shown(Mm(thread.pitch)));
+    let finding = cx
+        .finding(&META, cx.word_range(|word| word.letter == letter), message)
+        .label(format!("{} of the pitch", trimmed((height / thread.pitch * 100.0).round() / 100.0)))
+        .note("the height goes from the crest to the root, on the radius")
+        .help(format!("check `{letter}`: {} outside, {} in a bore", right(0.613)?, right(0.541)?));
+    Some(match cx.range_of(thread.at) {
+        Some(range) => finding.also(range, format!("names the thread: {}", thread.name)),
+        None => finding,
+    })
 }
 
 #[cfg(test)]
@@ -149,5 +183,25 @@ mod tests {
     fn several_starts_are_not_judged() {
         let program = "G21 G99\n(THREAD M30X1.5)\nT0404\nG97 S600 M3\nG0 X34. Z6.\nG76 P010060 Q80 R0.04\nG76 X28.16 Z-20. P460 Q200 F3.\nM30\n";
         check_rule(&RULE, "fanuc-lathe", program, &expect![[""]]);
+    }
+
+    #[test]
+    fn roughed_and_finished_by_two_cycles() {
+        let program = |rest: &str| {
+            format!(
+                "G21 G18 G99\nT0404 (THREAD M30X1.5)\nG97 S900 M3\nG0 X34. Z5.\nG76 P020060 Q100 R.05\nG76 X28.8 Z-25. P600 Q300 F1.5\n{rest}M30\n"
+            )
+        };
+        let finish = "G76 P020060 Q100 R.05\nG76 X28.16 Z-25. P920 Q300 F1.5\n";
+        check_rule(&RULE, "fanuc-lathe", &program(finish), &expect![[""]]);
+        check_rule(
+            &RULE,
+            "fanuc-lathe",
+            &program(""),
+            &expect![[r#"
+                6 | G76 X28.8 Z-25. P600 Q300 F1.5
+                  |                 ^^^^ warning[thread-height-off-pitch] the thread is 0.6 mm high, for a pitch of 1.5 mm
+            "#]],
+        );
     }
 }

@@ -13,7 +13,8 @@ declare_rule! {
     /// The root of an outside thread and twice its height give the diameter of its crest. The program has turned the part to another
     /// diameter there, by more than the thread's shape explains.
     ///
-    /// Tapered threads and bores are not judged.
+    /// Tapered threads, bores, threads of one pass at a time (`G92`) and cycles that name the crest (`J` of LinuxCNC's `G76`) are not judged. Where a
+    /// finishing cut comes to the part from nowhere in particular, nothing is certain, and nothing is reported.
     ///
     /// ## Why it matters
     /// If the part is larger, the first pass cuts as deep as the difference, and the insert breaks. If it is smaller, the thread has no
@@ -91,8 +92,15 @@ impl PathRule for ThreadOffTurnedDiameter {
     fn moved(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
         let Some(([start, root, height], travel)) = self.pass.moved(event) else { return };
         let Some(turned) = Turned::of(cx).filter(|turned| turned.knows(cx)) else { return };
-        let middle = f64::midpoint(spot(&travel.from)[1], spot(&travel.programmed)[1]);
-        let Some(outside) = turned.outside_along(middle).filter(|_| start > root) else { return };
+        let [begins, ends] = [&travel.from, &travel.programmed].map(|at| spot(at)[1]);
+        // In front of the face the thread runs in the air.
+        let middle =
+            if ends < 0.0 { f64::midpoint(begins.min(0.0), ends) } else { f64::midpoint(begins, ends) };
+        let Some((outside, cut)) = turned.finished_along(middle) else { return };
+        // A chamfer does not show the diameter.
+        if start <= root || !cut.is_straight() {
+            return;
+        }
         let crest = root + height;
         let off = outside - crest;
         if off.abs() <= height * FLAT + SLACK || outside < root * 0.5 {
@@ -109,18 +117,15 @@ impl PathRule for ThreadOffTurnedDiameter {
         } else {
             format!("the crests of the thread lack {}", cx.shown(Mm(-off)))
         };
-        let mut finding = cx
+        let finding = cx
             .finding(&META, cx.effect_range(is_cycle), message)
             .label(format!("root X {} + twice the height is X {}", shown(root), shown(crest)))
             .note(comes_of_it)
             .help(format!(
                 "check `X` and the height of the thread, and the X {} of the contour",
                 shown(outside)
-            ));
-        if let Some((_, cut)) = turned.least_outside(middle) {
-            finding =
-                finding.also(cut.bytes.clone(), format!("the part is turned to X {} here", shown(outside)));
-        }
+            ))
+            .also(cut.bytes.clone(), format!("the part is turned to X {} here", shown(outside)));
         report.add(finding);
     }
 }
@@ -170,5 +175,35 @@ mod tests {
     #[test]
     fn a_taper_is_not_judged() {
         check_rule(&RULE, "fanuc-lathe", &shaft("29.8", "34.", "X26.18 R-1."), &expect![[""]]);
+    }
+
+    fn threaded(turning: &str, thread: &str) -> String {
+        format!(
+            "G21 G18 G99 T0101\nG97 S900 M3\n{turning}G0 X60. Z50.\nT0404\nG97 S900 M3\nG0 X34. Z5.\nG76 P020060 Q100 R.05\n{thread}M30\n"
+        )
+    }
+
+    #[test]
+    fn a_finishing_cut_that_comes_from_anywhere() {
+        let roughed = "G0 X42. Z2.\nG90 X32. Z-30. F.25\nG0 X60. Z50.\n";
+        let finished = format!("{roughed}G0 X24. Z2.\nG1 X29.8 Z-.9 F.1\nZ-30.\nX42.\n");
+        let thread = "G76 X28.16 Z-25. P920 Q300 F1.5\n";
+        check_rule(&RULE, "fanuc-lathe", &threaded(&finished, thread), &expect![[""]]);
+        check_rule(
+            &RULE,
+            "fanuc-lathe",
+            &threaded(roughed, thread),
+            &expect![[r#"
+                9 | G76 X28.16 Z-25. P920 Q300 F1.5
+                  | ^^^ warning[thread-off-turned-diameter] the thread is cut on a part that is larger than its crest
+            "#]],
+        );
+    }
+
+    #[test]
+    fn a_chamfer_in_front_of_the_face() {
+        let turning = "G0 X34. Z2.\nX22.8\nG1 X29.8 Z-1.5 F.2\nZ-12.\nX36.\n";
+        let thread = "G0 X34. Z10.\nG76 P020060 Q100 R.05\nG76 X28.16 Z-8. P920 Q300 F1.5\n";
+        check_rule(&RULE, "fanuc-lathe", &threaded(turning, thread), &expect![[""]]);
     }
 }

@@ -11,7 +11,8 @@ declare_rule! {
     /// A loop has run to its end, the program comes to it again, and the variables of its condition still have the values with which it was
     /// left: it is not entered.
     ///
-    /// A loop that runs once is a way to write a condition, and is not judged.
+    /// A loop that runs once is a way to write a condition, and is not judged; neither are loops in subprograms, loops that end at one value
+    /// (`NE`), and those made of `IF` and `GOTO`.
     ///
     /// ## Why it matters
     /// The second row of a pattern, or the second part, is left out without a word. The counter is set before the outer loop,

@@ -9,7 +9,8 @@ use crate::declare::declare_rule;
 use crate::{PathCx, PathRule, Remembers, Report, Run, Uses, Watch, remembers};
 
 declare_rule! {
-    /// Under cylindrical mapping one block cuts around the cylinder more than one and a half times, without a move along it.
+    /// Under cylindrical mapping one block cuts around the cylinder more than one and a half times, without a move along it. Whole
+    /// turns, which clean a groove, and ways back to where the mapped axis began are not judged.
     ///
     /// ## Why it matters
     /// The mapped axis takes the length along the surface. Degrees that are written there are read as millimetres or inches, and the
@@ -63,6 +64,8 @@ remembers!(CylinderTurnsManyTimes);
 
 /// Turns: after one the cut is where it began, and a little more closes a groove.
 const MOST: f64 = 1.5;
+/// Turns that are off by this part of them are whole.
+const WHOLE: f64 = 0.002;
 /// Linear axes that move less do not move: millimetres.
 const SLACK: f64 = 0.01;
 
@@ -92,7 +95,10 @@ impl PathRule for CylinderTurnsManyTimes {
         let turns = way(wrapped) / around;
         let goes_along =
             Axis::ALL.into_iter().any(|axis| axis != wrapped && !axis.is_rotary() && way(axis) > SLACK);
-        if turns.is_nan() || turns <= MOST || goes_along {
+        // Whole turns clean the bottom of a groove, and a way back unwinds what was cut before.
+        let is_whole = (turns - turns.round()).abs() <= turns * WHOLE;
+        let unwinds = travel.to.raw(wrapped).abs() < travel.from.raw(wrapped).abs();
+        if turns.is_nan() || turns <= MOST || goes_along || is_whole || unwinds {
             return;
         }
         report.add(
@@ -130,5 +136,21 @@ mod tests {
         );
         check_rule(&RULE, "haas-mill", &groove("X2. Y180."), &expect![[""]]);
         check_rule(&RULE, "haas-mill", &groove("Y6.2832"), &expect![[""]]);
+    }
+
+    #[test]
+    fn grooves_are_cleaned_and_spirals_unwound() {
+        let program = |blocks: &str| {
+            format!(
+                "G20 G90 G54 G0 X0.5 Y0. A0.\nS4500 M3\nG43 H1 Z1.\nG107 A0. Y0. R1.\nG0 X0.5 Y0.\nG1 Z-0.05 F10.\n{blocks}G0 Z1.\nG107\nM30\n"
+            )
+        };
+        check_rule(&RULE, "haas-mill", &program("Y12.5664 F15.\n"), &expect![[""]]);
+        check_rule(
+            &RULE,
+            "haas-mill",
+            &program("Y6.2832 Z-.1 F15.\nY12.5664 Z-.15\nY18.5 Z-.2\nY0.\n"),
+            &expect![[""]],
+        );
     }
 }

@@ -2,16 +2,18 @@
 
 use std::ops::Range;
 
-use gcheck_controls::LetterSet;
+use gcheck_controls::{Effect, LetterSet};
 use gcheck_engine::{Axis, Event, TravelKind};
 use gcheck_geometry::{Mm, Plane};
 
 use crate::declare::declare_rule;
-use crate::{Finding, PathCx, PathRule, Remembers, Report, Run, Watch, remembers};
+use crate::{Finding, FollowedCx, PathCx, PathRule, Remembers, Report, Run, Watch, remembers};
 
 declare_rule! {
-    /// The tool is fed down into the part and, at the same place, up out of it again, and then cuts a contour of three or more pieces there, above the
-    /// zero of the part, up to the next rapid move.
+    /// The tool is fed down into the part and, at the same place, up out of it again, and then cuts a contour of four or more pieces there, above the
+    /// zero of the part, up to the next move away from it.
+    ///
+    /// Programs that cut above their zero elsewhere have it on the table, and are not judged.
     ///
     /// ## Why it matters
     /// The contour is run in the air, and the part stays as it was. Two blocks have changed places, or a retract was written for the depth.
@@ -47,7 +49,10 @@ declare_rule! {
         severity: Warning,
         tier: Path,
         since: "0.1.0",
-        run: Run::Path { watch: Watch::MOVES, make: || Box::new(ContourInAir::default()) },
+        run: Run::Path {
+            watch: Watch::MOVES.union(Watch::FOLLOWED),
+            make: || Box::new(ContourInAir::default()),
+        },
     }
 }
 
@@ -56,9 +61,23 @@ struct ContourInAir {
     step: Step,
     /// The block that was fed down.
     bytes: Range<u32>,
+    /// Something else was cut above the zero, and below it.
+    above: bool,
+    below: bool,
+    found: Vec<Found>,
 }
 
-remembers!(ContourInAir: bytes);
+remembers!(ContourInAir: bytes, found);
+
+/// A contour in the air, unless the zero is below the part.
+#[derive(Clone, PartialEq)]
+struct Found {
+    finding: Finding,
+    /// The tool went as far down as it came up above the zero: further than through a plate.
+    is_deep: bool,
+}
+
+remembers!(Found: finding);
 
 /// How far the pattern has come.
 #[derive(Default, Clone, Copy, PartialEq)]
@@ -76,17 +95,20 @@ const SIDEWAYS: LetterSet = LetterSet::of("XYUVIJR");
 /// Levels that differ by less are one: millimetres.
 const SLACK: f64 = 0.01;
 /// Fewer pieces are a way to the next place.
-const FEWEST: usize = 3;
+const FEWEST: usize = 4;
+/// Findings that are kept.
+const MOST: usize = 64;
 
 impl PathRule for ContourInAir {
     fn memory(&mut self) -> Remembers<'_> {
         Remembers::All(self)
     }
 
-    fn moved(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
+    fn moved(&mut self, cx: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
         // Hardly any block is a plunge: the rest is asked of few.
         let goes_sideways = cx.origin().letters.intersects(SIDEWAYS);
         if goes_sideways && self.step == Step::None {
+            self.note(event);
             return;
         }
         if !cx.is_mill() {
@@ -94,18 +116,24 @@ impl PathRule for ContourInAir {
             return;
         }
         let (kind, programmed, from) = match event {
-            Event::Travel(travel) if !travel.expanded => (travel.kind, &travel.programmed, &travel.from),
+            Event::Travel(travel) if !travel.expanded || cx.has_effect(Effect::goes_to_machine_place) => {
+                (travel.kind, &travel.programmed, &travel.from)
+            }
             Event::Arc(arc) if !arc.expanded => (TravelKind::Feed, &arc.programmed, &arc.from),
             // A piece that compensation puts in, or a stroke of a cycle.
             _ => return,
         };
         let step = std::mem::take(&mut self.step);
+        let is_left = kind == TravelKind::Rapid || !goes_sideways;
+        if let Step::Up { depth, level, pieces } = step
+            && is_left
+            && pieces >= FEWEST
+            && self.found.len() < MOST
+        {
+            let finding = finding(cx, depth, self.bytes.clone(), level, pieces);
+            self.found.push(Found { finding, is_deep: -depth >= level });
+        }
         if kind == TravelKind::Rapid {
-            if let Step::Up { depth, level, pieces } = step
-                && pieces >= FEWEST
-            {
-                report.add(finding(cx, depth, self.bytes.clone(), level, pieces));
-            }
             return;
         }
         let is_in_plane = cx.state().plane(cx.model) == Some(Plane::Xy);
@@ -123,8 +151,33 @@ impl PathRule for ContourInAir {
             Step::Up { depth, level, pieces } if goes_sideways && (z - level).abs() < SLACK => {
                 Step::Up { depth, level, pieces: pieces + 1 }
             }
-            _ => Step::None,
+            _ => {
+                if goes_sideways {
+                    self.note(event);
+                }
+                Step::None
+            }
         };
+    }
+
+    fn followed(&mut self, _: &FollowedCx<'_>, report: &mut Report<'_>) {
+        let found = std::mem::take(&mut self.found);
+        for found in found.into_iter().filter(|found| !self.above && (found.is_deep || self.below)) {
+            report.add(found.finding);
+        }
+    }
+}
+
+impl ContourInAir {
+    /// A cut sideways that is not of the pattern.
+    fn note(&mut self, event: &Event) {
+        let z = match event {
+            Event::Travel(travel) if travel.kind == TravelKind::Feed => travel.programmed.raw(Axis::Z),
+            Event::Arc(arc) => arc.programmed.raw(Axis::Z),
+            _ => return,
+        };
+        self.above |= z > SLACK;
+        self.below |= z < -SLACK;
     }
 }
 
@@ -168,8 +221,32 @@ mod tests {
         check_rule(
             &RULE,
             "haas-mill",
-            "G21 G90 G54 G0 X0. Y0. S6000 M3\nG43 H2 Z5.\nG1 Z-1. F200.\nZ1.\nX5.\nZ-1.\nZ1.\nX10. Y5.\nX20.\nZ-1.\nG0 Z5.\nM30\n",
+            "G21 G90 G54 G0 X0. Y0. S6000 M3\nG43 H2 Z5.\nG1 Z-1. F200.\nZ1.\nX5.\nZ-1.\nZ1.\nX10. Y5.\nX20.\nY8.\nG0 Z5.\nM30\n",
             &expect![[""]],
         );
+    }
+
+    fn frame(down: &str, before: &str, end: &str) -> String {
+        format!(
+            "G21 G90 G54 G0 X0. Y0. S6000 M3\nG43 H2 Z25.\n{before}{down}X40. F400.\nY40.\nX0.\nY0.\n{end}\nM30\n"
+        )
+    }
+
+    #[test]
+    fn zero_on_the_table() {
+        // A plate of 6 mm: a hole through it, then a first layer at half of its height.
+        check_rule(&RULE, "haas-mill", &frame("G1 Z-0.2 F100.\nZ3.\n", "", "G0 Z25."), &expect![[""]]);
+        let layer = "G1 Z4. F100.\nX10. F400.\nG0 Z25.\nX0.\n";
+        check_rule(&RULE, "haas-mill", &frame("G1 Z-5. F100.\nZ3.\n", layer, "G0 Z25."), &expect![[""]]);
+    }
+
+    #[test]
+    fn left_home_or_at_feed() {
+        let found = expect![[r#"
+            3 | G1 Z-5. F100.
+              | ^^^^^^^^^^^^^ warning[contour-in-air] the tool is fed down and up again before the contour
+        "#]];
+        check_rule(&RULE, "haas-mill", &frame("G1 Z-5. F100.\nZ2.\n", "", "G1 Z25."), &found);
+        check_rule(&RULE, "haas-mill", &frame("G1 Z-5. F100.\nZ2.\n", "", "G28 G91 Z0."), &found);
     }
 }

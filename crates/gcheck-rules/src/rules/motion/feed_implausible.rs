@@ -122,7 +122,9 @@ impl PathRule for FeedImplausible {
     }
 
     fn moved(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
-        if !cx.is_mill() && !is_in_air(cx, event) {
+        if cx.is_mill() {
+            cx.enough();
+        } else if !is_in_air(cx, event) {
             self.judge(cx, event, report);
         }
     }

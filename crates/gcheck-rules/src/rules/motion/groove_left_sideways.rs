@@ -114,7 +114,9 @@ impl PathRule for GrooveLeftSideways {
             let is_away = match travel.kind {
                 TravelKind::Rapid => true,
                 // Nearer to the part it may turn the wall.
-                TravelKind::Feed => turned.outside_along(from[1]).is_some_and(|wall| to[0] > wall + AWAY),
+                TravelKind::Feed => {
+                    turned.outside_along(from[1]).is_some_and(|(wall, _)| to[0] > wall + AWAY)
+                }
                 _ => false,
             };
             if is_away && !travel.expanded {
@@ -163,7 +165,8 @@ fn leave(
         return;
     }
     // A step in a face is short.
-    let walls = [PLAY, WALL].map(|way| turned.outside_along(from[1] + way * along.signum()));
+    let walls =
+        [PLAY, WALL].map(|way| turned.outside_along(from[1] + way * along.signum()).map(|(wall, _)| wall));
     let (wall, is_turned) = match walls {
         [Some(wall), Some(beyond)] if from[0] <= beyond - UNDER => (wall, true),
         // Toward the chuck there is what the first plunge began above.

@@ -163,8 +163,8 @@ fn fed(cx: &PathCx<'_>) -> Option<Fed> {
 /// Where a move straight down ends; `None` for another one.
 fn straight_down(from: &Position, to: &Position) -> Option<[f64; 3]> {
     let [x, y, z] = point(to)?;
-    let way = (x - from.raw(Axis::X)).hypot(y - from.raw(Axis::Y));
-    (way < WAY && z < from.raw(Axis::Z) - WAY).then_some([x, y, z])
+    let way = || (x - from.raw(Axis::X)).hypot(y - from.raw(Axis::Y));
+    (z < from.raw(Axis::Z) - WAY && way() < WAY).then_some([x, y, z])
 }
 
 fn finding(cx: &PathCx<'_>, slow: Fed, fed: Fed) -> crate::Finding {

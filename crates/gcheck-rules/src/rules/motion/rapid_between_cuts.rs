@@ -231,18 +231,19 @@ impl PathRule for RapidBetweenCuts {
             Event::Arc(arc) => (point(&arc.programmed), arc.expanded),
             _ => (None, true),
         };
-        let cuts = cx.shared::<Cuts>().filter(|cuts| cuts.knows(cx, event) && cuts.are_all_on_their_path());
         // A move that compensation inserts at a corner does not count; the strokes of a cycle end the present way.
         if is_expanded {
             if !is_compensated(cx) {
                 (self.at, self.last, self.way) = (programmed, None, None);
             }
         } else {
-            let (at, last, way) = (self.at.take(), self.last.take(), self.way.take());
+            let (at, last, way) = (self.at.take(), self.last.take(), self.way.take_if(|_| true));
             self.at = programmed;
             if let (Some(from), Some(to)) = (at, programmed) {
                 match event {
                     Event::Travel(travel) if travel.kind == TravelKind::Rapid => {
+                        let is_known = |cuts: &&Cuts| cuts.knows(cx, event) && cuts.are_all_on_their_path();
+                        let cuts = cx.shared::<Cuts>().filter(is_known);
                         self.way = self.rapid(cx, cuts, [from, to], last, way);
                     }
                     Event::Travel(travel) if travel.kind == TravelKind::Feed => {

@@ -123,7 +123,7 @@ impl PathRule for RapidDownFromCut {
             cx.enough();
             return;
         }
-        let (last, waiting) = (self.last.take(), self.waiting.take());
+        let (last, waiting) = (self.last.take(), self.waiting.take_if(|_| true));
         let travel = match event {
             // A reference return goes by a point of its block, and on.
             Event::Travel(travel) if !travel.expanded || cx.has_effect(Effect::goes_to_machine_place) => {

@@ -98,13 +98,19 @@ impl PathRule for RapidInMaterial {
     }
 
     fn moved(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
-        let Some(cuts) = cx.shared::<Cuts>().filter(|cuts| cuts.knows(cx, event)) else {
+        let Some(cuts) = cx.shared::<Cuts>() else { return };
+        // Nearly all moves are cuts after which nothing waits.
+        let is_rapid = matches!(event, Event::Travel(travel) if travel.kind == TravelKind::Rapid);
+        if !is_rapid && self.waiting.is_empty() && !cuts.is_blind() {
+            return;
+        }
+        if !cuts.knows(cx, event) {
             self.waiting.clear();
-            if cx.shared::<Cuts>().is_none_or(Cuts::is_blind) {
+            if cuts.is_blind() {
                 cx.enough();
             }
             return;
-        };
+        }
         match event {
             Event::Travel(travel) if travel.kind == TravelKind::Rapid => self.rapid(cx, cuts, travel),
             Event::Travel(travel) if travel.kind == TravelKind::Feed && !self.waiting.is_empty() => {

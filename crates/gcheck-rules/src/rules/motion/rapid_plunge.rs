@@ -209,7 +209,7 @@ impl PathRule for RapidPlunge {
     }
 
     fn moved(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
-        let plunge = self.plunge.take();
+        let plunge = self.plunge.take_if(|_| true);
         let Some(cuts) = cx.shared::<Cuts>().filter(|cuts| cuts.knows(cx, event)) else {
             if cx.shared::<Cuts>().is_none_or(Cuts::is_blind) {
                 cx.enough();
@@ -378,7 +378,7 @@ impl RapidPlunge {
 
     /// Follows the cut after the first rapid move down.
     fn follow(&mut self, cx: &PathCx<'_>, cuts: &Cuts, event: &Event) {
-        let Some(mut outline) = self.outline.take() else { return };
+        let Some(mut outline) = self.outline.take_if(|_| true) else { return };
         let is_plain = cx.state().effect(Role::Compensation, cx.model).is_none_or(|effect| !is_on(effect));
         let to = match event {
             Event::Travel(travel) if travel.kind == TravelKind::Feed => point(&travel.to),
@@ -408,7 +408,7 @@ fn feeds_on_down(travel: &Travel, [x, y, z]: [f64; 3]) -> bool {
 /// Where a move straight down ends; `None` for another one.
 fn straight_down(travel: &Travel) -> Option<[f64; 3]> {
     let ([x0, y0, z0], [x1, y1, z1]) = (point(&travel.from)?, point(&travel.to)?);
-    ((x1 - x0).hypot(y1 - y0) < LEVEL && z1 < z0 - LEVEL).then_some([x1, y1, z1])
+    (z1 < z0 - LEVEL && (x1 - x0).hypot(y1 - y0) < LEVEL).then_some([x1, y1, z1])
 }
 
 /// Straight down at feed, from above the part to below its zero?
@@ -417,7 +417,7 @@ fn is_fed_down(travel: &Travel) -> bool {
         return false;
     };
     let is_plain = travel.kind == TravelKind::Feed && !travel.expanded;
-    is_plain && (x1 - x0).hypot(y1 - y0) < LEVEL && z0 >= 0.0 && z1 < -LEVEL
+    is_plain && z0 >= 0.0 && z1 < -LEVEL && (x1 - x0).hypot(y1 - y0) < LEVEL
 }
 
 fn tell(cx: &PathCx<'_>, plunge: &Plunge, message: &str, next: &str) -> Finding {

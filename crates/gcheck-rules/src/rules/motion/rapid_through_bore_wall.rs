@@ -111,7 +111,7 @@ impl RapidThroughBoreWall {
             let at_wall = from[1] + (wall - from[0]) / (to[0] - from[0]) * rise;
             to[0] > wall + UNDER && at_wall < -UNDER
         };
-        if !is_through || from[0] > wall + SLACK || turned.is_open_across(from[1], wall) {
+        if !is_through || from[0] > wall + SLACK || turned.is_open_across(from[1], wall, UNDER) {
             return;
         }
         self.told = Some(cx.origin().at);

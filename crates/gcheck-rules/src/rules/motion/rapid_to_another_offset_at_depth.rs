@@ -70,7 +70,7 @@ struct Cut {
 remembers!(Cut: bytes);
 
 /// A cut that is less deep may be of the face: millimetres.
-const SHALLOW: f64 = 0.5;
+const SHALLOW: f64 = 3.0;
 
 impl PathRule for RapidToAnotherOffsetAtDepth {
     fn memory(&mut self) -> Remembers<'_> {
@@ -100,13 +100,17 @@ impl PathRule for RapidToAnotherOffsetAtDepth {
             Event::Travel(travel) if travel.kind == TravelKind::Rapid && !travel.expanded => {
                 let Some(cut) = self.cut.take() else { return };
                 let names = |letters: &str| cx.origin().letters.intersects(LetterSet::of(letters));
-                // A word of Z lifts the tool, or another rule judges it.
-                if names("ZWUV") || cx.has_effect(Effect::goes_to_machine_place) {
+                // A word of Z lifts the tool, or another rule judges it. Turned, the part is elsewhere.
+                if names("ZWUVABC") || cx.has_effect(Effect::goes_to_machine_place) {
                     return;
                 }
                 if cx.state().work() == Some(cut.work) {
                     self.cut = Some(cut);
-                } else if names("XY") && cx.state().work().is_some() && cx.is_certain() {
+                } else if names("XY")
+                    && cx.state().work().is_some()
+                    && cx.state().plane(cx.model) == Some(Plane::Xy)
+                    && cx.is_certain()
+                {
                     report.add(
                         cx.finding(
                             &META,
@@ -127,8 +131,7 @@ impl PathRule for RapidToAnotherOffsetAtDepth {
 /// A cut that ends below the zero of the part.
 fn cut(cx: &PathCx<'_>, programmed: &Position) -> Option<Cut> {
     let z = programmed.get(Axis::Z).filter(|z| *z < -SHALLOW)?;
-    let is_level = cx.state().plane(cx.model) == Some(Plane::Xy);
-    Some(Cut { work: cx.state().work().filter(|_| is_level)?, z, bytes: cx.range() })
+    Some(Cut { work: cx.state().work()?, z, bytes: cx.range() })
 }
 
 #[cfg(test)]

@@ -4,13 +4,13 @@ use gcheck_engine::{At, Axis, Event, Position, TravelKind};
 use gcheck_geometry::Mm;
 
 use crate::declare::declare_rule;
-use crate::{Finding, PathCx, PathRule, Remembers, Report, Run, Watch, remembers};
+use crate::{Finding, FollowedCx, PathCx, PathRule, Remembers, Report, Run, Watch, remembers};
 
 declare_rule! {
     /// A path is cut in three or more axes. At one of its points all coordinates lie between those of the points before and after it, but one
     /// lies far outside.
     ///
-    /// Paths in two axes are not judged: a tip of a letter looks the same.
+    /// Paths in two axes are not judged: a tip of a letter looks the same. Neither are paths that go to and fro.
     ///
     /// ## Why it matters
     /// The tool goes across the part and back in the time of a short step. A sign is missing, two digits are exchanged, or the point is in the wrong
@@ -47,7 +47,10 @@ declare_rule! {
         severity: Warning,
         tier: Path,
         since: "0.1.0",
-        run: Run::Path { watch: Watch::MOVES, make: || Box::new(StrayCoordinate::default()) },
+        run: Run::Path {
+            watch: Watch::MOVES.union(Watch::CHANGES).union(Watch::FOLLOWED),
+            make: || Box::new(StrayCoordinate::default()),
+        },
     }
 }
 
@@ -57,9 +60,13 @@ struct StrayCoordinate {
     last: Option<Position>,
     /// The last move, if it is a long one: its end may be stray.
     long: Option<Long>,
+    /// What the next move decides: a path that goes out there again goes to and fro.
+    waiting: Option<Waiting>,
+    /// The path goes to and fro, and every move of it is long.
+    is_to_and_fro: bool,
 }
 
-remembers!(StrayCoordinate: long);
+remembers!(StrayCoordinate: long, waiting);
 
 /// A move at feed that is long in some axis.
 #[derive(Clone, PartialEq)]
@@ -69,6 +76,17 @@ struct Long {
 }
 
 remembers!(Long: at);
+
+/// A point that is stray unless the path goes out to there again.
+#[derive(Clone, PartialEq)]
+struct Waiting {
+    finding: Finding,
+    axis: Axis,
+    /// The way to it in that axis.
+    out: f64,
+}
+
+remembers!(Waiting: finding);
 
 /// So many times as far as its neighbours are apart a coordinate is far off.
 const TIMES: f64 = 6.0;
@@ -82,30 +100,78 @@ impl PathRule for StrayCoordinate {
         Remembers::All(self)
     }
 
-    fn moved(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
-        let (last, long) = (self.last.take(), self.long.take());
-        let Event::Travel(travel) = event else { return };
-        if travel.expanded || !matches!(travel.kind, TravelKind::Feed | TravelKind::Rapid) {
-            return;
+    fn changed(&mut self, _: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
+        // The next point counts from elsewhere.
+        if matches!(event, Event::WorkOffset { .. } | Event::Shift(_) | Event::Rotation(_)) {
+            self.tell(report);
+            (self.last, self.long) = (None, None);
         }
-        let to = travel.programmed;
-        self.last = Some(to);
-        // A path may begin where the tool came to at rapid.
-        let Some(from) = last.filter(|_| travel.kind == TravelKind::Feed) else { return };
-        if let Some(long) = long
-            && let Some(axis) = stray(&long.from, &from, &to)
-        {
-            // The next point would look stray beside this one.
-            report.add(finding(cx, axis, long.at, [&long.from, &from, &to]));
-        } else if is_long(&from, &to) {
-            self.long = Some(Long { from, at: cx.origin().at });
+    }
+
+    fn moved(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
+        let to = match event {
+            Event::Travel(travel) if !travel.expanded => match travel.kind {
+                TravelKind::Feed => &travel.programmed,
+                // A path may begin where the tool came to at rapid.
+                TravelKind::Rapid => {
+                    self.tell(report);
+                    (self.last, self.long, self.is_to_and_fro) = (Some(travel.programmed), None, false);
+                    return;
+                }
+                _ => &Position::UNKNOWN,
+            },
+            _ => &Position::UNKNOWN,
+        };
+        let from = self.last.get_or_insert(Position::UNKNOWN);
+        // Hardly any move of a long path is long itself.
+        if self.long.is_some() || to.is_apart(from, NEAR) {
+            let from = *from;
+            self.judge(cx, &from, to, report);
+        } else {
+            self.tell(report);
+            self.is_to_and_fro = false;
+        }
+        self.last = Some(*to);
+    }
+
+    fn followed(&mut self, _: &FollowedCx<'_>, report: &mut Report<'_>) {
+        self.tell(report);
+    }
+}
+
+impl StrayCoordinate {
+    /// A move at feed that is long, or comes after a long one.
+    fn judge(&mut self, cx: &PathCx<'_>, from: &Position, to: &Position, report: &mut Report<'_>) {
+        let goes_out_again = |waiting: &mut Waiting| {
+            way(waiting.axis, from, to) * waiting.out.signum() > waiting.out.abs() / 2.0
+        };
+        self.is_to_and_fro |= self.waiting.take_if(goes_out_again).is_some();
+        self.tell(report);
+        let long = self.long.take();
+        let stray =
+            long.filter(|_| !self.is_to_and_fro).and_then(|long| Some((stray(&long.from, from, to)?, long)));
+        if let Some((axis, long)) = stray {
+            let finding = finding(cx, axis, long.at, [&long.from, from, to]);
+            self.waiting = Some(Waiting { finding, axis, out: way(axis, &long.from, from) });
+        }
+        // The next point would look stray beside a stray one; the next move shows whether this one is.
+        if to.is_apart(from, NEAR) {
+            self.long = Some(Long { from: *from, at: cx.origin().at });
+        }
+    }
+
+    /// The path has not gone out there again.
+    fn tell(&mut self, report: &mut Report<'_>) {
+        if let Some(waiting) = self.waiting.take_if(|_| true) {
+            report.add(waiting.finding);
         }
     }
 }
 
-/// Hardly any move of a long path is: the rest is asked of few.
-fn is_long(from: &Position, to: &Position) -> bool {
-    Axis::ALL.into_iter().any(|axis| (to.raw(axis) - from.raw(axis)).abs() > NEAR)
+/// How far an axis goes; one that turns, on the shorter way.
+fn way(axis: Axis, from: &Position, to: &Position) -> f64 {
+    let way = to.raw(axis) - from.raw(axis);
+    if axis.is_rotary() { way - (way / 360.0).round() * 360.0 } else { way }
 }
 
 /// The axis in which the middle point alone is far from the other two, which two or more other axes pass on their way.
@@ -114,11 +180,12 @@ fn stray(first: &Position, middle: &Position, last: &Position) -> Option<Axis> {
     let mut found = None;
     let mut longest: f64 = 0.0;
     for axis in Axis::ALL {
-        let [from, at, to] = [first, middle, last].map(|point| point.raw(axis));
-        let [into, out] = [at - from, to - at];
+        let [into, out, past] =
+            [(first, middle), (middle, last), (first, last)].map(|(a, b)| way(axis, a, b));
         // An axis that the program has not moved yet is nowhere.
         let is_still = into.abs() < SAME && out.abs() < SAME;
-        if is_still || from.is_nan() && at.is_nan() && to.is_nan() {
+        let is_nowhere = [first, middle, last].into_iter().all(|point| point.raw(axis).is_nan());
+        if is_still || is_nowhere {
             continue;
         }
         if into.is_nan() || out.is_nan() {
@@ -126,9 +193,9 @@ fn stray(first: &Position, middle: &Position, last: &Position) -> Option<Axis> {
         }
         if into * out > 0.0 {
             passed += 1;
-            longest = longest.max((to - from).abs());
+            longest = longest.max(past.abs());
         } else if found.is_none() {
-            found = Some((axis, into.abs().min(out.abs()), (to - from).abs()));
+            found = Some((axis, into.abs().min(out.abs()), past.abs()));
         } else {
             return None;
         }
@@ -192,6 +259,22 @@ mod tests {
               | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[stray-coordinate] `A` of this point is far from its neighbours
         "#]],
         );
+    }
+
+    fn path(points: &str) -> String {
+        format!("G21 G90 G54 G0 X0. Y0. A0. S5000 M3\nG43 H1 Z25.\nG1 Z0. F300.\n{points}G0 Z50.\nM30\n")
+    }
+
+    #[test]
+    fn paths_go_to_and_fro() {
+        for points in [
+            "X1. Y30. Z-0.2\nX2. Y0. Z-0.4\nX3. Y30. Z-0.6\nX4. Y0. Z-0.8\n",
+            "X0.5 Z20.1 A180.\nX1. Z20.2 A0.\nX1.5 Z20.3 A180.\nX2. Z20.4 A0.\n",
+            "X1. Z-0.1 A359.\nX2. Z-0.2 A0.5\nX3. Z-0.3 A359.8\nX4. Z-0.4 A1.\n",
+            "X1. Y1. Z-0.1\nX2. Y2. Z-0.2\nG52 Y-50.\nX3. Y53. Z-0.3\nG52 Y0.\nX4. Y4. Z-0.4\n",
+        ] {
+            check_rule(&RULE, "haas-mill", &path(points), &expect![[""]]);
+        }
     }
 
     #[test]

@@ -56,6 +56,8 @@ struct TouchNeverChecked {
     probed: Option<Range<u32>>,
     /// The first use of its touch.
     used: Option<Range<u32>>,
+    /// It goes away from the part.
+    is_away: bool,
 }
 
 remembers!(TouchNeverChecked: probed, used);
@@ -77,8 +79,13 @@ impl PathRule for TouchNeverChecked {
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
         self.look(cx);
         if cx.has_effect(touches_work) {
-            self.tell(cx, report);
+            // A second touch that alarms makes up for a coarse one that was not looked at.
+            if cx.has_effect(need_not_touch) {
+                self.tell(cx, report);
+            }
+            self.used = None;
             self.probed = cx.has_effect(need_not_touch).then(|| cx.effect_range(need_not_touch));
+            self.is_away = cx.has_effect(|effect| effect == Effect::ProbeAwayOptional);
         }
     }
 
@@ -107,12 +114,13 @@ impl TouchNeverChecked {
     }
 
     fn tell(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
-        let Self { probed, used } = std::mem::take(self);
+        let Self { probed, used, is_away } = std::mem::take(self);
         let (Some(probed), Some(used)) = (probed, used) else { return };
         if !cx.is_on_every_path() {
             return;
         }
-        let alarms = cx.name_of_effect(Effect::ProbeToward).unwrap_or_default();
+        let alarms = if is_away { Effect::ProbeAway } else { Effect::ProbeToward };
+        let alarms = cx.name_of_effect(alarms).unwrap_or_default();
         report.add(
             cx.finding(&META, probed, "nothing looks whether this probing move has touched")
                 .label("the program goes on without a touch")
@@ -151,5 +159,26 @@ mod tests {
     #[test]
     fn a_touch_that_is_not_used_needs_no_look() {
         check_rule(&RULE, "linuxcnc", "G21 G90 G0 Z10\nG38.3 Z-5 F60\nG0 Z10\nM2\n", &expect![[""]]);
+    }
+
+    #[test]
+    fn a_second_touch_that_alarms() {
+        let program = |second: &str| {
+            format!(
+                "G21 G17 G90 G94 G54\nG0 X20 Y20 Z10\nG38.3 Z-5 F60\nG0 Z[#5063+1]\n{second} Z-5 F10\n#<top>=#5063\nM2\n"
+            )
+        };
+        check_rule(&RULE, "linuxcnc", &program("G38.2"), &expect![[""]]);
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            &program("G38.3"),
+            &expect![[r#"
+                3 | G38.3 Z-5 F60
+                  | ^^^^^ warning[touch-never-checked] nothing looks whether this probing move has touched
+                5 | G38.3 Z-5 F10
+                  | ^^^^^ warning[touch-never-checked] nothing looks whether this probing move has touched
+            "#]],
+        );
     }
 }

@@ -3,9 +3,10 @@
 use std::ops::Range;
 
 use gcheck_controls::SystemValue;
-use gcheck_engine::{Axis, Ending, Touch};
+use gcheck_engine::{Axis, Ending, Event, Touch};
 
 use crate::declare::declare_rule;
+use crate::facts::boundary::boundary;
 use crate::facts::probing::{column_of, driven, reads, touches_work};
 use crate::{PathCx, PathRule, Remembers, Report, Run, Uses, Watch, remembers};
 
@@ -42,7 +43,7 @@ declare_rule! {
         tier: Path,
         since: "0.1.0",
         run: Run::Path {
-            watch: Watch::ALL_BLOCKS.union(Watch::ENDS),
+            watch: Watch::ALL_BLOCKS.union(Watch::CHANGES).union(Watch::ENDS),
             make: || Box::new(TouchOfAnotherAxis::default()),
         },
     }
@@ -52,7 +53,7 @@ declare_rule! {
 struct TouchOfAnotherAxis {
     /// A read of another axis since the last touch.
     read: Option<Read>,
-    /// An axis that was probed has been read since the last touch.
+    /// The touch along an axis that was probed has been used since, as far as is known: it was read, or an offset was set there.
     is_used: bool,
 }
 
@@ -90,6 +91,21 @@ impl PathRule for TouchOfAnotherAxis {
         }
     }
 
+    fn changed(&mut self, cx: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
+        // Where the probe has stopped, a zero or a length is set without a read.
+        let sets = |event: &Event| {
+            matches!(
+                event,
+                Event::WorkOffset { .. }
+                    | Event::Shift(_)
+                    | Event::LengthOffset(_)
+                    | Event::ToolTableEntry(_)
+            )
+        };
+        // The end of the program sets offsets back.
+        self.is_used |= sets(event) && boundary(cx).is_none() && reads(cx).is_empty();
+    }
+
     fn ended(&mut self, cx: &PathCx<'_>, _: Ending, report: &mut Report<'_>) {
         if !cx.is_called_only() {
             self.tell(cx, report);
@@ -97,23 +113,42 @@ impl PathRule for TouchOfAnotherAxis {
     }
 }
 
+/// What holds where the axes are.
+const PLACES: [SystemValue; 3] =
+    [SystemValue::WorkPosition, SystemValue::EndPosition, SystemValue::MachinePosition];
+
 impl TouchOfAnotherAxis {
     /// The variables that the block reads.
     fn look(&mut self, cx: &PathCx<'_>) {
         let Touch::Made(ways) = cx.state().touched() else { return };
-        for number in reads(cx).into_iter().flatten() {
-            let column = column_of(cx, number, SystemValue::ProbePosition);
-            let Some(axis) = column.and_then(|column| Axis::ALL.get(column as usize).copied()) else {
+        for number in reads(cx) {
+            // One whose number is computed may be the right one, and names hold where the axes are.
+            let Some(number) = number else {
+                self.is_used = true;
                 continue;
             };
-            let mut driven = driven(ways).map(|(axis, _)| axis);
-            let Some(first) = driven.next() else { continue };
-            if first == axis || driven.any(|other| other == axis) {
+            let axis_of = |value| {
+                let column = column_of(cx, number, value)?;
+                Axis::ALL.get(column as usize).copied()
+            };
+            let driven: Vec<Axis> = driven(ways).map(|(axis, _)| axis).collect();
+            let Some(first) = driven.first().copied() else { continue };
+            // After the touch the axes are where it was.
+            let is_driven = |value| axis_of(value).is_some_and(|axis| driven.contains(&axis));
+            if PLACES.into_iter().any(is_driven) {
+                self.is_used = true;
+                continue;
+            }
+            let Some(axis) = axis_of(SystemValue::ProbePosition) else { continue };
+            if driven.contains(&axis) {
                 self.is_used = true;
             } else if self.read.is_none() && cx.depth() == 1 {
                 let step = |axis: Axis| Axis::ALL.iter().position(|other| *other == axis).unwrap_or(0);
                 let right = (number + step(first) as u32).saturating_sub(step(axis) as u32);
-                self.read = Some(Read { bytes: cx.range(), number, axis, probed: (first, right) });
+                // Some controls hold the touch along the tool in another form.
+                if column_of(cx, right, SystemValue::ProbePosition).is_some() {
+                    self.read = Some(Read { bytes: cx.range(), number, axis, probed: (first, right) });
+                }
             }
         }
     }
@@ -176,5 +211,30 @@ mod tests {
             "G90 G54 G0 X0. Y0. Z1.\nG31 Z-1. F10.\n#101=#5061\nG0 Z[#5063+1.]\nM30\n",
             &expect![[""]],
         );
+    }
+
+    #[test]
+    fn uses_without_a_read_of_the_touch() {
+        let program = |then: &str| format!("G21 G90 G54\nG0 X20 Y20 Z10\nG38.2 Z-5 F60\n{then}G0 Z10\nM2\n");
+        for then in [
+            "G10 L20 P1 Z0\n#<x>=#5061\n",
+            "#<x>=#5061\nG92 Z0\n",
+            "#<x>=#5061\n#<z>=#5422\n",
+            "#<i>=3\n#<x>=#5061\n#<z>=#[5060+#<i>]\n",
+        ] {
+            check_rule(&RULE, "linuxcnc", &program(then), &expect![[""]]);
+        }
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            &program("G10 L2 P1 Z[#5061]\n"),
+            &expect![[r#"
+            4 | G10 L2 P1 Z[#5061]
+              | ^^^^^^^^^^^^^^^^^^ warning[touch-of-another-axis] `#5061` is `X` of the touch, and the probe moved along `Z`
+        "#]],
+        );
+        // The touch along Z is in a variable that counts the tool length too: the data leave it out.
+        let fanuc = "G90 G54 G0 X0. Y0. Z1.\nG31 Z-1. F10.\n#101=#5061\n#103=#5063\nG0 Z1.\nM30\n";
+        check_rule(&RULE, "fanuc-mill", fanuc, &expect![[""]]);
     }
 }

@@ -150,4 +150,14 @@ mod tests {
             "#]],
         );
     }
+
+    #[test]
+    fn hands_in_one_word_with_the_size() {
+        for comment in ["M12X1.75LH TAP", "M12X1.75L TAP", "TAP M12 LH"] {
+            let program = format!(
+                "G21 G90 G54\nT5 M6 ({comment})\nG0 X0. Y0. S200 M3\nG43 H5 Z5.\nG74 Z-20. R5. F350.\nG80\nM30\n"
+            );
+            check_rule(&RULE, "haas-mill", &program, &expect![[""]]);
+        }
+    }
 }

@@ -78,8 +78,10 @@ impl PathRule for WordPassedOver {
         };
         // The first and the last block of a profile: what was meant is a roughing cycle, of another control or system of codes.
         let profile = LetterSet::of("PQ");
-        let names_profile = profile.without(unread).is_empty() && profile_blocks(cx).is_some();
-        let severity = if names_profile { severity.max(Severity::Warning) } else { severity };
+        let rough = cx.name_of_effect(Effect::RoughAlongZ);
+        let profile_cycle =
+            rough.filter(|_| profile.without(unread).is_empty() && profile_blocks(cx).is_some());
+        let severity = if profile_cycle.is_some() { severity.max(Severity::Warning) } else { severity };
         for letter in unread.iter() {
             let Some(entry) = control.letter(letter) else { continue };
             let Some(range) = cx.find_word(cx.origin().at, |word| word.letter == letter) else { continue };
@@ -90,8 +92,7 @@ impl PathRule for WordPassedOver {
                 .note(format!("this control {does}  [{}]", rules.source))
                 .at_most(severity)
                 .at_most(limit(rules.confidence));
-            report.add(if names_profile {
-                let cycle = cx.name_of_effect(Effect::RoughAlongZ).unwrap_or_default();
+            report.add(if let Some(cycle) = &profile_cycle {
                 finding
                     .note("`P` and `Q` name blocks of the program, as those of a roughing cycle do, and nothing is roughed here")
                     .help(format!("on this control the roughing cycle is `{cycle}`"))
