@@ -481,7 +481,7 @@ fn step(session: &mut Session, choices: &mut Choices<'_>, files: &Files, client:
     }
 }
 
-/// Writes, replaces or deletes a program or the configuration, and tells of it.
+/// Writes, replaces or deletes a program or the configuration, and reports it.
 fn change_file(session: &mut Session, choices: &mut Choices<'_>, files: &Files, name: &str) {
     let length = choices.below(24);
     let kind = 1 + choices.below(3);
