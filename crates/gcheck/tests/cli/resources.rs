@@ -204,7 +204,8 @@ fn check_fuel(command: &str) {
         loop {
             let cost = |fuel: u32| {
                 let command = format!("{command} --fuel {fuel} --control fanuc-mill");
-                cost_within(EMPTY_KILOBYTES + SHORT_KILOBYTES, &shop, &command, name)
+                let beside = if command.starts_with("plot") { DRAWN_KILOBYTES } else { SHORT_KILOBYTES };
+                cost_within(EMPTY_KILOBYTES + beside, &shop, &command, name)
             };
             let (once, twice) = (cost(2 * FUEL), cost(4 * FUEL));
             left -= 1;
@@ -256,6 +257,8 @@ const EMPTY_KILOBYTES: u64 = 200_000;
 /// A short program may take so much beside that, and a long one so much and four times its text.
 const SHORT_KILOBYTES: u64 = 100 * 1024;
 const LONG_KILOBYTES: u64 = 200 * 1024;
+/// A picture has at most so many moves as fit in this, and is made smaller when it has more.
+const DRAWN_KILOBYTES: u64 = 400 * 1024;
 
 #[test]
 fn what_an_analysis_keeps_does_not_grow_with_its_paths() {
