@@ -4,16 +4,22 @@
 
 #![expect(clippy::unwrap_used, reason = "a test that meets the unexpected is to fail")]
 
-use std::fs;
 use std::path::Path;
 use std::time::{Duration, Instant};
+use std::{env, fs};
 
 use gcheck_fuzz::{TARGETS, Target, target};
 
 /// Drawn inputs of a target stop after that long.
-const SECONDS_OF_DRAWING: Duration = Duration::from_millis(500);
+const TIME_OF_DRAWING: Duration = Duration::from_millis(500);
 /// Drawn inputs of a target, at most.
 const MOST_DRAWN: u64 = 200;
+
+/// How long inputs are drawn, and how many at most: `GCHECK_DRAW=N` draws for N seconds.
+fn drawing() -> (Duration, u64) {
+    let seconds = env::var("GCHECK_DRAW").ok().and_then(|seconds| seconds.parse().ok());
+    seconds.map_or((TIME_OF_DRAWING, MOST_DRAWN), |seconds| (Duration::from_secs(seconds), u64::MAX))
+}
 
 /// The seeds of a target: a line each, in hexadecimal.
 fn seeds(target: Target) -> Vec<Vec<u8>> {
@@ -26,6 +32,7 @@ fn seeds(target: Target) -> Vec<Vec<u8>> {
         .collect()
 }
 
+#[expect(clippy::print_stdout, reason = "a person who draws for long wants to know how many there were")]
 fn replay(name: &str) {
     let target = target(name).unwrap();
     // As much stack as every thread of gcheck that works on a program has.
@@ -34,8 +41,10 @@ fn replay(name: &str) {
             (target.run)(&seed);
         }
         let started = Instant::now();
-        for number in 0..MOST_DRAWN {
-            if started.elapsed() > SECONDS_OF_DRAWING {
+        let (time, most) = drawing();
+        for number in 0..most {
+            if started.elapsed() > time {
+                println!("{number} inputs were drawn");
                 break;
             }
             (target.run)(&drawn(number));

@@ -8,7 +8,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, PoisonError, RwLock};
 
 use gcheck_db::{DocumentId, Snapshot};
-use gcheck_ide::RunStatistics;
+use gcheck_ide::{Caller, RunStatistics};
 
 use crate::proto::Uri;
 use crate::{InForce, OpenPrograms};
@@ -45,12 +45,22 @@ pub(crate) struct Document {
     pub(crate) failed: Option<u64>,
     /// The clock when its analysis used up its time: it is not tried again with the same text.
     pub(crate) too_long: Option<u64>,
-    /// What its run amounted to, and the clock then.
-    pub(crate) figures: Option<(u64, Arc<RunStatistics>)>,
+    /// What its run amounted to.
+    pub(crate) figures: Option<Figures>,
     /// The run for its figures that is under way.
     pub(crate) run: StatisticsRun,
     /// When it was changed last, compared with others.
     pub(crate) touched: u64,
+}
+
+/// What a run of a document amounted to.
+#[derive(Debug)]
+pub(crate) struct Figures {
+    /// The clock of the document then.
+    pub(crate) at: u64,
+    /// The call whose arguments it had.
+    pub(crate) caller: Option<Caller>,
+    pub(crate) statistics: Arc<RunStatistics>,
 }
 
 /// Is a run for the figures of a document under way?
@@ -128,14 +138,17 @@ pub(crate) fn file_name(path: &Path) -> Arc<str> {
 /// The texts of open documents, for the host, which asks from other threads too.
 #[derive(Debug, Default)]
 pub(crate) struct OpenTexts {
+    /// Counts texts. A document that is opened again counts on: who keeps what it found in one text must not take it for another's.
+    texts: AtomicU64,
     by_path: RwLock<BTreeMap<PathBuf, (u64, Snapshot)>>,
 }
 
 impl OpenTexts {
-    /// Takes the text of a document as it is at `clock`.
-    pub(crate) fn put(&self, path: &Path, clock: u64, snapshot: Snapshot) {
+    /// Takes the text of a document.
+    pub(crate) fn put(&self, path: &Path, snapshot: Snapshot) {
+        let number = self.texts.fetch_add(1, Ordering::AcqRel);
         let mut texts = self.by_path.write().unwrap_or_else(PoisonError::into_inner);
-        texts.insert(path.to_owned(), (clock, snapshot));
+        texts.insert(path.to_owned(), (number, snapshot));
     }
 
     pub(crate) fn remove(&self, path: &Path) {
@@ -152,6 +165,6 @@ impl OpenPrograms for OpenTexts {
     fn in_folder(&self, folder: &Path) -> Vec<(PathBuf, u64)> {
         let texts = self.by_path.read().unwrap_or_else(PoisonError::into_inner);
         let there = texts.iter().filter(|(path, _)| path.parent() == Some(folder));
-        there.map(|(path, (clock, _))| (path.clone(), *clock)).collect()
+        there.map(|(path, (number, _))| (path.clone(), *number)).collect()
     }
 }

@@ -5,6 +5,7 @@
 //! A handler posts before it awaits anything, so the owner gets messages in the order in which they came.
 
 use std::sync::Arc;
+use std::time::Instant;
 
 use serde_json::Value;
 
@@ -80,7 +81,7 @@ impl Handlers {
     }
 
     async fn state_at(&self, params: OwnParams) -> Result<Value> {
-        self.quick("gcheck/stateAt", move |owner, stop| owner.state_at(params, stop)).await
+        self.patient("gcheck/stateAt", move |owner, stop| owner.state_at(&params, stop)).await
     }
 
     async fn syntax_tree(&self, params: OwnParams) -> Result<String> {
@@ -111,7 +112,17 @@ impl Handlers {
         name: &'static str,
         work: impl FnOnce(&mut crate::owner::Owner, &dyn Fn() -> bool) -> Result<T> + Send + 'static,
     ) -> Result<T> {
-        self.mailbox.ask(name, move |owner, reply| owner.answer_soon(reply, work)).await
+        self.mailbox.ask_as(name, Kind::Urgent, move |owner, reply| owner.answer_soon(reply, work)).await
+    }
+
+    /// As [`Self::quick`], for what may need an analysis, which lets what a person waits for go first.
+    async fn patient<T: Send + 'static>(
+        &self,
+        name: &'static str,
+        work: impl FnMut(&mut crate::owner::Owner, &dyn Fn() -> bool) -> Result<T> + Send + 'static,
+    ) -> Result<T> {
+        let asked = Instant::now();
+        self.mailbox.ask(name, move |owner, reply| owner.answer_patiently(name, asked, reply, work)).await
     }
 
     fn change(&self, name: &'static str, work: impl FnOnce(&mut crate::owner::Owner) + Send + 'static) {
@@ -173,7 +184,7 @@ impl LanguageServer for Handlers {
     }
 
     async fn diagnostic(&self, params: DocumentDiagnosticParams) -> Result<DocumentDiagnosticReportResult> {
-        self.quick("textDocument/diagnostic", move |owner, stop| owner.pull(&params, stop)).await
+        self.patient("textDocument/diagnostic", move |owner, stop| owner.pull(&params, stop)).await
     }
 
     async fn workspace_diagnostic(
@@ -287,7 +298,7 @@ impl LanguageServer for Handlers {
     }
 
     async fn inlay_hint(&self, params: InlayHintParams) -> Result<Option<Vec<InlayHint>>> {
-        self.quick("textDocument/inlayHint", move |owner, stop| owner.inlay_hints(&params, stop)).await
+        self.patient("textDocument/inlayHint", move |owner, stop| owner.inlay_hints(&params, stop)).await
     }
 
     async fn code_lens(&self, params: CodeLensParams) -> Result<Option<Vec<CodeLens>>> {
@@ -295,7 +306,7 @@ impl LanguageServer for Handlers {
     }
 
     async fn code_action(&self, params: CodeActionParams) -> Result<Option<CodeActionResponse>> {
-        self.quick("textDocument/codeAction", move |owner, stop| owner.code_actions(&params, stop)).await
+        self.patient("textDocument/codeAction", move |owner, stop| owner.code_actions(&params, stop)).await
     }
 
     async fn code_action_resolve(&self, action: CodeAction) -> Result<CodeAction> {

@@ -18,6 +18,8 @@ pub(crate) enum Kind {
     Change,
     /// A client waits for an answer, or a change is rare enough to wait for one.
     Question,
+    /// A person waits for an answer at the cursor.
+    Urgent,
     /// The result of work elsewhere.
     Result,
 }
@@ -47,6 +49,7 @@ impl<O> Clone for Mailbox<O> {
 pub(crate) struct Waiting {
     changes: AtomicUsize,
     questions: AtomicUsize,
+    urgent: AtomicUsize,
     results: AtomicUsize,
 }
 
@@ -58,7 +61,12 @@ impl Waiting {
 
     /// A client waits for an answer.
     pub(crate) fn has_questions(&self) -> bool {
-        self.questions.load(Ordering::Acquire) > 0
+        self.has_urgent() || self.questions.load(Ordering::Acquire) > 0
+    }
+
+    /// A person waits for an answer.
+    pub(crate) fn has_urgent(&self) -> bool {
+        self.urgent.load(Ordering::Acquire) > 0
     }
 
     /// Anything waits.
@@ -70,6 +78,7 @@ impl Waiting {
         match kind {
             Kind::Change => &self.changes,
             Kind::Question => &self.questions,
+            Kind::Urgent => &self.urgent,
             Kind::Result => &self.results,
         }
     }
@@ -104,9 +113,19 @@ impl<O: 'static> Mailbox<O> {
         name: &'static str,
         work: impl FnOnce(&mut O, Reply<T>) + Send + 'static,
     ) -> Result<T> {
+        self.ask_as(name, Kind::Question, work).await
+    }
+
+    /// The same for a question of some kind.
+    pub(crate) async fn ask_as<T: Send + 'static>(
+        &self,
+        name: &'static str,
+        kind: Kind,
+        work: impl FnOnce(&mut O, Reply<T>) + Send + 'static,
+    ) -> Result<T> {
         let (sender, receiver) = oneshot::channel();
         let reply = Reply(sender);
-        self.post(name, Kind::Question, move |owner| {
+        self.post(name, kind, move |owner| {
             // Nothing waits for a cancelled question.
             if !reply.is_cancelled() {
                 work(owner, reply);
@@ -162,6 +181,8 @@ pub(crate) struct Workers {
 
 /// Long work of two requests may go on side by side.
 const WORKERS: usize = 2;
+/// Stack of each thread that works on programs, in bytes: deep recursion of an analysis has room.
+pub(crate) const STACK: usize = 64 << 20;
 
 impl Workers {
     pub(crate) fn start() -> Self {
@@ -170,14 +191,17 @@ impl Workers {
         for _ in 0..WORKERS {
             let receiver = Arc::clone(&receiver);
             // They end with the process, or when every sender is gone.
-            std::thread::spawn(move || {
+            let work = move || {
                 loop {
                     let work = receiver.lock().unwrap_or_else(PoisonError::into_inner).recv();
                     let Ok(work) = work else { return };
                     // A panic drops the reply, which answers its request; the thread lives on.
                     let _ = std::panic::catch_unwind(std::panic::AssertUnwindSafe(work));
                 }
-            });
+            };
+            let started = std::thread::Builder::new().name("worker".to_owned()).stack_size(STACK).spawn(work);
+            #[expect(clippy::expect_used, reason = "a server without threads cannot answer anything")]
+            started.expect("the system gives threads");
         }
         Self { sender }
     }

@@ -12,6 +12,7 @@ mod settings;
 mod synchronizing;
 mod workspace;
 
+use std::cell::Cell;
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::PathBuf;
@@ -25,7 +26,7 @@ use gcheck_lint::RuleTable;
 use crate::client::{Abilities, ClientSettings};
 use crate::documents::{Document, OpenTexts};
 use crate::late_hover::LateHover;
-use crate::mailbox::{Inbox, Mailbox, Reply, Task, Waiting, Workers};
+use crate::mailbox::{Inbox, Kind, Mailbox, Reply, Task, Waiting, Workers};
 use crate::outbox::Outbox;
 use crate::position::Places;
 use crate::proto::{Error, MessageType, Result, Uri};
@@ -221,6 +222,32 @@ impl Owner {
         // Without the state for want of time is an answer, for an edit is none.
         let is_stale = is_given_up(&reply, &waiting, start);
         reply.send(if is_stale { Err(Error::content_modified()) } else { answer });
+    }
+
+    /// The same for a question that may need an analysis: it is put off while a person waits for another answer. `asked` is when
+    /// the question came.
+    pub(crate) fn answer_patiently<T: Send + 'static>(
+        &mut self,
+        name: &'static str,
+        asked: Instant,
+        reply: Reply<T>,
+        mut work: impl FnMut(&mut Self, &dyn Fn() -> bool) -> Result<T> + Send + 'static,
+    ) {
+        let start = Instant::now();
+        let waiting = Arc::clone(&self.waiting);
+        let is_put_off = Cell::new(false);
+        let answer = work(self, &|| {
+            is_put_off.set(waiting.has_urgent());
+            is_put_off.get() || is_given_up(&reply, &waiting, start) || start.elapsed() > MOST_PATIENCE
+        });
+        // After an edit the answer would be of another text.
+        let is_fresh = !reply.is_cancelled() && !waiting.has_changes() && asked.elapsed() < MOST_PATIENCE;
+        if answer.is_err() && is_put_off.get() && is_fresh {
+            let again = move |owner: &mut Self| owner.answer_patiently(name, asked, reply, work);
+            self.mailbox.post(name, Kind::Question, again);
+            return;
+        }
+        reply.send(answer);
     }
 
     /// An open document.

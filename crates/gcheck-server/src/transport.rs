@@ -18,7 +18,7 @@ use tower_service::Service;
 use crate::Host;
 use crate::framing::{self, Incoming, Malformed};
 use crate::handlers::{Handlers, as_handled};
-use crate::mailbox::{Kind, mailbox};
+use crate::mailbox::{Kind, STACK, mailbox};
 use crate::outbox::Outbox;
 use crate::owner::Owner;
 use crate::parent::Parent;
@@ -26,9 +26,6 @@ use crate::proto::{Error, Id, LspService, Message, MessageType, Response};
 
 /// Messages that are read ahead.
 const AHEAD: usize = 256;
-/// Deep recursion of an analysis has room.
-const STACK: usize = 64 << 20;
-
 /// What the loop is told.
 enum Event {
     Incoming(Incoming),

@@ -6,5 +6,6 @@ pub mod blind;
 pub mod corpus;
 pub mod inputs;
 pub mod language_client;
+pub mod language_questions;
 pub mod pieces;
 pub mod skips;

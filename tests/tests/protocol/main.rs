@@ -9,6 +9,8 @@
 //! * [`features`]: every request once, in its form.
 //! * [`files`]: several programs, open and on disk.
 //! * [`bad_input`]: what no client should send.
+//! * [`fresh`]: whatever happened, every answer is that of a fresh server; `GCHECK_SOAK=N` for N steps.
+//! * [`many`]: thousands of files and documents; `GCHECK_WORKSPACE=N` for N files.
 //! * [`soak`]: thousands of random edits and requests; `GCHECK_SOAK=N` for N of them.
 
 #![expect(
@@ -21,7 +23,9 @@ mod bad_input;
 mod diagnostics;
 mod features;
 mod files;
+mod fresh;
 mod lifecycle;
+mod many;
 mod session;
 mod settings;
 mod soak;

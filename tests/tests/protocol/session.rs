@@ -2,9 +2,9 @@
 //!
 //! Knows: how documents are opened, changed and looked at. Must not know: what any test expects.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::{env, fs};
 
 use gcheck_testkit::language_client::LanguageClient;
 use serde_json::{Value, json};
@@ -18,9 +18,10 @@ pub(crate) struct Session {
     folder: TempDir,
 }
 
-/// A server that nobody has spoken to.
+/// A server that nobody has spoken to; `GCHECK_SERVER` names another build of it.
 pub(crate) fn server(folder: &Path) -> LanguageClient {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_gcheck-under-test"));
+    let other = env::var_os("GCHECK_SERVER");
+    let mut command = Command::new(other.unwrap_or_else(|| env!("CARGO_BIN_EXE_gcheck-under-test").into()));
     LanguageClient::start(command.arg("lsp").current_dir(folder))
 }
 

@@ -123,7 +123,7 @@ fn list(abilities: &Abilities, snapshot: &Snapshot, found: Vec<Completion>, numb
             (None, description)
         };
         let kind = KINDS.iter().find(|(kind, _)| *kind == item.kind).map(|(_, kind)| *kind);
-        let item = CompletionItem {
+        let mut item = CompletionItem {
             filter_text: Some(item.filter).filter(|filter| *filter != item.label),
             label: item.label,
             label_details: beside,
@@ -133,13 +133,15 @@ fn list(abilities: &Abilities, snapshot: &Snapshot, found: Vec<Completion>, numb
             insert_text_format: item.is_snippet.then_some(InsertTextFormat::SNIPPET),
             text_edit: (!has_common_edit)
                 .then(|| CompletionTextEdit::Edit(text_edit(item.edit, &mut places))),
-            data: defaults.data.is_none().then(|| number.into()),
+            // How long a list is must not depend on how many documents were opened before this one.
+            data: defaults.data.is_none().then(|| 0.into()),
             ..CompletionItem::default()
         };
         bytes += serde_json::to_vec(&item).map_or(0, |text| text.len() + 1);
         if bytes > MOST_BYTES {
             break;
         }
+        item.data = item.data.map(|_| number.into());
         items.push(item);
     }
     let has_defaults = defaults.edit_range.is_some() || defaults.data.is_some();

@@ -51,10 +51,10 @@ pub(crate) fn controls() -> Vec<ControlEntry> {
 
 impl Owner {
     /// `gcheck/stateAt`: modes, positions, variables before and after the block at a position.
-    pub(crate) fn state_at(&mut self, params: OwnParams, stop: &dyn Fn() -> bool) -> Result<Value> {
+    pub(crate) fn state_at(&mut self, params: &OwnParams, stop: &dyn Fn() -> bool) -> Result<Value> {
         let uri = params.text_document.uri.clone();
         let position = params.position.unwrap_or_default();
-        let at = TextDocumentPositionParams { text_document: params.text_document, position };
+        let at = TextDocumentPositionParams { text_document: params.text_document.clone(), position };
         let Some((id, offset)) = self.place(&at)? else { return Ok(Value::Null) };
         let state = gcheck_ide::state_at(&mut self.database, id, offset, stop).map_err(given_up)?;
         let snapshot = self.snapshot(&uri)?;

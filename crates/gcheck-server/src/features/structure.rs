@@ -5,10 +5,10 @@
 use std::sync::Arc;
 
 use gcheck_db::Snapshot;
-use gcheck_ide::{FoldKind, InlayKind, RunStatistics, Symbol};
+use gcheck_ide::{Caller, FoldKind, InlayKind, RunStatistics, Symbol};
 
 use super::{LARGE, given_up, markdown, within};
-use crate::documents::StatisticsRun;
+use crate::documents::{Figures, StatisticsRun};
 use crate::mailbox::{Kind, Reply};
 use crate::owner::Owner;
 use crate::position::Places;
@@ -220,22 +220,25 @@ impl Owner {
         }
         let encoding = self.abilities.encoding;
         let now = document.clock.now();
-        if let Some((at, figures)) = &document.figures {
-            let (is_old, figures) = (*at != now, Arc::clone(figures));
-            reply.send(Ok(Some(lenses(&snapshot, &figures, encoding))));
+        let caller = self.caller(uri);
+        let known = self.documents.get(uri).and_then(|document| document.figures.as_ref());
+        if let Some(figures) = known {
+            let is_old = figures.at != now || figures.caller != caller;
+            reply.send(Ok(Some(lenses(&snapshot, &figures.statistics, encoding))));
             // Who cannot be told of newer ones is shown them with the next request.
             if is_old {
-                self.run_for_figures(uri, snapshot, None);
+                self.run_for_figures(uri, snapshot, caller, None);
             }
             return;
         }
-        self.run_for_figures(uri, snapshot, Some(reply));
+        self.run_for_figures(uri, snapshot, caller, Some(reply));
     }
 
     fn run_for_figures(
         &mut self,
         uri: &Uri,
         snapshot: Snapshot,
+        caller: Option<Caller>,
         reply: Option<Reply<Option<Vec<CodeLens>>>>,
     ) {
         let Some(document) = self.documents.get_mut(uri) else { return };
@@ -248,7 +251,6 @@ impl Owner {
         let (uri, now) = (uri.clone(), clock.now());
         let (mailbox, encoding) = (self.mailbox.clone(), self.abilities.encoding);
         let fuel = snapshot.settings().execution.fuel;
-        let caller = self.caller(&uri);
         self.workers.start_work(move || {
             // An edit outdates the run: the program may have been endless, and is no longer.
             let stop = || clock.now() != now || reply.as_ref().is_some_and(Reply::is_cancelled);
@@ -260,21 +262,20 @@ impl Owner {
                 return;
             };
             let figures = Arc::new(figures);
-            let (kept, is_shown) = (Arc::clone(&figures), reply.is_some());
+            let is_shown = reply.is_some();
+            let kept = Figures { at: now, caller, statistics: Arc::clone(&figures) };
             // They are kept before the client hears of them: what it asks next finds them.
-            mailbox.post("figures", Kind::Result, move |owner| {
-                owner.put_figures(&uri, now, kept, is_shown);
-            });
+            mailbox.post("figures", Kind::Result, move |owner| owner.put_figures(&uri, kept, is_shown));
             if let Some(reply) = reply {
                 reply.send(Ok(Some(lenses(&snapshot, &figures, encoding))));
             }
         });
     }
 
-    fn put_figures(&mut self, uri: &Uri, at: u64, figures: Arc<RunStatistics>, is_shown: bool) {
+    fn put_figures(&mut self, uri: &Uri, figures: Figures, is_shown: bool) {
         let Some(document) = self.documents.get_mut(uri) else { return };
-        let is_news = document.figures.as_ref().is_none_or(|(_, known)| *known != figures);
-        document.figures = Some((at, figures));
+        let is_news = document.figures.as_ref().is_none_or(|known| known.statistics != figures.statistics);
+        document.figures = Some(figures);
         if is_news && !is_shown && self.abilities.refreshes_lenses {
             self.outbox.ask::<CodeLensRefresh>((), |_| ());
         }
@@ -285,12 +286,13 @@ impl Owner {
     fn run_has_ended(&mut self, uri: &Uri) {
         let Some(document) = self.documents.get_mut(uri) else { return };
         let ended = std::mem::replace(&mut document.run, StatisticsRun::Idle);
-        let is_old = document.figures.as_ref().is_none_or(|(at, _)| *at != document.clock.now());
+        let is_old = document.figures.as_ref().is_none_or(|known| known.at != document.clock.now());
         if ended == StatisticsRun::AskedAgain
             && is_old
             && let Ok(snapshot) = self.snapshot(uri)
         {
-            self.run_for_figures(uri, snapshot, None);
+            let caller = self.caller(uri);
+            self.run_for_figures(uri, snapshot, caller, None);
         }
     }
 }

@@ -21,7 +21,8 @@ use crate::proto::{
     WorkDoneProgressCreate, WorkDoneProgressCreateParams, WorkDoneProgressEnd,
 };
 
-/// An analysis that was given up this often for questions is brought to its end before they are answered.
+/// An analysis that was given up this often for questions is brought to its end before they are answered, but for those that
+/// a person waits for.
 const MOST_GIVEN_UP: u32 = 20;
 /// An analysis that takes longer is shown to be under way.
 const SHOWN_AFTER: Duration = Duration::from_millis(500);
@@ -55,8 +56,9 @@ impl Owner {
         let for_questions = document.given_up < MOST_GIVEN_UP;
         let waiting = Arc::clone(&self.waiting);
         self.choose_settings(uri);
-        self.look_ahead(uri, &|| for_questions && waiting.has_questions());
-        let analysis = self.analyse(uri, &|| for_questions && waiting.has_questions());
+        let stop = || waiting.has_urgent() || (for_questions && waiting.has_questions());
+        self.look_ahead(uri, &stop);
+        let analysis = self.analyse(uri, &stop);
         if let Some(document) = self.documents.get_mut(uri) {
             document.given_up = if analysis.is_err() { document.given_up + 1 } else { 0 };
         }

@@ -4,8 +4,10 @@
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::time::Instant;
 
+use gcheck_controls::Control;
 use gcheck_db::{Database, DocumentId};
 
 use crate::ProgramFile;
@@ -24,6 +26,8 @@ pub(super) struct Loaded {
     pub(super) id: DocumentId,
     pub(super) size: u64,
     pub(super) stamp: u64,
+    /// The control that it is read for.
+    pub(super) control: Arc<Control>,
     /// Places in the file as places in the document.
     pub(super) widened: Widened,
 }
@@ -43,6 +47,17 @@ impl Disk {
         if let Some(loaded) = self.files.remove(path) {
             database.close(loaded.id);
         }
+    }
+
+    /// Only some files stay.
+    pub(super) fn keep(&mut self, is_kept: impl Fn(&Path) -> bool, database: &mut Database) {
+        self.files.retain(|path, loaded| {
+            let is_kept = is_kept(path);
+            if !is_kept {
+                database.close(loaded.id);
+            }
+            is_kept
+        });
     }
 
     /// Bytes of all of them.

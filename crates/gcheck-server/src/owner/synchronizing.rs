@@ -29,6 +29,7 @@ impl Owner {
             document.touched = touched;
             document.wants_findings = true;
             document.changed(Stale::Settings);
+            self.text_changed(&uri);
             return;
         }
         let path = self.path_of(&uri);
@@ -166,7 +167,7 @@ impl Owner {
     fn text_changed(&mut self, uri: &Uri) {
         let Ok(snapshot) = self.snapshot(uri) else { return };
         let Some(document) = self.documents.get(uri).filter(|document| document.is_program) else { return };
-        self.open.put(&document.path, document.clock.now(), snapshot);
+        self.open.put(&document.path, snapshot);
         let path = document.path.clone();
         self.callees_changed(&path);
     }

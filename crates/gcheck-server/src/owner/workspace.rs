@@ -120,10 +120,19 @@ impl Owner {
         wanted: &dyn Fn(&Path) -> bool,
     ) -> Addressed {
         let mut loaded: BTreeMap<PathBuf, (DocumentId, Uri, Option<i32>)> = BTreeMap::new();
-        let open = self.documents.values().filter(|document| document.is_program);
-        for document in open.filter(|document| wanted(&document.path)) {
-            let open = (document.id, document.uri.clone(), Some(document.version));
-            loaded.insert(document.path.clone(), open);
+        let open = self.documents.values().filter(|document| document.is_program && wanted(&document.path));
+        let open: Vec<Uri> = open.map(|document| document.uri.clone()).collect();
+        for uri in open {
+            // Nobody may have asked about it since its configuration changed.
+            self.choose_settings(&uri);
+            let Some(document) = self.documents.get(&uri) else { continue };
+            loaded.insert(document.path.clone(), (document.id, uri, Some(document.version)));
+        }
+        let missing = files.values().filter(|file| !self.disk.files.contains_key(&file.path));
+        let (count, bytes) = missing.fold((0, 0), |(count, bytes), file| (count + 1, bytes + file.size));
+        // What was loaded for another question takes no room from this one.
+        if self.disk.files.len() + count > MOST_FILES || self.disk.bytes() + bytes > MOST_BYTES {
+            self.disk.keep(|path| files.contains_key(path), &mut self.database);
         }
         for (path, file) in files {
             if !loaded.contains_key(&path)
@@ -148,8 +157,13 @@ impl Owner {
 
     /// A program on disk as a document; `None` when it cannot be read, or too much is loaded.
     fn load_file(&mut self, file: &ProgramFile, settings: &Settings) -> Option<DocumentId> {
-        if let Some(known) = self.disk.files.get(&file.path) {
+        if let Some(known) = self.disk.files.get_mut(&file.path) {
             if known.stamp == file.stamp {
+                // It was loaded for a program that may be for another control.
+                if !Arc::ptr_eq(&known.control, &settings.control) {
+                    known.control = Arc::clone(&settings.control);
+                    self.database.set_settings(known.id, settings.clone());
+                }
                 return Some(known.id);
             }
             self.disk.forget_file(&file.path, &mut self.database);
@@ -160,7 +174,13 @@ impl Owner {
         let text = self.host.0.read(&file.path)?;
         // Names and comments are shown to people.
         let id = self.database.open(&text.readable(), settings.clone());
-        let loaded = Loaded { id, size: file.size, stamp: file.stamp, widened: text.widened() };
+        let loaded = Loaded {
+            id,
+            size: file.size,
+            stamp: file.stamp,
+            control: Arc::clone(&settings.control),
+            widened: text.widened(),
+        };
         self.disk.files.insert(file.path.clone(), loaded);
         Some(id)
     }

@@ -17,8 +17,10 @@ use crate::shop::Shop;
 const MOST_KILOBYTES: u64 = 1_500_000;
 /// Time of the processor of a child, in seconds.
 const MOST_SECONDS: u32 = 120;
-/// Blocks that a run may execute here: what a run costs is fuel, not text.
-const FUEL: &str = "300000";
+/// Blocks that a run of an [`ENDLESS`] program may execute here, beside the usual number for all others.
+const FUEL: u32 = 300_000;
+/// Shapes whose runs end when their fuel is used up: what such a run costs is fuel, not text.
+const ENDLESS: [&str; 2] = ["call bomb", "call bomb with conditions"];
 /// What a process costs that does next to nothing, and what the clock cannot tell, in seconds.
 const NOISE: f64 = 0.15;
 /// Twice the program may cost so many times as much.
@@ -125,6 +127,12 @@ fn seconds(text: &str) -> f64 {
     minutes.parse::<f64>().unwrap() * 60.0 + seconds.parse::<f64>().unwrap()
 }
 
+/// What a command takes on a shape beside the usual.
+fn with_fuel(command: &str, shape: &str) -> String {
+    let runs = ["run", "stats", "plot", "diff"].iter().any(|name| command.starts_with(name));
+    if runs && ENDLESS.contains(&shape) { format!("{command} --fuel {FUEL}") } else { command.to_owned() }
+}
+
 /// Twice a program costs a command at most twice as much.
 fn check_growth(command: &str) {
     let shop = Shop::new();
@@ -133,6 +141,7 @@ fn check_growth(command: &str) {
     for (name, size, shape) in SHAPES {
         shop.file("once.nc", shape(*size));
         shop.file("twice.nc", shape(2 * size));
+        let command = with_fuel(command, name);
         let mut left = 3;
         loop {
             let once = cost(&shop, &command.replace("FILE", "once.nc"), name);
@@ -165,10 +174,63 @@ laws! {
     twice_the_program_is_checked_with_all_rules_in_twice_the_time "check FILE --no-cache --control haas-mill --select all";
     twice_the_program_is_formatted_in_twice_the_time "fmt --diff FILE --control fanuc-mill";
     twice_the_program_is_fixed_in_twice_the_time "check --diff --unsafe-fixes FILE --no-cache --control fanuc-mill";
-    twice_the_program_is_run_in_twice_the_time &format!("run FILE --fuel {FUEL} --control fanuc-mill");
-    twice_the_program_is_counted_in_twice_the_time &format!("stats FILE --fuel {FUEL} --control fanuc-mill");
-    twice_the_program_is_drawn_in_twice_the_time &format!("plot FILE -o out.html --fuel {FUEL} --control fanuc-mill");
-    twice_the_program_is_compared_in_twice_the_time &format!("diff FILE once.nc --fuel {FUEL} --control fanuc-mill");
+    twice_the_program_is_run_in_twice_the_time "run FILE --control fanuc-mill";
+    twice_the_program_is_counted_in_twice_the_time "stats FILE --control fanuc-mill";
+    twice_the_program_is_drawn_in_twice_the_time "plot FILE -o out.html --control fanuc-mill";
+    twice_the_program_is_compared_in_twice_the_time "diff FILE once.nc --control fanuc-mill";
+}
+
+/// Programs that run until their fuel is used up, and keep as much as they can meanwhile.
+fn endless() -> [(&'static str, String); 5] {
+    [
+        ("calls", call_bomb(200)),
+        ("moves", "O1\nG21 G90\nN1 G1 X1. F100.\n#1=#1+0.001\nG1 X#1 Y2.\nGOTO1\nM30\n".to_owned()),
+        (
+            "arcs",
+            "O1\nG21 G90 G0 X0. Y0.\nN1 G2 X1. Y0. I0.5 F100.\nG2 X0. Y0. I-0.5\nGOTO1\nM30\n".to_owned(),
+        ),
+        ("tools", "O1\nN1 T#1 M6\n#1=#1+1\nS#1 M3\nG1 X#1 F#1\nM0\nGOTO1\nM30\n".to_owned()),
+        ("variables", "O1\nN1 #[100+#1]=#1\n#1=#1+1\nIF[#1LT890]GOTO1\n#1=0\nGOTO1\nM30\n".to_owned()),
+    ]
+}
+
+/// What a run of a short program costs is its fuel: its time grows with it, its memory does not.
+fn check_fuel(command: &str) {
+    let shop = Shop::new();
+    shop.file("other.nc", "O1\nG21 G90\nG1 X1. F100.\nM30\n");
+    for (name, text) in endless() {
+        shop.file("a.nc", text);
+        let mut left = 3;
+        loop {
+            let cost = |fuel: u32| {
+                let command = format!("{command} --fuel {fuel} --control fanuc-mill");
+                let beside = if command.starts_with("plot") { DRAWN_KILOBYTES } else { SHORT_KILOBYTES };
+                cost_within(EMPTY_KILOBYTES + beside, &shop, &command, name)
+            };
+            let (once, twice) = (cost(2 * FUEL), cost(4 * FUEL));
+            left -= 1;
+            if twice <= once * GROWTH + NOISE {
+                break;
+            }
+            assert!(left > 0, "{command} of endless {name}: {once:.2} s, then {twice:.2} s");
+        }
+    }
+}
+
+macro_rules! laws_of_fuel {
+    ($($test:ident $command:literal;)*) => {
+        $(#[test]
+        fn $test() {
+            check_fuel($command);
+        })*
+    };
+}
+
+laws_of_fuel! {
+    a_run_without_end_costs_its_fuel "run a.nc";
+    counting_a_run_without_end_costs_its_fuel "stats a.nc";
+    drawing_a_run_without_end_costs_its_fuel "plot a.nc -o out.html";
+    comparing_a_run_without_end_costs_its_fuel "diff a.nc other.nc";
 }
 
 #[test]
@@ -195,6 +257,8 @@ const EMPTY_KILOBYTES: u64 = 200_000;
 /// A short program may take so much beside that, and a long one so much and four times its text.
 const SHORT_KILOBYTES: u64 = 100 * 1024;
 const LONG_KILOBYTES: u64 = 200 * 1024;
+/// A picture has at most so many moves as fit in this, and is made smaller when it has more.
+const DRAWN_KILOBYTES: u64 = 400 * 1024;
 
 #[test]
 fn what_an_analysis_keeps_does_not_grow_with_its_paths() {
