@@ -1,8 +1,9 @@
-//! The bill of materials of a binary: which crates of which versions and licences it is made of, as CycloneDX 1.6.
+//! The bill of materials of a binary: which crates of which versions and licences it is made of, in the form
+//! of `CycloneDX` 1.6.
 //!
 //! Knows: that form. Must not know: how the crates are found out.
 
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 
 use crate::sums::sha256;
 use crate::{Build, Package};
@@ -47,9 +48,10 @@ pub fn sbom(build: &Build<'_>, components: &[Component]) -> anyhow::Result<Packa
     let itself = components.iter().find(is_itself);
     let itself = itself.ok_or_else(|| anyhow::anyhow!("gcheck is not among the components"))?;
     let mut application = described(itself);
-    application["type"] = json!("application");
-    application["hashes"] = json!([{ "alg": "SHA-256", "content": sha256(build.binary) }]);
-    application["properties"] = json!([{ "name": "cargo:target", "value": build.target.triple }]);
+    application.insert("type".to_owned(), json!("application"));
+    application.insert("hashes".to_owned(), hashes(&sha256(build.binary)));
+    let target = json!([{ "name": "cargo:target", "value": build.target.triple }]);
+    application.insert("properties".to_owned(), target);
     let others = components.iter().filter(|component| !is_itself(component));
     let bill = json!({
         "$schema": "http://cyclonedx.org/schema/bom-1.6.schema.json",
@@ -66,26 +68,30 @@ pub fn sbom(build: &Build<'_>, components: &[Component]) -> anyhow::Result<Packa
     Ok(Package { name, bytes: text.into_bytes() })
 }
 
-fn described(component: &Component) -> Value {
+fn described(component: &Component) -> Map<String, Value> {
     let Component { name, version, licence, checksum, is_linked, needs: _ } = component;
     let address = address(name, version);
-    let mut value = json!({
-        "type": "library",
-        "bom-ref": address,
-        "name": name,
-        "version": version,
-        "purl": address,
-        // CycloneDX calls so what is not in the product.
-        "scope": if *is_linked { "required" } else { "excluded" },
-    });
+    let mut members = Map::new();
+    let mut add = |name: &str, value: Value| members.insert(name.to_owned(), value);
+    add("type", json!("library"));
+    add("bom-ref", json!(address));
+    add("name", json!(name));
+    add("version", json!(version));
+    add("purl", json!(address));
+    // The form calls so what is not in the product.
+    add("scope", json!(if *is_linked { "required" } else { "excluded" }));
     if !licence.is_empty() {
         // Old manifests write a `/` for "or".
-        value["licenses"] = json!([{ "expression": licence.replace('/', " OR ") }]);
+        add("licenses", json!([{ "expression": licence.replace('/', " OR ") }]));
     }
     if let Some(checksum) = checksum {
-        value["hashes"] = json!([{ "alg": "SHA-256", "content": checksum }]);
+        add("hashes", hashes(checksum));
     }
-    value
+    members
+}
+
+fn hashes(sha256: &str) -> Value {
+    json!([{ "alg": "SHA-256", "content": sha256 }])
 }
 
 fn needs(component: &Component) -> Value {
