@@ -30,7 +30,7 @@ fn build(place: &Place, processor: &str) -> Image {
         // Without a shell in the image only lists of words can be started.
         let words = || serde_json::from_str::<Vec<String>>(rest).unwrap();
         match instruction {
-            "FROM" => image.base = rest.to_owned(),
+            "FROM" => rest.clone_into(&mut image.base),
             "ARG" => assert_eq!(rest, "TARGETARCH"),
             "COPY" => {
                 let [mode, from, to] = rest.split(' ').collect::<Vec<_>>().try_into().unwrap();
