@@ -315,25 +315,25 @@ impl Task<'_> {
 }
 
 /// Analyses all paths of a program that a task names.
-pub fn flow<O: FlowObserver>(
+pub fn flow(
     program: &Program<'_>,
     model: &Model<'_>,
     machine: &Machine,
     task: Task<'_>,
-    observer: &mut O,
+    observer: &mut dyn FlowObserver,
 ) -> FlowResult {
     FlowResult::of(flow_from(program, model, machine, task, None, observer))
 }
 
 /// Analyses all paths of a task that take a branch, from where it begins. The work that led there counts as done; what it
 /// rests on and reaches before is not repeated.
-pub fn flow_branch<O: FlowObserver>(
+pub fn flow_branch(
     program: &Program<'_>,
     model: &Model<'_>,
     machine: &Machine,
     task: Task<'_>,
     branch: Branch,
-    observer: &mut O,
+    observer: &mut dyn FlowObserver,
 ) -> FlowResult {
     let Branch { choice: _, to, state, definitions, before } = branch;
     definitions.begin_leg();
@@ -353,13 +353,13 @@ pub fn flow_branch<O: FlowObserver>(
 
 /// Analyses all paths of a task from a checkpoint on, or from the beginning: what was done since the last checkpoint that the
 /// observer was told of.
-pub fn flow_from<O: FlowObserver>(
+pub fn flow_from(
     program: &Program<'_>,
     model: &Model<'_>,
     machine: &Machine,
     task: Task<'_>,
     from: Option<Checkpoint>,
-    observer: &mut O,
+    observer: &mut dyn FlowObserver,
 ) -> Leg {
     let at = from.as_ref().map_or(At { file: 0, block: 0 }, |checkpoint| checkpoint.at);
     let mut flow = Flow::new(program, model, machine, task, observer, at);
@@ -373,12 +373,12 @@ pub fn flow_from<O: FlowObserver>(
     flow.end_leg(&facts)
 }
 
-struct Flow<'a, 'p, 'o, 'd, O: FlowObserver> {
+struct Flow<'a, 'p, 'o, 'd> {
     /// Ways that are taken where paths that are one part.
     choices: &'d [Choice],
     /// How many of them were taken, in their order.
     taken: usize,
-    executor: Executor<'a, 'p, Abstract, Shown<'a, 'o, O>>,
+    executor: Executor<'a, 'p, Abstract, Shown<'a, 'o>>,
     /// The work that may be done.
     limit: u64,
     /// The work done.
@@ -439,14 +439,14 @@ enum Stretch {
     Stopped,
 }
 
-impl<'a, 'p, 'o, 'd, O: FlowObserver> Flow<'a, 'p, 'o, 'd, O> {
+impl<'a, 'p, 'o, 'd> Flow<'a, 'p, 'o, 'd> {
     /// An analysis that has nothing to follow yet.
     fn new(
         program: &'a Program<'p>,
         model: &'a Model<'a>,
         machine: &'a Machine,
         task: Task<'d>,
-        observer: &'o mut O,
+        observer: &'o mut dyn FlowObserver,
         at: At,
     ) -> Self {
         let offers = observer.wants_checkpoints();
@@ -1067,7 +1067,7 @@ fn weight(state: &State<Abstract>) -> u64 {
     state.values_held() as u64 / 16
 }
 
-impl<O: FlowObserver> Executor<'_, '_, Abstract, Shown<'_, '_, O>> {
+impl Executor<'_, '_, Abstract, Shown<'_, '_>> {
     /// The blocks of the main file's chunk that holds a block; nothing behind the last.
     fn chunk_of(&self, block: u32) -> Range<u32> {
         let Some(file) = self.program.file(0) else { return block..block };
@@ -1095,8 +1095,8 @@ impl<O: FlowObserver> Executor<'_, '_, Abstract, Shown<'_, '_, O>> {
 }
 
 /// Passes on what is to be shown, and keeps the reaching definitions.
-struct Shown<'a, 'o, O: FlowObserver> {
-    observer: &'o mut O,
+struct Shown<'a, 'o> {
+    observer: &'o mut dyn FlowObserver,
     model: &'a Model<'a>,
     definitions: ReachingDefinitions,
     solo: bool,
@@ -1109,14 +1109,14 @@ struct Shown<'a, 'o, O: FlowObserver> {
     events: u64,
 }
 
-impl<O: FlowObserver> Shown<'_, '_, O> {
+impl Shown<'_, '_> {
     fn endless(&mut self, origin: Origin, head: At, state: &State<Abstract>) {
         let cx = FlowCx { origin, state, definitions: &self.definitions, solo: self.solo };
         self.observer.endless(&cx, head);
     }
 }
 
-impl<O: FlowObserver> Observer<Abstract> for Shown<'_, '_, O> {
+impl Observer<Abstract> for Shown<'_, '_> {
     fn before(&mut self, origin: Origin, state: &State<Abstract>) {
         if self.stepping != Some(origin.at) {
             self.also.push(origin.at);

@@ -54,7 +54,7 @@ pub struct Nobody;
 
 impl<D: Domain> Observer<D> for Nobody {}
 
-impl<D: Domain, O: Observer<D>> Observer<D> for &mut O {
+impl<D: Domain, O: Observer<D> + ?Sized> Observer<D> for &mut O {
     fn before(&mut self, origin: Origin, state: &State<D>) {
         (**self).before(origin, state);
     }

@@ -80,13 +80,25 @@ const FREE_EVENTS: u64 = 16;
 
 /// Executes a program until it ends, faults, has executed `fuel` blocks (or given events that cost as much), or the observer
 /// wants no more. With [`Options::past_alarms`] a fault does not end it: the observer is told ([`Observer::fault`]), and the run goes on.
-pub fn run<O: Observer<Concrete>>(
+pub fn run(
     program: &Program<'_>,
     model: &Model<'_>,
     machine: &Machine,
     options: Options,
     fuel: u64,
-    observer: O,
+    mut observer: impl Observer<Concrete>,
+) -> RunResult {
+    run_watched(program, model, machine, options, fuel, &mut observer)
+}
+
+/// The engine in machine code is large: all observers share it, at the price of a call through a table for what each is shown.
+fn run_watched(
+    program: &Program<'_>,
+    model: &Model<'_>,
+    machine: &Machine,
+    options: Options,
+    fuel: u64,
+    observer: &mut dyn Observer<Concrete>,
 ) -> RunResult {
     let mut executor = Executor::new(program, model, machine, options, observer);
     executor.lenient = options.past_alarms;
@@ -101,8 +113,8 @@ pub fn run<O: Observer<Concrete>>(
 }
 
 /// A run under way.
-struct Course<'e, 'p, O: Observer<Concrete>> {
-    executor: Executor<'e, 'p, Concrete, O>,
+struct Course<'e, 'p, 'o> {
+    executor: Executor<'e, 'p, Concrete, &'o mut dyn Observer<Concrete>>,
     state: State<Concrete>,
     /// The block that comes next.
     at: At,
@@ -113,7 +125,7 @@ struct Course<'e, 'p, O: Observer<Concrete>> {
     feeds: u64,
 }
 
-impl<O: Observer<Concrete>> Course<'_, '_, O> {
+impl Course<'_, '_, '_> {
     /// Executes until the run stops: how, and after how many blocks.
     fn follow(&mut self, fuel: u64) -> (Stopped, u64) {
         let mut blocks = 0;
@@ -204,10 +216,10 @@ impl<O: Observer<Concrete>> Course<'_, '_, O> {
 
     fn alarm(&mut self, fault: Fault) {
         let origin = self.executor.origin();
-        self.alarms.add(&mut self.executor.observer, origin, &self.state, fault);
+        self.alarms.add(self.executor.observer, origin, &self.state, fault);
     }
 
-    fn end(mut self, stopped: Stopped, blocks: u64) -> RunResult {
+    fn end(self, stopped: Stopped, blocks: u64) -> RunResult {
         let origin = self.executor.origin();
         if let Stopped::Faulted(fault) = &stopped
             && !self.goes_past_alarms()
@@ -234,9 +246,9 @@ struct Alarms {
 
 impl Alarms {
     /// Tells the observer of an alarm, and keeps it; a block in a loop counts once.
-    fn add<O: Observer<Concrete>>(
+    fn add(
         &mut self,
-        observer: &mut O,
+        observer: &mut dyn Observer<Concrete>,
         origin: Origin,
         state: &State<Concrete>,
         fault: Fault,

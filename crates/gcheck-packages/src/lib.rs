@@ -1,7 +1,7 @@
 //! The packages in which people get gcheck, made from a binary that is built already.
 //!
-//! Knows: how archives, wheels, npm packages, Debian packages, installers and manifests are laid out. Must not know: how
-//! the binary is built, what it does, the network.
+//! Knows: how archives, wheels, npm packages, Debian packages, installers, manifests and bills of materials are laid
+//! out. Must not know: how the binary is built, what it does, the network.
 //!
 //! `cargo xtask dist` writes them to a folder; `tests/tests/packages` installs them from there. The same input gives the
 //! same bytes: no clock, no order of a file system.
@@ -14,6 +14,7 @@ mod names;
 mod npm;
 mod papers;
 mod recipes;
+mod sbom;
 mod sums;
 mod target;
 mod vsix;
@@ -27,6 +28,7 @@ pub use names::Names;
 pub use npm::{npm_launcher, npm_platform};
 pub use papers::{Papers, SHELLS};
 pub use recipes::recipes;
+pub use sbom::{Component, sbom};
 pub use sums::sums;
 pub use target::{PUBLISHED, Target};
 pub use vsix::vsix;

@@ -11,8 +11,10 @@ use serde_json::Value;
 
 use crate::proto::{Message, Response};
 
-/// Longer messages are refused: no program is that long.
-const MOST_BYTES: u64 = 4 << 30;
+/// Longer messages are passed over: editors do not give programs of that size to servers.
+const MOST_BYTES: u64 = 256 << 20;
+/// What says that it is longer is not a message.
+const MOST_SKIPPED_BYTES: u64 = 1 << 40;
 /// Longer lines of a header are none.
 const MOST_HEADER_BYTES: u64 = 4 << 10;
 
@@ -27,11 +29,22 @@ pub(crate) enum Incoming {
     Malformed(Malformed),
 }
 
+/// What came in place of a message.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Kind {
+    /// Bytes without sense.
+    Bytes,
+    /// JSON, but no request.
+    Json,
+    /// A message that is too long to be read.
+    TooLong,
+}
+
 /// Why something is not a message.
 #[derive(Debug)]
 pub(crate) struct Malformed {
-    /// It was JSON, but no request.
-    pub(crate) is_json: bool,
+    /// What came in place of a message.
+    pub(crate) kind: Kind,
     /// Its id, as far as it had one.
     pub(crate) id: Option<Value>,
     /// What is wrong, for the log.
@@ -40,7 +53,17 @@ pub(crate) struct Malformed {
 
 impl Malformed {
     fn frame(reason: impl Into<String>) -> Incoming {
-        Incoming::Malformed(Self { is_json: false, id: None, reason: reason.into() })
+        Incoming::Malformed(Self { kind: Kind::Bytes, id: None, reason: reason.into() })
+    }
+
+    fn too_long(bytes: u64) -> Self {
+        let reason = format!(
+            "the editor sends {} MB at once, and the server reads at most {} MB: a program of that size is not checked in the \
+             editor, but by `gcheck check` on the command line",
+            bytes >> 20,
+            MOST_BYTES >> 20
+        );
+        Self { kind: Kind::TooLong, id: None, reason }
     }
 }
 
@@ -51,6 +74,10 @@ pub(crate) fn read(from: &mut impl BufRead) -> io::Result<Option<Incoming>> {
         Ok(length) => length,
         Err(reason) => return Ok(Some(Malformed::frame(reason))),
     };
+    if length > MOST_BYTES {
+        let came = io::copy(&mut from.take(length), &mut io::sink())?;
+        return Ok((came == length).then(|| Incoming::Malformed(Malformed::too_long(length))));
+    }
     // Grows with what really comes, not with what is promised.
     let mut body = Vec::new();
     from.take(length).read_to_end(&mut body)?;
@@ -83,7 +110,7 @@ fn header(from: &mut impl BufRead) -> io::Result<Option<Result<u64, String>>> {
         match text.split_once(':') {
             Some((name, value)) if name.trim().eq_ignore_ascii_case("content-length") => {
                 match value.trim().parse() {
-                    Ok(bytes) if bytes <= MOST_BYTES => length = Some(bytes),
+                    Ok(bytes) if bytes <= MOST_SKIPPED_BYTES => length = Some(bytes),
                     _ => strange = Some(format!("`{text}` is not the length of a message")),
                 }
             }
@@ -99,7 +126,8 @@ fn message(body: &[u8]) -> Incoming {
         Err(error) => return Malformed::frame(format!("a message is not JSON: {error}")),
     };
     let id = value.get("id").cloned();
-    let malformed = |reason: String| Incoming::Malformed(Malformed { is_json: true, id: id.clone(), reason });
+    let malformed =
+        |reason: String| Incoming::Malformed(Malformed { kind: Kind::Json, id: id.clone(), reason });
     if value.get("method").is_some() {
         serde_json::from_value(value)
             .map_or_else(|error| malformed(format!("a message is not a request: {error}")), Incoming::Message)
@@ -122,10 +150,11 @@ pub(crate) fn write(to: &mut impl Write, message: &impl serde::Serialize) -> io:
 #[cfg(test)]
 mod tests {
     use std::fmt::Write as _;
+    use std::io::{self, Read as _};
 
     use expect_test::expect;
 
-    use super::{Incoming, read};
+    use super::{Incoming, Kind, read};
 
     fn all(bytes: &[u8]) -> String {
         let mut from = bytes;
@@ -191,6 +220,19 @@ mod tests {
             message good
         "#]]
         .assert_eq(&all(stream.as_bytes()));
+    }
+
+    #[test]
+    fn a_message_of_two_gigabytes_is_passed_over_in_little_memory() {
+        let head = format!("Content-Length: {}\r\n\r\n", 2_u64 << 30);
+        let good = framed(r#"{"jsonrpc":"2.0","method":"good"}"#);
+        let body = io::repeat(b'1').take(2 << 30);
+        let mut from = io::BufReader::new(head.as_bytes().chain(body).chain(good.as_bytes()));
+        let Some(Incoming::Malformed(malformed)) = read(&mut from).unwrap() else { panic!("it is read") };
+        assert_eq!(malformed.kind, Kind::TooLong);
+        assert!(malformed.reason.starts_with("the editor sends 2048 MB at once"), "{}", malformed.reason);
+        let Some(Incoming::Message(message)) = read(&mut from).unwrap() else { panic!("the next is lost") };
+        assert_eq!(message.method(), "good");
     }
 
     #[test]

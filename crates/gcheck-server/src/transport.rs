@@ -16,7 +16,7 @@ use tokio::sync::mpsc::{Sender, channel};
 use tower_service::Service;
 
 use crate::Host;
-use crate::framing::{self, Incoming, Malformed};
+use crate::framing::{self, Incoming, Kind as Came, Malformed};
 use crate::handlers::{Handlers, as_handled};
 use crate::mailbox::{Kind, STACK, mailbox};
 use crate::outbox::Outbox;
@@ -152,9 +152,13 @@ async fn call(service: &mut LspService<Handlers>, message: Message, outbox: &Arc
 
 /// Answers what is not a message.
 fn refuse(outbox: &Outbox, malformed: Malformed) {
-    let Malformed { is_json, id, reason } = malformed;
+    let Malformed { kind, id, reason } = malformed;
     let id = id.and_then(|id| serde_json::from_value::<Id>(id).ok()).unwrap_or_default();
-    let error = if is_json { Error::invalid_request() } else { Error::parse_error() };
+    let error = if kind == Came::Json { Error::invalid_request() } else { Error::parse_error() };
+    if kind == Came::TooLong {
+        // The user opened a program, and waits for its findings.
+        outbox.show(MessageType::WARNING, reason.clone());
+    }
     outbox.log(MessageType::ERROR, reason.clone());
     outbox.answer(&Response::from_error(id, Error { message: reason.into(), ..error }));
 }

@@ -14,13 +14,16 @@ use crate::problem::io_reason;
 /// Bytes that are looked at to tell a program from a binary.
 const SAMPLE: usize = 64 << 10;
 
+/// Bytes of a program that are read: a surface in tens of millions of blocks. Its analysis may take several times as much memory.
+const MOST: usize = 1 << 30;
+
 /// Reads a program.
 pub(crate) fn file(path: &Path) -> Result<SourceText, Problem> {
     let unreadable =
         |error: &io::Error| Problem::with_file(path, format!("cannot read: {}", io_reason(error)));
     let file = File::open(path).map_err(|error| unreadable(&error))?;
     let size = file.metadata().map_err(|error| unreadable(&error))?.len();
-    let size = usize::try_from(size).ok().filter(|size| *size <= SourceText::MAX_LEN);
+    let size = usize::try_from(size).ok().filter(|size| *size <= MOST);
     bounded(path, file, size.ok_or_else(|| too_large(path))?).map_err(|error| unreadable(&error))?
 }
 
@@ -90,13 +93,20 @@ fn bounded(path: &Path, mut from: impl Read, size: usize) -> io::Result<Result<S
     if is_binary(&bytes) {
         return Ok(Err(Problem::with_file(path, "is not text, so it is not a part program")));
     }
-    let left = SourceText::MAX_LEN + 1 - bytes.len();
+    let left = MOST + 1 - bytes.len();
     from.take(left as u64).read_to_end(&mut bytes)?;
+    if bytes.len() > MOST {
+        return Ok(Err(too_large(path)));
+    }
     Ok(SourceText::from_bytes(bytes).map_err(|_| too_large(path)))
 }
 
 fn too_large(path: &Path) -> Problem {
-    Problem::with_file(path, "is larger than 4 GiB")
+    Problem::with_file(
+        path,
+        format!("is larger than {} GB, the largest program that gcheck reads", MOST >> 30),
+    )
+    .help("split it, for example at its tool changes, and check the parts")
 }
 
 /// More than one byte in ten is a control character that no program uses, or no UTF-8.

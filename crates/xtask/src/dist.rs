@@ -3,6 +3,7 @@
 //! Knows: the order of the work, where the binary comes from. Must not know: how a package is laid out; that is
 //! `gcheck-packages`.
 
+mod components;
 mod vscode;
 
 use std::collections::BTreeMap;
@@ -10,11 +11,12 @@ use std::env;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
+use std::time::Instant;
 
 use anyhow::{Context as _, bail, ensure};
 use gcheck_packages::{
     Build, Names, PUBLISHED, Package, Papers, SHELLS, Target, archive, deb, image, npm_launcher,
-    npm_platform, recipes, sums, vsix, wheel,
+    npm_platform, recipes, sbom, sums, vsix, wheel,
 };
 
 use crate::workspace;
@@ -55,14 +57,17 @@ pub(crate) fn run(arguments: &[String]) -> anyhow::Result<ExitCode> {
     let papers = Papers::new(completions(&path)?);
     let build =
         Build { names: &names, version: &version, target, binary: &binary, papers: &papers, effort: 9 };
-    let mut packages = vec![archive(&build)?, wheel(&build)?, npm_platform(&build)?];
+    let packers: [fn(&Build<'_>) -> anyhow::Result<Package>; 3] = [archive, wheel, npm_platform];
+    for packer in packers {
+        pack(&out, || packer(&build))?;
+    }
     if !target.debian.is_empty() {
-        packages.push(deb(&build)?);
+        pack(&out, || deb(&build))?;
     }
     if wishes.vscode {
-        packages.push(vsix(&build, &vscode::extension(&out)?)?);
+        pack(&out, || vsix(&build, &vscode::extension(&out)?))?;
     }
-    write(&out, &packages)?;
+    pack(&out, || sbom(&build, &components::components(target.triple)?))?;
     println!("{:>11}  {} itself", binary.len(), path.display());
     if binary.len() > MOST {
         println!("the binary has more than {MOST} bytes, which is what a published one should have at most");
@@ -157,6 +162,16 @@ fn attached(out: &Path, folder: &Path) -> anyhow::Result<Vec<Package>> {
         }
     }
     Ok(files)
+}
+
+/// Makes a package and writes it; says how large it is and how long it took.
+fn pack(out: &Path, make: impl FnOnce() -> anyhow::Result<Package>) -> anyhow::Result<()> {
+    let start = Instant::now();
+    let package = make()?;
+    let seconds = start.elapsed().as_secs_f64();
+    write(out, &[package])?;
+    println!("{:>11}  in {seconds:.1} s", "");
+    Ok(())
 }
 
 fn write(out: &Path, packages: &[Package]) -> anyhow::Result<()> {

@@ -8,7 +8,11 @@ mod control_pages;
 mod editor_tests;
 mod generated;
 #[cfg(feature = "product")]
+mod keys;
+#[cfg(feature = "product")]
 mod markdown;
+#[cfg(feature = "product")]
+mod options;
 pub(crate) mod registry;
 #[cfg(feature = "product")]
 mod rendered;
@@ -31,7 +35,7 @@ use generated::Generated;
 use crate::{product, workspace};
 
 /// Folders in which every Markdown file is generated.
-const WHOLE_FOLDERS: &[&str] = &["docs/rules", "docs/controls"];
+const WHOLE_FOLDERS: &[&str] = &["docs/rules", "docs/controls", "docs/reference"];
 
 /// Writes what is stale, or with `--check` only says so.
 pub(crate) fn run(arguments: &[String]) -> anyhow::Result<ExitCode> {
@@ -94,6 +98,8 @@ fn from_product() -> anyhow::Result<Generated> {
     let mut files = rule_pages::generate();
     files.extend(control_pages::generate()?);
     files.extend(schema::generate());
+    files.extend(options::generate());
+    files.extend(keys::generate()?);
     files.extend(editor_tests::generate(workspace::root())?);
     files.extend(summary::generate(workspace::root(), &files)?);
     Ok(files)

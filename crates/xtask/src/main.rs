@@ -69,8 +69,8 @@ usage: cargo xtask COMMAND
   blind seal FILE… | look draw-N | look mistakes-N | page
                               first looks at programs and mistakes that nobody tuned gcheck to (docs/dev/blind.md)
   dist [--target TRIPLE] [--binary FILE] [--out FOLDER] [--vscode]
-                              pack gcheck for one system: archive, wheel, npm and Debian packages, with --vscode the
-                              extension; builds it in the profile `dist` unless a binary is named
+                              pack gcheck for one system: archive, wheel, npm and Debian packages, bill of materials,
+                              with --vscode the extension; builds it in the profile `dist` unless a binary is named
   dist release [--out FOLDER] from the packages of all systems: npm launcher, installers, manifests, checksums
   playground [--out FOLDER]   build the page that checks programs in a browser, into target/playground
   competitors                 run other checkers on the seeded mistakes and write tests/competitors.tsv";

@@ -2,8 +2,9 @@
 //!
 //! Knows: the steps and their tools. Must not know: what is tested.
 
-mod book;
+mod audit;
 mod editors;
+mod python;
 mod tools;
 
 use std::env;
@@ -19,8 +20,13 @@ use tools::{TOOLS, install_from_npm, is_in_path, say};
 /// Asks the editor tests for the editors of the system.
 const ALL_EDITORS: &str = "GCHECK_ALL_EDITORS";
 
-/// Makes a missing cargo-deny a failure, where the advisories are within reach of the network.
+/// Makes a missing cargo-deny a failure, and a registry of npm without an answer, where the advisories are within reach of
+/// the network.
 const REQUIRE_ADVISORIES: &str = "GCHECK_REQUIRE_ADVISORIES";
+
+/// Runs hooks of git; an npm package that carries the program.
+const LEFTHOOK: &str = "lefthook";
+const LEFTHOOK_VERSION: &str = "2.2.2";
 
 /// The SARIF validator, as an npm package with its own runtime.
 const SARIF_VALIDATOR: &str = "@microsoft/sarif-multitool-linux";
@@ -63,17 +69,7 @@ pub(crate) fn run(arguments: &[String]) -> anyhow::Result<ExitCode> {
             say("clippy is not installed (`rustup component add clippy`): lints are not checked");
         }
         step("release build", &["build", "--release", "--package", "gcheck"])?;
-        if has_cargo_command("deny") {
-            step("deny", &["deny", "check"])?;
-        } else {
-            say(
-                "cargo-deny is not installed: advisories are not checked; licences and bans are, by the tests of xtask",
-            );
-            // `.github/workflows/ci.yml` installs it and asks for this; nothing else tells when it no longer does.
-            if env::var_os(REQUIRE_ADVISORIES).is_some() {
-                failed.push("deny");
-            }
-        }
+        failed.extend(failed_advisories()?);
     }
     if !failed.is_empty() {
         say(&format!("failed so far: {}", failed.join(", ")));
@@ -95,6 +91,28 @@ pub(crate) fn run(arguments: &[String]) -> anyhow::Result<ExitCode> {
         say(&format!("failed before the tests: {}", failed.join(", ")));
     }
     Ok(if passed && failed.is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE })
+}
+
+/// The steps that find advisories, or may not be left out.
+fn failed_advisories() -> anyhow::Result<Vec<&'static str>> {
+    // `.github/workflows/ci.yml` installs cargo-deny and asks for this; nothing else tells when it no longer does.
+    let must = env::var_os(REQUIRE_ADVISORIES).is_some();
+    let mut failed = Vec::new();
+    let denied = if has_cargo_command("deny") {
+        !cargo(&["deny", "check"])?
+    } else {
+        say(
+            "cargo-deny is not installed: advisories are not checked; licences and bans are, by the tests of xtask",
+        );
+        must
+    };
+    if denied {
+        failed.push("deny");
+    }
+    if !audit::passes(must) {
+        failed.push("npm audit");
+    }
+    Ok(failed)
 }
 
 /// Runs cargo on the workspace; true if it succeeds.
@@ -125,7 +143,8 @@ fn has_cargo_command(name: &str) -> bool {
 /// Installs what is missing; a tool that cannot be installed is reported and not fatal, because its tests skip
 /// themselves.
 fn install_tools() -> anyhow::Result<()> {
-    book::install(&workspace::root().join(TOOLS));
+    python::install(&workspace::root().join(TOOLS));
+    install_from_npm(LEFTHOOK, LEFTHOOK_VERSION, "the recipe for lefthook is not tried with it")?;
     install_interpreter();
     install_linter_server();
     install_schema_validator();

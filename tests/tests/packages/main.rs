@@ -1,12 +1,14 @@
 //! The packages of a release, installed from local files as people install them, and what they install checks a program.
 //!
-//! Knows: pip, npm, dpkg, tar and shells, which are skipped where they are missing. Must not know: how a package is laid
+//! Knows: pip, npm, dpkg, tar and shells, and what runs hooks, which are skipped where they are missing. Must not know: how a package is laid
 //! out. Nothing here reaches a registry. What is packed is the binary of these tests: a build in the profile `dist` would
 //! take minutes.
 
 #![cfg(target_os = "linux")]
 #![expect(clippy::unwrap_used, reason = "a test that meets the unexpected is to fail")]
 
+mod containers;
+mod hooks;
 mod place;
 
 use std::fs;

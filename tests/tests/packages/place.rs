@@ -104,6 +104,12 @@ impl Place {
         fs::set_permissions(self.path(name), fs::Permissions::from_mode(0o755)).unwrap();
     }
 
+    /// Puts the binary of these tests somewhere, as a release has it.
+    pub(crate) fn install_binary(&self, name: &str) {
+        fs::write(self.path(name), binary()).unwrap();
+        fs::set_permissions(self.path(name), fs::Permissions::from_mode(0o755)).unwrap();
+    }
+
     /// Runs a program, one with `/` from this folder; its exit code, and all that it said.
     pub(crate) fn run(&self, program: &str, arguments: &[&str]) -> (i32, String) {
         let program = if program.contains('/') { self.path(program) } else { PathBuf::from(program) };

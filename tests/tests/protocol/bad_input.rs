@@ -60,6 +60,29 @@ fn bytes_that_are_no_message_are_passed_over() {
 }
 
 #[test]
+fn a_program_of_300_megabytes_is_passed_over_and_the_user_told() {
+    let mut session = opened();
+    let uri = session.uri("huge.nc");
+    let head = format!(
+        r#"{{"jsonrpc":"2.0","method":"textDocument/didOpen","params":{{"textDocument":{{"uri":"{uri}","languageId":"gcode","version":1,"text":""#
+    );
+    let lines = "G1 X1. Y2. F100.\\n".repeat(1 << 16);
+    let tail = r#""}}}"#;
+    let times = 300_000_000 / lines.len();
+    let length = head.len() + times * lines.len() + tail.len();
+    session.client.send_bytes(format!("Content-Length: {length}\r\n\r\n{head}").as_bytes());
+    for _ in 0..times {
+        session.client.send_bytes(lines.as_bytes());
+    }
+    session.client.send_bytes(tail.as_bytes());
+    session.client.notification("window/showMessage", |params| {
+        let message = params["message"].as_str().unwrap();
+        message.contains("reads at most 256 MB") && message.contains("`gcheck check`")
+    });
+    is_alive(&mut session, PROGRAM);
+}
+
+#[test]
 fn an_answer_that_nobody_waits_for_is_passed_over() {
     let mut session = opened();
     let body = r#"{"jsonrpc":"2.0","id":4711,"result":null}"#;

@@ -31,11 +31,11 @@ pub(super) fn align(a: &[Section], b: &[Section], tolerance: f64) -> Alignment {
     // Another number for a tool that cuts the same.
     let cuts_same = |a: &Section, b: &Section| !a.print.is_empty() && is_like(a, b);
     let has_title = |a: &Section, b: &Section| a.title == b.title;
-    aligner.between(is_same);
-    aligner.anywhere(is_same);
-    aligner.between(has_name);
-    aligner.between(cuts_same);
-    aligner.between(has_title);
+    aligner.between(&is_same);
+    aligner.anywhere(&is_same);
+    aligner.between(&has_name);
+    aligner.between(&cuts_same);
+    aligner.between(&has_title);
     let count = |sections: &[Section], of: &Section| {
         sections.iter().filter(|section| section.title == of.title && section.name == of.name).count()
     };
@@ -46,11 +46,15 @@ pub(super) fn align(a: &[Section], b: &[Section], tolerance: f64) -> Alignment {
             && count(a, a_section) == 1
             && count(b, b_section) == 1
     };
-    aligner.anywhere(is_only);
-    aligner.anywhere(cuts_same);
+    aligner.anywhere(&is_only);
+    aligner.anywhere(&cuts_same);
     aligner.found.moved.sort_unstable();
     aligner.found
 }
+
+/// May a section of the first run be paired with one of the second? Not generic: the search is large, and would be there for
+/// each question.
+type IsPair<'p> = &'p dyn Fn(&Section, &Section) -> bool;
 
 struct Aligner<'s> {
     a: &'s [Section],
@@ -82,13 +86,13 @@ impl Aligner<'_> {
     }
 
     /// Pairs as many sections as fit between those that are paired in order.
-    fn between(&mut self, is_pair: impl Fn(&Section, &Section) -> bool) {
+    fn between(&mut self, is_pair: IsPair<'_>) {
         let ends = self.found.in_order.iter().copied().skip(1).chain([(self.a.len(), self.b.len())]);
         let gaps = self.found.in_order.iter().zip(ends);
         let mut pairs = Vec::new();
         for (&(from_a, from_b), (to_a, to_b)) in gaps {
             let (left_a, left_b) = (self.unused(0, from_a + 1..to_a), self.unused(1, from_b + 1..to_b));
-            let wrap = |section| Seen { section, is_pair: &is_pair };
+            let wrap = |section| Seen { section, is_pair };
             let a: Vec<_> = left_a.iter().filter_map(|index| self.a.get(*index)).map(wrap).collect();
             let b: Vec<_> = left_b.iter().filter_map(|index| self.b.get(*index)).map(wrap).collect();
             let mut equal = Equal(Vec::new());
@@ -107,7 +111,7 @@ impl Aligner<'_> {
     }
 
     /// Pairs sections wherever they are.
-    fn anywhere(&mut self, is_pair: impl Fn(&Section, &Section) -> bool) {
+    fn anywhere(&mut self, is_pair: IsPair<'_>) {
         let left_a = self.unused(0, 0..self.a.len());
         for b in self.unused(1, 0..self.b.len()) {
             let Some(of_b) = self.b.get(b) else { continue };
@@ -125,12 +129,12 @@ impl Aligner<'_> {
 }
 
 /// A section as the search for a shared order sees it: equal to those that it may be paired with.
-struct Seen<'s, P> {
+struct Seen<'s> {
     section: &'s Section,
-    is_pair: &'s P,
+    is_pair: IsPair<'s>,
 }
 
-impl<P: Fn(&Section, &Section) -> bool> PartialEq for Seen<'_, P> {
+impl PartialEq for Seen<'_> {
     /// The search asks sections of the second run about those of the first.
     fn eq(&self, of_a: &Self) -> bool {
         (self.is_pair)(of_a.section, self.section)

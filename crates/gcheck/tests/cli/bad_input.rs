@@ -1,6 +1,7 @@
 //! Bad input: each gives one clear message with its place and the right exit code, and the other files are still checked.
 
 use std::fmt::Write as _;
+use std::fs;
 use std::time::{Duration, Instant};
 
 use expect_test::{Expect, expect};
@@ -182,6 +183,42 @@ fn a_large_file() {
     let run = shop.gcheck("check large.nc --control haas-mill --output-format concise --quiet --ignore duplicate-sequence-number");
     assert!(start.elapsed() < PATIENCE, "{:?}", start.elapsed());
     assert_eq!((run.code, run.stdout.as_str(), run.stderr.as_str()), (0, "", ""));
+}
+
+/// A program whose first lines are text, with a hole behind them that takes no room on the disk.
+fn a_program_of(shop: &Shop, bytes: u64) {
+    shop.file("huge.nc", GOOD.repeat(2_000));
+    let file = fs::File::options().write(true).open(shop.path("huge.nc")).unwrap();
+    file.set_len(bytes).unwrap();
+}
+
+#[test]
+fn a_file_of_two_gigabytes() {
+    let shop = Shop::with(&[("other.nc", BAD)]);
+    a_program_of(&shop, 2 << 30);
+    let start = Instant::now();
+    for arguments in [
+        "check huge.nc",
+        "fmt huge.nc",
+        "fmt --check huge.nc",
+        "run huge.nc",
+        "stats huge.nc",
+        "plot huge.nc -o huge.svg",
+        "diff huge.nc other.nc",
+        "diff other.nc huge.nc",
+    ] {
+        let run = shop.gcheck(&format!("{arguments} --control haas-mill"));
+        assert_eq!(run.code, 2, "{arguments}: {run}");
+        let said = "huge.nc: is larger than 1 GB, the largest program that gcheck reads\n";
+        assert!(run.stderr.contains(said), "{arguments}: {run}");
+        assert!(run.stderr.contains("help: split it, for example at its tool changes"), "{arguments}: {run}");
+    }
+    assert!(start.elapsed() < PATIENCE, "{:?}", start.elapsed());
+    assert_eq!(fs::metadata(shop.path("huge.nc")).unwrap().len(), 2 << 30);
+    // The other files are checked.
+    let run = shop.gcheck("check huge.nc other.nc --control haas-mill --output-format concise --quiet");
+    assert_eq!(run.rules(), ["unknown-code"]);
+    assert_eq!(run.code, 2);
 }
 
 #[test]
