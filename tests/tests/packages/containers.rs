@@ -9,7 +9,7 @@ use std::process::Command;
 
 use gcheck_packages::{Target, archive, image};
 
-use crate::place::{Place, VERSION, here, with_build};
+use crate::place::{Place, VERSION, here, output, with_build};
 
 /// An image as far as its Dockerfile says it.
 #[derive(Default)]
@@ -80,7 +80,7 @@ fn the_image_starts_what_its_dockerfile_copies() {
         command.args(arguments).current_dir(&folder).env_clear().envs(image.environment.iter().cloned());
         // The cache is in a folder of the container.
         command.env("GCHECK_CACHE", place.path("cache"));
-        let output = command.output().unwrap();
+        let output = output(&mut command);
         (output.status.code(), String::from_utf8([output.stdout, output.stderr].concat()).unwrap())
     };
     let (code, said) = run(&image.command);

@@ -4,10 +4,13 @@
 
 use std::collections::BTreeMap;
 use std::fs;
+use std::io::ErrorKind;
 use std::os::unix::fs::PermissionsExt as _;
 use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::process::{Command, Output};
 use std::sync::OnceLock;
+use std::thread::sleep;
+use std::time::Duration;
 
 use gcheck_packages::{Build, Names, Package, Papers, SHELLS, Target};
 use gcheck_testkit::skips::skip;
@@ -74,6 +77,21 @@ pub(crate) struct Place {
     folder: TempDir,
 }
 
+/// Runs a program that a test has written just now.
+///
+/// While another test starts a child, that one holds open what this process writes, and the system refuses to start a file
+/// that is being written: a moment later it does not.
+pub(crate) fn output(command: &mut Command) -> Output {
+    const TRIES: usize = 100;
+    for _ in 0..TRIES {
+        match command.output() {
+            Err(error) if error.kind() == ErrorKind::ExecutableFileBusy => sleep(Duration::from_millis(20)),
+            result => return result.unwrap_or_else(|error| panic!("{command:?}: {error}")),
+        }
+    }
+    panic!("{command:?}: is being written all the time");
+}
+
 impl Place {
     /// A folder with packages in it, and a program to check.
     pub(crate) fn with(packages: &[Package]) -> Self {
@@ -119,7 +137,7 @@ impl Place {
         command.env("PATH", format!("{}:{path}", self.text("bin")));
         command.env("HOME", self.path("home")).env("PIP_DISABLE_PIP_VERSION_CHECK", "1");
         command.env("GCHECK_DOWNLOAD", format!("file://{}", self.folder.path().display()));
-        let output = command.output().unwrap_or_else(|error| panic!("{}: {error}", program.display()));
+        let output = output(&mut command);
         let said = [output.stdout, output.stderr].concat();
         (output.status.code().unwrap_or(-1), String::from_utf8_lossy(&said).into_owned())
     }

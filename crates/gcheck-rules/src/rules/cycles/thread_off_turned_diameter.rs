@@ -194,8 +194,8 @@ mod tests {
             "fanuc-lathe",
             &threaded(roughed, thread),
             &expect![[r#"
-                9 | G76 X28.16 Z-25. P920 Q300 F1.5
-                  | ^^^ warning[thread-off-turned-diameter] the thread is cut on a part that is larger than its crest
+                11 | G76 X28.16 Z-25. P920 Q300 F1.5
+                   | ^^^ warning[thread-off-turned-diameter] the thread is cut on a part that is larger than its crest
             "#]],
         );
     }
