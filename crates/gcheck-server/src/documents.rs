@@ -29,6 +29,8 @@ pub(crate) struct Document {
     pub(crate) in_force: InForce,
     /// What the host says must be asked again: the head of the text has changed, or something beyond it.
     pub(crate) stale: Stale,
+    /// What it may call has changed since its settings were chosen.
+    pub(crate) has_other_callees: bool,
     /// Changes with everything that findings depend on.
     pub(crate) clock: Clock,
     /// The user wants to see findings of the text as it is: it was opened, saved, or is analysed while it is typed.
@@ -119,6 +121,7 @@ impl Document {
 
     /// Something changed that its findings depend on.
     pub(crate) fn changed(&mut self, stale: Stale) {
+        self.has_other_callees |= stale == Stale::Callees;
         self.stale = self.stale.max(stale);
         self.clock.tick();
     }

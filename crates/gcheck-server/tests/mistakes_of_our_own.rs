@@ -92,6 +92,8 @@ impl Host for Fragile {
 const URI: &str = "file:///work/a.nc";
 
 fn session(text: &str) -> (LanguageClient, std::thread::JoinHandle<Ending>) {
+    // With a trace of all calls, a panic may take longer than an analysis may.
+    std::panic::set_hook(Box::new(|panic| drop(writeln!(std::io::stderr(), "{panic}"))));
     served::session(Fragile, (URI, "gcode"), text, &json!({}))
 }
 

@@ -13,7 +13,8 @@ pub type Question = (&'static str, Value);
 const TO_COME: &str = "still being worked out";
 /// Codes of answers that tell the client to ask again: the text has changed, the server has given the work up.
 const ASK_AGAIN: [i64; 2] = [-32801, -32802];
-/// Members that count or name what a session has: the number of a document, that of an answer.
+/// Members that count or name what a session has: the number of a document, that of an answer. A list is not such a number: the
+/// tokens of a text are called `data` too.
 const OF_THE_SESSION: [&str; 2] = ["data", "resultId"];
 
 /// Questions about a document as a whole, whose text ends at this place.
@@ -129,7 +130,7 @@ fn forget_session(value: &mut Value) {
     match value {
         Value::Array(list) => list.iter_mut().for_each(forget_session),
         Value::Object(members) => {
-            members.retain(|name, _| !OF_THE_SESSION.contains(&name.as_str()));
+            members.retain(|name, value| value.is_array() || !OF_THE_SESSION.contains(&name.as_str()));
             members.values_mut().for_each(forget_session);
         }
         _ => {}
@@ -147,6 +148,9 @@ mod tests {
         let answer = |id: u32, name: &str| json!({ "id": id, "result": { "resultId": id, "items": [{ "label": name, "data": { "n": id } }] } });
         assert_eq!(comparable(answer(1, "G0")), comparable(answer(2, "G0")));
         assert_ne!(comparable(answer(1, "G0")), comparable(answer(1, "G1")));
+        let tokens =
+            |length: u32| json!({ "id": 1, "result": { "resultId": 1, "data": [0, 0, length, 0, 0] } });
+        assert_ne!(comparable(tokens(2)), comparable(tokens(3)));
     }
 
     #[test]

@@ -220,3 +220,17 @@ fn a_caller_is_checked_again_when_what_it_calls_is_typed() {
         params["uri"] == uri.as_str() && all.contains("subprogram-missing")
     });
 }
+
+#[test]
+fn a_caller_is_checked_again_when_its_own_head_is_typed_after_what_it_calls() {
+    let caller = "O1\nG21 G90 G54\nG0 X0. Y0.\nM98 P9010\nG0 Z50.\nM30\n";
+    let mut session = Session::with(&pulling(), &[]);
+    session.open("callee.nc", "O9010\nG4 P100\nM99\n");
+    session.open("a.nc", caller);
+    assert!(!session.pulled("a.nc").join("\n").contains("incremental-left-on"));
+    // Nothing is asked between the two: the choice of the control and the programs that are called are looked at together.
+    session.change("callee.nc", 2, &json!([{ "text": "O9010\nG91 G1 X1. F200.\nM99\n" }]));
+    session.edit("a.nc", 2, [2, 0, 2, 0], " ");
+    let found = session.pulled("a.nc").join("\n");
+    assert!(found.contains("incremental-left-on"), "{found}");
+}

@@ -33,13 +33,15 @@ impl ToolComment {
 
     /// Does it name a tool that cuts counter-clockwise?
     pub(crate) fn is_left_hand(&self) -> bool {
-        // `M12X1.75LH` is cut at its point.
-        let ends_left = |word: &String| {
-            let number = word.strip_suffix("LH").or_else(|| word.strip_suffix('L')).unwrap_or_default();
-            number.ends_with(|c: char| c.is_ascii_digit())
+        // `M12X1.75LH`, and `M12X1.75L`: `100L` is a length.
+        let is_left_thread = |word: &str| {
+            let word = word.to_ascii_uppercase();
+            let names_thread = word.starts_with('M') && word.contains(['X', '-']);
+            let size = word.strip_suffix("LH").or_else(|| word.strip_suffix('L').filter(|_| names_thread));
+            size.is_some_and(|size| size.ends_with(|c: char| c.is_ascii_digit()))
         };
-        self.has(&["LH", "L", "LEFT", "LEFTHAND", "REVERSE", "CCW", "M4", "M04"])
-            || self.words.iter().any(ends_left)
+        let mut words = self.text.split(|c: char| c.is_whitespace() || matches!(c, '(' | ')' | ',' | ';'));
+        self.has(&["LH", "L", "LEFT", "LEFTHAND", "REVERSE", "CCW", "M4", "M04"]) || words.any(is_left_thread)
     }
 
     /// The one size that it gives, as `10 MM`, `1/4 IN` or `DRILL 3/4`: of a drill or an end mill its diameter. `None` where it

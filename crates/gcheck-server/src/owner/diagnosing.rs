@@ -60,7 +60,12 @@ impl Owner {
         self.look_ahead(uri, &stop);
         let analysis = self.analyse(uri, &stop);
         if let Some(document) = self.documents.get_mut(uri) {
-            document.given_up = if analysis.is_err() { document.given_up + 1 } else { 0 };
+            // What a person waits for goes first in any case, and does not count against other questions.
+            document.given_up = match &analysis {
+                Ok(_) => 0,
+                Err(_) if self.waiting.has_urgent() => document.given_up,
+                Err(_) => document.given_up + 1,
+            };
         }
         let Ok(analysis) = analysis else { return };
         let list = self.diagnostics_of(uri, analysis.as_deref());

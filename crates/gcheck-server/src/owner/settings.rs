@@ -194,6 +194,7 @@ impl Owner {
         }
         if let Some(document) = self.documents.get_mut(uri) {
             document.stale = Stale::No;
+            document.has_other_callees = false;
         }
     }
 
@@ -219,7 +220,8 @@ impl Owner {
             && before.choice == in_force.choice
             && before.style == in_force.style
             && before.problems == in_force.problems;
-        if is_same {
+        // The settings hold the programs that are called.
+        if is_same && !document.has_other_callees {
             return;
         }
         self.database.set_settings(document.id, in_force.settings.clone().unwrap_or_else(fallback_settings));

@@ -50,6 +50,7 @@ impl Owner {
                 problems: Vec::new(),
             },
             stale: Stale::Settings,
+            has_other_callees: false,
             clock: Clock::default(),
             wants_findings: true,
             is_edited: false,

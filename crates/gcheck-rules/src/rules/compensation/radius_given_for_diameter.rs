@@ -5,7 +5,7 @@ use gcheck_engine::Units;
 use gcheck_geometry::Mm;
 
 use crate::declare::declare_rule;
-use crate::facts::tool_comment::comment_at_work;
+use crate::facts::tool_comment::{ToolComment, comment_at_work};
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 
 declare_rule! {
@@ -52,19 +52,17 @@ struct RadiusGivenForDiameter;
 /// What a size that was rounded may be off, as a part of it.
 const ROUNDED: f64 = 0.01;
 /// Tools that do not cut with the diameter that names them.
-const OTHER_SHAPES: [&str; 16] = [
+const OTHER_SHAPES: [&str; 14] = [
     "CHAMFER",
     "CHAMFERING",
     "V",
     "VBIT",
-    "BIT",
     "SPOT",
     "SPOTTING",
     "BALL",
     "BALLNOSE",
     "T",
     "TSLOT",
-    "FLUTE",
     "NECK",
     "DOVETAIL",
     "TAPER",
@@ -85,7 +83,7 @@ impl PathRule for RadiusGivenForDiameter {
         else {
             return;
         };
-        let Some(comment) = comment_at_work(cx).filter(|comment| !comment.has(&OTHER_SHAPES)) else { return };
+        let Some(comment) = comment_at_work(cx).filter(|comment| !has_other_size(comment)) else { return };
         let Some(Mm(named)) = comment.size(units) else { return };
         let is = |part: f64| (given / named - part).abs() < part * ROUNDED;
         let other = match (is(0.5), is(2.0)) {
@@ -103,6 +101,16 @@ impl PathRule for RadiusGivenForDiameter {
             .help("`D` takes the diameter of the cutter here: check it, or correct the comment"),
         );
     }
+}
+
+/// Is the size of the comment not the diameter that cuts?
+fn has_other_size(comment: &ToolComment) -> bool {
+    // `3 mm FLUTE` is a length, `4 FLUTE` counts.
+    let is_length = |pair: &[String]| match pair {
+        [unit, flute] => matches!(unit.as_str(), "MM" | "IN" | "INCH") && flute == "FLUTE",
+        _ => false,
+    };
+    comment.has(&OTHER_SHAPES) || comment.words.windows(2).any(is_length)
 }
 
 fn takes_diameter(effect: Effect) -> bool {

@@ -94,7 +94,7 @@ impl PathRule for ThreadBesidePart {
         let Some(([start, root, height], travel)) = self.pass.moved(event) else { return };
         let Some(turned) = Turned::of(cx).filter(|turned| turned.knows(cx)) else { return };
         let [begins, ends] = [&travel.from, &travel.programmed].map(|at| spot(at)[1]);
-        // Toward the chuck a thread comes to the part at last; one in a bore may lie where nothing was turned.
+        // A thread toward the chuck may be cut on a ground bar, or in front of a zero at a shoulder; one in a bore, where nothing was turned.
         let leaves_part = start > root && begins > -SLACK && ends > begins + SLACK;
         let is_in_front = |front: f64| leaves_part && begins > front - SLACK;
         if let Some(front) = turned.front().filter(|front| is_in_front(*front)) {

@@ -55,28 +55,29 @@ declare_rule! {
 
 #[derive(Default, Clone, PartialEq)]
 struct ThreadHeightOffPitch {
-    /// Tools, by the block that put each in, that cut a thread with a cycle of the right height: another one before it roughs.
-    right: Vec<Option<At>>,
+    /// What is reported unless a later cycle of the same thread has the right height: then this one roughs.
     found: Vec<Found>,
 }
 
-remembers!(ThreadHeightOffPitch: right, found);
+remembers!(ThreadHeightOffPitch: found);
 
 /// A cycle of another height.
 #[derive(Clone, PartialEq)]
 struct Found {
     /// The block that put its tool in.
     tool: Option<At>,
+    /// The block that names the thread.
+    named: At,
     finding: Finding,
 }
 
-remembers!(Found: tool, finding);
+remembers!(Found: tool, named, finding);
 
 /// Heights of threads of 60°, as parts of their pitch: 0.541 and 0.613, and what shops make of them.
 const HEIGHTS: std::ops::RangeInclusive<f64> = 0.45..=0.9;
 /// For pitches that were rounded, as a part of them.
 const ROUNDED: f64 = 0.006;
-/// Findings and tools that are kept.
+/// Findings that are kept.
 const MOST: usize = 64;
 
 impl PathRule for ThreadHeightOffPitch {
@@ -103,15 +104,14 @@ impl PathRule for ThreadHeightOffPitch {
         }
         if !HEIGHTS.contains(&(height / thread.pitch)) {
             let finding = finding(cx, &words.height, height, &thread);
-            self.found.extend(finding.map(|finding| Found { tool, finding }));
-        } else if self.right.len() < MOST && !self.right.contains(&tool) {
-            self.right.push(tool);
+            self.found.extend(finding.map(|finding| Found { tool, named: thread.at, finding }));
+        } else {
+            self.found.retain(|found| found.tool != tool || found.named != thread.at);
         }
     }
 
     fn followed(&mut self, _: &FollowedCx<'_>, report: &mut Report<'_>) {
-        let found = std::mem::take(&mut self.found);
-        for found in found.into_iter().filter(|found| !self.right.contains(&found.tool)) {
+        for found in std::mem::take(&mut self.found) {
             report.add(found.finding);
         }
     }

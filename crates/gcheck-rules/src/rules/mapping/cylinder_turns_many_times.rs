@@ -64,8 +64,10 @@ remembers!(CylinderTurnsManyTimes);
 
 /// Turns: after one the cut is where it began, and a little more closes a groove.
 const MOST: f64 = 1.5;
-/// Turns that are off by this part of them are whole.
-const WHOLE: f64 = 0.002;
+/// Turns that are off by so much are whole, with a length that is rounded.
+const WHOLE: f64 = 0.01;
+/// No groove is cleaned by as many turns in one block.
+const CLEANING: f64 = 8.5;
 /// Linear axes that move less do not move: millimetres.
 const SLACK: f64 = 0.01;
 
@@ -96,7 +98,7 @@ impl PathRule for CylinderTurnsManyTimes {
         let goes_along =
             Axis::ALL.into_iter().any(|axis| axis != wrapped && !axis.is_rotary() && way(axis) > SLACK);
         // Whole turns clean the bottom of a groove, and a way back unwinds what was cut before.
-        let is_whole = (turns - turns.round()).abs() <= turns * WHOLE;
+        let is_whole = (turns - turns.round()).abs() <= WHOLE && turns < CLEANING;
         let unwinds = travel.to.raw(wrapped).abs() < travel.from.raw(wrapped).abs();
         if turns.is_nan() || turns <= MOST || goes_along || is_whole || unwinds {
             return;

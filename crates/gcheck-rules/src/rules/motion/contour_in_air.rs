@@ -124,9 +124,11 @@ impl PathRule for ContourInAir {
             _ => return,
         };
         let step = std::mem::take(&mut self.step);
-        let is_left = kind == TravelKind::Rapid || !goes_sideways;
+        let is_left = |level: f64| {
+            kind == TravelKind::Rapid || !goes_sideways && programmed.raw(Axis::Z) > level + SLACK
+        };
         if let Step::Up { depth, level, pieces } = step
-            && is_left
+            && is_left(level)
             && pieces >= FEWEST
             && self.found.len() < MOST
         {
@@ -169,15 +171,18 @@ impl PathRule for ContourInAir {
 }
 
 impl ContourInAir {
-    /// A cut sideways that is not of the pattern.
+    /// A cut sideways that is not of the pattern. Above the zero only a level one counts: ramps lead in and out.
     fn note(&mut self, event: &Event) {
-        let z = match event {
-            Event::Travel(travel) if travel.kind == TravelKind::Feed => travel.programmed.raw(Axis::Z),
-            Event::Arc(arc) => arc.programmed.raw(Axis::Z),
+        let [from, to] = match event {
+            Event::Travel(travel) if travel.kind == TravelKind::Feed && !travel.expanded => {
+                [&travel.from, &travel.to]
+            }
+            Event::Arc(arc) if !arc.expanded => [&arc.from, &arc.to],
             _ => return,
         };
-        self.above |= z > SLACK;
-        self.below |= z < -SLACK;
+        let [from, to] = [from, to].map(|at| at.raw(Axis::Z));
+        self.above |= to > SLACK && (to - from).abs() < SLACK;
+        self.below |= to < -SLACK;
     }
 }
 
@@ -238,6 +243,33 @@ mod tests {
         check_rule(&RULE, "haas-mill", &frame("G1 Z-0.2 F100.\nZ3.\n", "", "G0 Z25."), &expect![[""]]);
         let layer = "G1 Z4. F100.\nX10. F400.\nG0 Z25.\nX0.\n";
         check_rule(&RULE, "haas-mill", &frame("G1 Z-5. F100.\nZ3.\n", layer, "G0 Z25."), &expect![[""]]);
+    }
+
+    #[test]
+    fn ramps_and_cycles_are_not_cuts_above_the_zero() {
+        let found = expect![[r#"
+            3 | G1 Z-5. F100.
+              | ^^^^^^^^^^^^^ warning[contour-in-air] the tool is fed down and up again before the contour
+        "#]];
+        let down = "G1 Z-5. F100.\nZ2.\n";
+        check_rule(
+            &RULE,
+            "haas-mill",
+            &frame(down, "", "G0 Z25.\nG85 X60. Y60. Z-5. R2. F100.\nG80"),
+            &found,
+        );
+        check_rule(
+            &RULE,
+            "haas-mill",
+            &frame(down, "", "G0 Z25.\nX60.\nZ2.\nG1 Z-1.\nX85. Z3.\nG0 Z25."),
+            &found,
+        );
+    }
+
+    #[test]
+    fn a_way_round_a_clamp_to_the_next_hole() {
+        let program = "G21 G90 G54 G0 X0. Y0. S6000 M3\nG43 H2 Z25.\nG1 Z-5. F100.\nZ2.\nX10.\nY40.\nX40.\nY20.\nZ-5.\nZ2.\nG0 Z25.\nM30\n";
+        check_rule(&RULE, "haas-mill", program, &expect![[""]]);
     }
 
     #[test]

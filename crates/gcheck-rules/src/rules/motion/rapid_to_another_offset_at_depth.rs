@@ -12,6 +12,8 @@ use crate::{PathCx, PathRule, Remembers, Report, Run, Uses, Watch, remembers};
 declare_rule! {
     /// The tool has cut below the zero of the part, has not been lifted since, and goes at rapid to a place of another work offset.
     ///
+    /// Cuts of 3 mm or less may be of the face, across a row of blanks, and are not judged.
+    ///
     /// ## Why it matters
     /// Between two fixtures are the wall of the part, the jaws and the clamps. The tool goes through them at rapid. Mostly the retract at
     /// the end of a subprogram is missing.

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use gcheck_controls::{Effect, SystemValue};
+use gcheck_controls::{Effect, LetterSet, SystemValue};
 use gcheck_engine::Ending;
 
 use crate::declare::declare_rule;
@@ -58,9 +58,14 @@ struct TouchNeverChecked {
     used: Option<Range<u32>>,
     /// It goes away from the part.
     is_away: bool,
+    /// The axes that its block names.
+    axes: LetterSet,
 }
 
 remembers!(TouchNeverChecked: probed, used);
+
+/// Words of axes.
+const AXES: LetterSet = LetterSet::of("XYZABCUVW");
 
 impl PathRule for TouchNeverChecked {
     fn memory(&mut self) -> Remembers<'_> {
@@ -79,11 +84,12 @@ impl PathRule for TouchNeverChecked {
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
         self.look(cx);
         if cx.has_effect(touches_work) {
-            // A second touch that alarms makes up for a coarse one that was not looked at.
-            if cx.has_effect(need_not_touch) {
+            let axes = cx.origin().letters.and(AXES);
+            // A second touch along the same axes that alarms makes up for a coarse one that was not looked at.
+            if cx.has_effect(need_not_touch) || axes != self.axes {
                 self.tell(cx, report);
             }
-            self.used = None;
+            (self.used, self.axes) = (None, axes);
             self.probed = cx.has_effect(need_not_touch).then(|| cx.effect_range(need_not_touch));
             self.is_away = cx.has_effect(|effect| effect == Effect::ProbeAwayOptional);
         }
@@ -114,7 +120,7 @@ impl TouchNeverChecked {
     }
 
     fn tell(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
-        let Self { probed, used, is_away } = std::mem::take(self);
+        let Self { probed, used, is_away, axes: _ } = std::mem::take(self);
         let (Some(probed), Some(used)) = (probed, used) else { return };
         if !cx.is_on_every_path() {
             return;

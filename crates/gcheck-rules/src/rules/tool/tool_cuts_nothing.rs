@@ -112,6 +112,11 @@ const FEWEST: usize = 2;
 const LONG: usize = 500;
 /// Findings that are kept.
 const MOST: usize = 64;
+/// Words of comments of tools that cut.
+const CUTTERS: [&str; 16] = [
+    "MILL", "ENDMILL", "DRILL", "TAP", "REAM", "REAMER", "BORE", "BORING", "TURN", "TURNING", "FACE",
+    "FACING", "GROOVE", "THREAD", "CUTTER", "CHAMFER",
+];
 /// Words of comments of tools that work without a cut.
 const OTHER_WORK: [&str; 14] = [
     "FAN",
@@ -181,7 +186,7 @@ impl PathRule for ToolCutsNothing {
             }
             Event::Stop(_) => {
                 if let Some(section) = &mut self.tool {
-                    section.is_stopped = true;
+                    section.is_stopped = section.moves > 0;
                 }
             }
             _ => {}
@@ -287,7 +292,8 @@ fn may_hide(cx: &PathCx<'_>, since: At) -> bool {
 /// Does the comment of the tool name work without a cut?
 fn is_for_other_work(cx: &PathCx<'_>, section: &Section) -> bool {
     let comment = comment_of_number(cx, section.at, whole(f64::from_bits(section.number)));
-    comment.is_some_and(|comment| comment.has(&OTHER_WORK))
+    // `END MILL, CLEAN UP CORNERS` cuts.
+    comment.is_some_and(|comment| comment.has(&OTHER_WORK) && !comment.has(&CUTTERS))
 }
 
 #[cfg(test)]
