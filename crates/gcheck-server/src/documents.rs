@@ -29,8 +29,8 @@ pub(crate) struct Document {
     pub(crate) in_force: InForce,
     /// What the host says must be asked again: the head of the text has changed, or something beyond it.
     pub(crate) stale: Stale,
-    /// What it may call has changed since its settings were chosen.
-    pub(crate) has_other_callees: bool,
+    /// What it may call, since its settings were chosen.
+    pub(crate) callees: Callees,
     /// Changes with everything that findings depend on.
     pub(crate) clock: Clock,
     /// The user wants to see findings of the text as it is: it was opened, saved, or is analysed while it is typed.
@@ -89,6 +89,15 @@ pub(crate) enum Stale {
     Settings,
 }
 
+/// The programs that a document may call.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Callees {
+    /// As they were.
+    Kept,
+    /// Other ones, or with other texts.
+    Changed,
+}
+
 /// A number that changes with a document, and that work elsewhere can look at.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Clock(Arc<AtomicU64>);
@@ -121,7 +130,9 @@ impl Document {
 
     /// Something changed that its findings depend on.
     pub(crate) fn changed(&mut self, stale: Stale) {
-        self.has_other_callees |= stale == Stale::Callees;
+        if stale == Stale::Callees {
+            self.callees = Callees::Changed;
+        }
         self.stale = self.stale.max(stale);
         self.clock.tick();
     }

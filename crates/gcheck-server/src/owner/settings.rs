@@ -13,7 +13,7 @@ use serde_json::Value;
 use super::synchronizing::path_of;
 use super::{HostHandle, Owner, fallback_settings};
 use crate::client::{Abilities, ClientSettings};
-use crate::documents::{OpenTexts, Stale};
+use crate::documents::{Callees, OpenTexts, Stale};
 use crate::mailbox::Kind;
 use crate::proto::{
     CodeLensRefresh, ConfigurationItem, ConfigurationParams, DidChangeWatchedFilesParams,
@@ -194,7 +194,7 @@ impl Owner {
         }
         if let Some(document) = self.documents.get_mut(uri) {
             document.stale = Stale::No;
-            document.has_other_callees = false;
+            document.callees = Callees::Kept;
         }
     }
 
@@ -221,7 +221,7 @@ impl Owner {
             && before.style == in_force.style
             && before.problems == in_force.problems;
         // The settings hold the programs that are called.
-        if is_same && !document.has_other_callees {
+        if is_same && document.callees == Callees::Kept {
             return;
         }
         self.database.set_settings(document.id, in_force.settings.clone().unwrap_or_else(fallback_settings));

@@ -8,7 +8,7 @@ use gcheck_db::Snapshot;
 
 use super::{Owner, fallback_settings};
 use crate::client::Moment;
-use crate::documents::{Clock, Document, Stale, StatisticsRun, is_program};
+use crate::documents::{Callees, Clock, Document, Stale, StatisticsRun, is_program};
 use crate::proto::{
     DidChangeTextDocumentParams, DidCloseTextDocumentParams, DidOpenTextDocumentParams,
     DidSaveTextDocumentParams, MessageType, TextDocumentContentChangeEvent, Uri, WorkspaceDiagnosticRefresh,
@@ -50,7 +50,7 @@ impl Owner {
                 problems: Vec::new(),
             },
             stale: Stale::Settings,
-            has_other_callees: false,
+            callees: Callees::Kept,
             clock: Clock::default(),
             wants_findings: true,
             is_edited: false,

@@ -102,11 +102,11 @@ impl PathRule for ThreadHeightOffPitch {
         if (lead - thread.pitch).abs() > thread.pitch * ROUNDED {
             return;
         }
-        if !HEIGHTS.contains(&(height / thread.pitch)) {
+        if HEIGHTS.contains(&(height / thread.pitch)) {
+            self.found.retain(|found| found.tool != tool || found.named != thread.at);
+        } else {
             let finding = finding(cx, &words.height, height, &thread);
             self.found.extend(finding.map(|finding| Found { tool, named: thread.at, finding }));
-        } else {
-            self.found.retain(|found| found.tool != tool || found.named != thread.at);
         }
     }
 
