@@ -22,8 +22,7 @@ enum Answer {
     NotAsked(String),
 }
 
-/// True unless there is an advisory. That the registry could not be asked is said, and a failure only where advisories
-/// `must` be within reach.
+/// False for an advisory. A registry that cannot be asked is reported, and fails only where advisories `must` be within reach.
 pub(super) fn passes(must: bool) -> bool {
     let mut passes = true;
     for folder in folders_with_lock(&workspace::root().join("editors")) {
