@@ -1,39 +1,50 @@
 //! A rule that panics takes only its own findings with it.
 //!
-//! Knows: which rule is called at the moment, on this thread. Must not know: how rules are called, any rule.
+//! Knows: which rule was called when this thread panicked. Must not know: how rules are called, any rule.
 //!
 //! Rules see a program together, in one pass; one that panics leaves that pass unfinished. So the pass begins again without it.
-//! As long as no rule panics this costs a write to memory or two for each call.
+//! As long as no rule panics this costs a write or two for each call.
 
 use std::borrow::Cow;
 use std::cell::Cell;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
+use std::thread;
 
 use gcheck_diagnostics::RuleMeta;
 
 use crate::Selection;
 
 thread_local! {
-    /// The rule that is called, for as long as the call lasts.
+    /// The rule that panicked.
     static CALLED: Cell<Option<&'static RuleMeta>> = const { Cell::new(None) };
 }
 
 /// Calls a rule.
 pub(crate) fn call<T>(rule: &'static RuleMeta, call: impl FnOnce() -> T) -> T {
-    begin(rule);
-    let result = call();
-    end();
-    result
+    let mut calls = Calls::default();
+    calls.begin(rule);
+    call()
 }
 
-/// From here on this rule is called; for many rules one after another.
-pub(crate) fn begin(rule: &'static RuleMeta) {
-    CALLED.set(Some(rule));
+/// Calls of many rules one after another. Only a panic makes it known which one was called last.
+#[derive(Default)]
+pub(crate) struct Calls {
+    called: Option<&'static RuleMeta>,
 }
 
-/// From here on no rule is called.
-pub(crate) fn end() {
-    CALLED.set(None);
+impl Calls {
+    /// From here on this rule is called.
+    pub(crate) fn begin(&mut self, rule: &'static RuleMeta) {
+        self.called = Some(rule);
+    }
+}
+
+impl Drop for Calls {
+    fn drop(&mut self) {
+        if thread::panicking() && self.called.is_some() {
+            CALLED.set(self.called);
+        }
+    }
 }
 
 /// Does some work with a selection of rules; when a rule panics in it, again without that rule. Gives the rules that panicked.

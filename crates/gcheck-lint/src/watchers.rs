@@ -51,7 +51,6 @@ pub(crate) struct Watchers<'a, 'c> {
     rules: Vec<Active>,
     shared: SharedMemories,
     memo: Rc<TextMemo>,
-    /// By bit of [`Watch`]: indices of the rules that watch it.
     lists: Lists,
     add: &'c mut dyn FnMut(Option<Severity>, Finding),
     /// Findings made already: a loop comes by many times.
@@ -64,6 +63,8 @@ pub(crate) struct Watchers<'a, 'c> {
     scope: Scope,
     /// Blocks of the main file that were read, by number.
     read: FxHashMap<u32, Rc<ReadBlock>>,
+    /// Of a move: hardly any rule asks for something, so it is made once.
+    evaluated: Box<Evaluated>,
     /// The block that is being executed, if it was read.
     current: Option<Rc<ReadBlock>>,
     /// The addresses of the block under way where some stand beside empty variables: those that are left.
@@ -96,6 +97,8 @@ fn lists(rules: &[Active]) -> Lists {
     lists
 }
 
+/// In the place of a rule that has had enough.
+const LEFT: usize = usize::MAX;
 /// Blocks whose words are kept.
 const MAX_READ: usize = 4096;
 
@@ -136,6 +139,7 @@ impl<'a, 'c> Watchers<'a, 'c> {
             changed: true,
             scope: Scope::All,
             read: FxHashMap::default(),
+            evaluated: Box::default(),
             current: None,
             letters: None,
             is_called_only: uses.is_called_only(),
@@ -246,19 +250,25 @@ impl<'a, 'c> Watchers<'a, 'c> {
             }
         };
         let mut report = Report::new(&mut once);
-        let rules = &mut self.rules;
+        let mut calls = containment::Calls::default();
+        let mut is_left = false;
         // Moves come by the million: this loop does nothing for a rule that it could do for all of them.
-        list.retain(|index| {
-            let Some(active) = rules.get_mut(*index) else { return false };
+        for index in list.iter_mut() {
+            let Some(active) = self.rules.get_mut(*index) else { continue };
             if is_one_way && !active.rule.counts_on_some_path() {
-                return true;
+                continue;
             }
             severity.set(active.severity);
-            containment::begin(active.entry.meta);
+            calls.begin(active.entry.meta);
             call(&mut *active.rule, &mut report);
-            !had_enough.take()
-        });
-        containment::end();
+            if had_enough.take() {
+                *index = LEFT;
+                is_left = true;
+            }
+        }
+        if is_left {
+            list.retain(|index| *index != LEFT);
+        }
     }
 
     fn read_block(&mut self, at: At) -> Option<Rc<ReadBlock>> {
@@ -381,7 +391,8 @@ impl<'a, 'c> Watchers<'a, 'c> {
         let read = self.current.take();
         let mut shared = std::mem::take(&mut self.shared);
         let (had_enough, memo) = (Cell::new(false), Rc::clone(&self.memo));
-        let (none, evaluated) = (SharedMemories::default(), Evaluated::default());
+        let evaluated = std::mem::take(&mut self.evaluated);
+        let none = SharedMemories::default();
         let alone = self.context(flow, read.as_deref(), &had_enough, &none, &memo, &evaluated);
         let cx = PathCx { shared: &shared, ..alone };
         let flags = flow.origin.flags;
@@ -401,6 +412,9 @@ impl<'a, 'c> Watchers<'a, 'c> {
         }
         self.current = read;
         self.shared = shared;
+        if evaluated.is_empty() {
+            self.evaluated = evaluated;
+        }
     }
 
     /// What rules remember together goes on with what they were shown.

@@ -91,9 +91,12 @@ impl PathRule for RefusedByMode {
 
     /// Blocks that only move are not shown as blocks. They may move by a code of an earlier block.
     fn rapid(&mut self, cx: &PathCx<'_>, _: &Event, report: &mut Report<'_>) {
-        self.judge(cx, report);
+        if !cx.codes().is_empty() {
+            self.judge(cx, report);
+            return;
+        }
         let Some(lasting) = cx.state().mode(Role::Motion).only() else { return };
-        if self.moved_by != Some(lasting) && cx.codes().is_empty() {
+        if self.moved_by != Some(lasting) {
             self.judge_codes(cx, &[lasting], report);
             self.moved_by = Some(lasting).filter(|_| self.told == Some(cx.origin().at));
         }
