@@ -16,7 +16,7 @@ use crate::Selection;
 
 thread_local! {
     /// The rule that panicked.
-    static CALLED: Cell<Option<&'static RuleMeta>> = const { Cell::new(None) };
+    static PANICKED: Cell<Option<&'static RuleMeta>> = const { Cell::new(None) };
 }
 
 /// Calls a rule.
@@ -42,7 +42,7 @@ impl Calls {
 impl Drop for Calls {
     fn drop(&mut self) {
         if thread::panicking() && self.called.is_some() {
-            CALLED.set(self.called);
+            PANICKED.set(self.called);
         }
     }
 }
@@ -57,11 +57,11 @@ pub(crate) fn without_rules_that_panic<T>(
     let mut selection = Cow::Borrowed(selection);
     let mut failed: Vec<&'static RuleMeta> = Vec::new();
     loop {
-        CALLED.set(None);
+        PANICKED.set(None);
         // Work that is begun again makes all that it uses again.
         match catch_unwind(AssertUnwindSafe(|| work(&selection))) {
             Ok(done) => return (done, failed),
-            Err(panic) => match CALLED.take() {
+            Err(panic) => match PANICKED.take() {
                 Some(rule) if selection.contains(rule.id) => {
                     failed.push(rule);
                     selection.to_mut().leave_out(rule.id);

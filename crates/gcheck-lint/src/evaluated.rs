@@ -29,11 +29,6 @@ impl Evaluated {
     pub(crate) fn block(&self, make: impl FnOnce() -> Option<BlockOfValues>) -> Option<&BlockOfValues> {
         self.block.get_or_init(make).as_ref()
     }
-
-    /// Has nobody asked for anything?
-    pub(crate) fn is_empty(&self) -> bool {
-        self.words.get().is_none() && self.block.get().is_none()
-    }
 }
 
 /// A block with a number in each computed word whose value is certain.

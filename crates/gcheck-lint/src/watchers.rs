@@ -51,6 +51,7 @@ pub(crate) struct Watchers<'a, 'c> {
     rules: Vec<Active>,
     shared: SharedMemories,
     memo: Rc<TextMemo>,
+    /// By bit of [`Watch`]: indices of the rules that watch it.
     lists: Lists,
     add: &'c mut dyn FnMut(Option<Severity>, Finding),
     /// Findings made already: a loop comes by many times.
@@ -63,8 +64,6 @@ pub(crate) struct Watchers<'a, 'c> {
     scope: Scope,
     /// Blocks of the main file that were read, by number.
     read: FxHashMap<u32, Rc<ReadBlock>>,
-    /// Of a move: hardly any rule asks for something, so it is made once.
-    evaluated: Box<Evaluated>,
     /// The block that is being executed, if it was read.
     current: Option<Rc<ReadBlock>>,
     /// The addresses of the block under way where some stand beside empty variables: those that are left.
@@ -139,7 +138,6 @@ impl<'a, 'c> Watchers<'a, 'c> {
             changed: true,
             scope: Scope::All,
             read: FxHashMap::default(),
-            evaluated: Box::default(),
             current: None,
             letters: None,
             is_called_only: uses.is_called_only(),
@@ -251,7 +249,7 @@ impl<'a, 'c> Watchers<'a, 'c> {
         };
         let mut report = Report::new(&mut once);
         let mut calls = containment::Calls::default();
-        let mut is_left = false;
+        let mut any_left = false;
         // Moves come by the million: this loop does nothing for a rule that it could do for all of them.
         for index in list.iter_mut() {
             let Some(active) = self.rules.get_mut(*index) else { continue };
@@ -263,10 +261,10 @@ impl<'a, 'c> Watchers<'a, 'c> {
             call(&mut *active.rule, &mut report);
             if had_enough.take() {
                 *index = LEFT;
-                is_left = true;
+                any_left = true;
             }
         }
-        if is_left {
+        if any_left {
             list.retain(|index| *index != LEFT);
         }
     }
@@ -391,8 +389,7 @@ impl<'a, 'c> Watchers<'a, 'c> {
         let read = self.current.take();
         let mut shared = std::mem::take(&mut self.shared);
         let (had_enough, memo) = (Cell::new(false), Rc::clone(&self.memo));
-        let evaluated = std::mem::take(&mut self.evaluated);
-        let none = SharedMemories::default();
+        let (none, evaluated) = (SharedMemories::default(), Evaluated::default());
         let alone = self.context(flow, read.as_deref(), &had_enough, &none, &memo, &evaluated);
         let cx = PathCx { shared: &shared, ..alone };
         let flags = flow.origin.flags;
@@ -412,9 +409,6 @@ impl<'a, 'c> Watchers<'a, 'c> {
         }
         self.current = read;
         self.shared = shared;
-        if evaluated.is_empty() {
-            self.evaluated = evaluated;
-        }
     }
 
     /// What rules remember together goes on with what they were shown.

@@ -51,20 +51,15 @@ impl PathRule for CycleRepeatedInPlace {
 
     /// A block without a code: its first move goes to the hole.
     fn rapid(&mut self, cx: &PathCx<'_>, _: &Event, report: &mut Report<'_>) {
-        if is_repeated(cx) && cx.codes().is_empty() {
+        if cx.codes().is_empty() {
             judge(cx, report);
         }
     }
 }
 
-/// Has the block a count of repeats?
-fn is_repeated(cx: &PathCx<'_>) -> bool {
-    cx.origin().letters.contains(Letter::of(cx.model.semantics().cycles.repeat))
-}
-
 fn judge(cx: &PathCx<'_>, report: &mut Report<'_>) {
     let letter = cx.model.semantics().cycles.repeat;
-    if !is_repeated(cx) {
+    if !cx.origin().letters.contains(Letter::of(letter)) {
         return;
     }
     let Some(cycle) = repeated(cx) else { return };
