@@ -7,7 +7,7 @@ use crate::motion::MotionRules;
 use crate::schema::{
     Access, AlarmEntry, BlockRules, CodeEntry, CodeList, Confidence, FormatCustoms, FunctionEntry, Hint,
     LetterEntry, Limits, Machine, ModalGroup, Motion, NumberRules, Reference, SettingEntry, SyntaxRules,
-    VariableEntry,
+    VariableEntry, VariableKind,
 };
 use crate::{CodeNumber, Letter, LetterSet};
 
@@ -369,6 +369,18 @@ impl Control {
         let row = next.checked_sub(1).and_then(|row| self.numbered.get(row));
         let entry = row.and_then(|(_, entry)| self.variables.get((*entry)?));
         entry.map_or(Variable::Unlisted, Variable::Known)
+    }
+
+    /// How long a numbered macro variable lives. One that is not listed is taken to live until power off.
+    pub fn variable_kind(&self, number: u32) -> VariableKind {
+        let [first, last] = self.semantics().locals;
+        if (first.max(1)..=last).contains(&number) {
+            return VariableKind::Local;
+        }
+        match self.variable(number) {
+            Variable::Known(entry) => entry.kind,
+            Variable::Unlisted => VariableKind::Common,
+        }
     }
 
     /// A predefined named parameter, by its name without brackets, any case.

@@ -824,6 +824,8 @@ pub enum WordKind {
     Direction,
     /// A whole number; a decimal point is refused.
     Integer,
+    /// A length as a whole number of least increments, whatever numbers without a point count elsewhere.
+    LeastIncrements,
     /// A plain number.
     Real,
     /// A feed rate.
@@ -844,6 +846,13 @@ pub enum WordKind {
     Ratio,
     /// Only its presence counts.
     Flag,
+}
+
+impl WordKind {
+    /// Is it a whole number: a count, a length in least increments, or the name of a block or program?
+    pub const fn is_whole(self) -> bool {
+        matches!(self, Self::Integer | Self::LeastIncrements | Self::Label | Self::Program)
+    }
 }
 
 /// What a code makes move.

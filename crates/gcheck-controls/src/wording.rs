@@ -12,6 +12,7 @@ impl WordKind {
             Self::Angle => "degrees",
             Self::Direction => "direction number",
             Self::Integer => "whole number",
+            Self::LeastIncrements => "length in least increments, a whole number",
             Self::Real => "number",
             Self::Feed => "feed rate",
             Self::Speed => "spindle speed",

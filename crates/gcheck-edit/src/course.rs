@@ -7,14 +7,15 @@
 
 use std::collections::VecDeque;
 
-use gcheck_controls::Effect;
+use gcheck_controls::{Effect, Letter};
 use gcheck_engine::{At, Axis, Model, Position, Units};
 use gcheck_geometry::{Arc, Plane};
+use gcheck_program::Word;
 use gcheck_toolpath::{Act, Doing, Move};
 
 use crate::change::Change;
 use crate::facts::mapping_name;
-use crate::meaning::{Class, Meaning, Read, read};
+use crate::meaning::{Class, Meaning, Read, read, rotary_axis};
 use crate::refusal::Refusal;
 use crate::rigid::{LINEAR, Rigid};
 use crate::run::Executed;
@@ -95,6 +96,7 @@ impl<'c> Course<'c> {
     /// Why the points of the block cannot be moved.
     pub(crate) fn executed(&mut self, block: &Executed<'_>) -> Result<(), Refusal> {
         let read = read(block.place, &block.facts, self.model);
+        self.change_tool(block);
         let before = self.owners;
         if block.is_selected {
             self.selected(block, &read)?;
@@ -122,7 +124,7 @@ impl<'c> Course<'c> {
     fn selected(&mut self, block: &Executed<'_>, read: &Read) -> Result<(), Refusal> {
         match read.class {
             Class::Moves | Class::Operation => self.selected_move(block, read)?,
-            Class::Machine | Class::Reference => self.machine_point(read),
+            Class::Machine | Class::Reference => self.machine_point(block, read),
             Class::Origin { by_point } => self.origin(block, by_point)?,
             Class::Mapping(role) => {
                 return Err(block.refusal(format!(
@@ -263,7 +265,7 @@ impl<'c> Course<'c> {
                     return Err(block.refusal(reason).help(help));
                 }
             }
-            Class::Machine | Class::Reference => self.machine_point(read),
+            Class::Machine | Class::Reference => self.machine_point(block, read),
             Class::Origin { by_point } if self.owners.iter().any(|owner| *owner != Owner::Plain) => {
                 self.origin(block, by_point)?;
             }
@@ -272,7 +274,23 @@ impl<'c> Course<'c> {
         Ok(())
     }
 
-    fn machine_point(&mut self, read: &Read) {
+    /// A tool change takes an axis to the machine's zero, before the words of its block count.
+    fn change_tool(&mut self, block: &Executed<'_>) {
+        let mut codes = block.place.table.words(block.place.block()).iter();
+        if !codes.any(|word| self.model.effect(word.code) == Effect::ToolChange) {
+            return;
+        }
+        let rules = self.model.semantics().tools;
+        let Some(axis) = rules.change_at_zero.and_then(|letter| Axis::of(Letter::of(letter))) else { return };
+        for owners in [&mut self.owners, &mut self.last] {
+            if let Some(owner) = owners.get_mut(axis.index()) {
+                *owner = Owner::Plain;
+            }
+        }
+        self.keep_turned();
+    }
+
+    fn machine_point(&mut self, block: &Executed<'_>, read: &Read) {
         for (_, meaning) in &read.words {
             if let Meaning::Place { axis, .. } = meaning
                 && let Some(owner) = self.owners.get_mut(*axis)
@@ -280,6 +298,20 @@ impl<'c> Course<'c> {
                 *owner = Owner::Plain;
             }
         }
+        // A return without words is one of all axes.
+        let mut codes = block.place.table.words(block.place.block()).iter();
+        let returns = codes.any(|word| matches!(self.model.effect(word.code), Effect::ReturnReference(_)));
+        let names_axis = |(word, meaning): &(Word, Meaning)| {
+            matches!(meaning, Meaning::Place { .. }) || rotary_axis(word, self.model).is_some()
+        };
+        if returns && !read.words.iter().any(names_axis) {
+            self.owners = [Owner::Plain; 3];
+        }
+        self.keep_turned();
+    }
+
+    /// An axis that is turned with one that the machine has placed stays where it is.
+    fn keep_turned(&mut self) {
         if self.rigid.is_some_and(|(rigid, _)| rigid.swaps()) && self.owner(0) != self.owner(1) {
             for owner in self.owners.iter_mut().take(2).filter(|owner| **owner == Owner::Moved) {
                 *owner = Owner::Kept;
@@ -321,7 +353,8 @@ impl<'c> Course<'c> {
                 match passed.class {
                     // A move of the machine leaves the axes where they are that it does not move.
                     Class::Machine | Class::Reference => {
-                        *owner = if (to - from).abs() <= SAME { last } else { *owner };
+                        let stays = (to - from).abs() <= SAME && *owner != Owner::Kept;
+                        *owner = if stays { last } else { *owner };
                     }
                     // A cycle goes to its place and back to the level where it began.
                     _ if is_expanded && axis == passed.depth && (to - passed.level).abs() <= SAME => {

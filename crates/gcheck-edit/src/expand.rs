@@ -2,7 +2,7 @@
 //!
 //! Knows: which moves each block of a cycle made in a run. Must not know: how cycles move (the engine does).
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use gcheck_controls::{CodeIx, DwellWord, Effect, LetterSet};
 use gcheck_engine::{Axis, Event, Model, PathMode, Position, Role, TravelKind, Units};
@@ -70,11 +70,15 @@ pub(crate) struct Cycles<'c> {
     model: &'c Model<'c>,
     events: Vec<Event>,
     found: BTreeMap<u32, Expansion>,
+    /// The first block of a cycle that stays, as it is more than moves and dwells.
+    stays: Option<Refusal>,
+    /// Codes of cycles that stay.
+    staying: BTreeSet<String>,
 }
 
 impl<'c> Cycles<'c> {
     pub(crate) fn new(model: &'c Model<'c>) -> Self {
-        Self { model, events: Vec::new(), found: BTreeMap::new() }
+        Self { model, events: Vec::new(), found: BTreeMap::new(), stays: None, staying: BTreeSet::new() }
     }
 
     pub(crate) fn before(&mut self) {
@@ -96,6 +100,13 @@ impl<'c> Cycles<'c> {
         if !block.is_selected || !block.facts.cycle.is_some() || !self.events.iter().any(expands) {
             return Ok(());
         }
+        if !is_moves_and_dwells(self.model.effect(block.facts.cycle)) {
+            let reason = "this cycle is more than moves and dwells: it taps, or stops and turns the spindle";
+            self.stays.get_or_insert_with(|| block.refusal(reason));
+            let code = self.model.control().code_at(block.facts.cycle);
+            self.staying.extend(code.map(|code| code.number().to_string()));
+            return Ok(());
+        }
         if self.events.len() > MOST_STROKES {
             return Err(block.refusal(format!("this block would become more than {MOST_STROKES} moves")));
         }
@@ -110,10 +121,6 @@ impl<'c> Cycles<'c> {
 
     fn strokes(&self, block: &Executed<'_>) -> Result<Vec<Stroke>, String> {
         let facts = &block.facts;
-        if !is_moves_and_dwells(self.model.effect(facts.cycle)) {
-            return Err("this cycle is more than moves and dwells: it taps, or stops and turns the spindle"
-                .to_owned());
-        }
         if facts.mapped.is_some() || facts.incremental.is_none() {
             return Err(
                 "the modes in effect here put the moves elsewhere than their coordinates say".to_owned()
@@ -148,6 +155,22 @@ impl<'c> Cycles<'c> {
             }
         }
         Ok(strokes)
+    }
+
+    /// What a person has to know of cycles that stay.
+    ///
+    /// # Errors
+    /// Every cycle would stay.
+    pub(crate) fn note(&self) -> Result<Option<String>, Refusal> {
+        let Some(stays) = &self.stays else { return Ok(None) };
+        if self.found.is_empty() {
+            return Err(stays.clone());
+        }
+        let codes: Vec<&str> = self.staying.iter().map(String::as_str).collect();
+        Ok(Some(format!(
+            "{} stays: a cycle that taps, or stops and turns the spindle, is more than moves and dwells",
+            codes.join(", ")
+        )))
     }
 
     /// Writes the moves in the place of the cycles.

@@ -3,6 +3,7 @@
 //! Knows: which word becomes which. Must not know: where the path goes (see [`crate::course`]).
 
 use gcheck_controls::LetterSet;
+use gcheck_engine::Model;
 use gcheck_geometry::Plane;
 use gcheck_program::{Place, Word};
 
@@ -85,6 +86,12 @@ fn put(sheet: &mut Sheet<'_, '_>, place: &Place, word: &Word, letter: char, text
     let letter = if is_small { letter.to_ascii_lowercase() } else { letter };
     let rest: String = head.chars().skip(1).collect();
     sheet.replace(start..value.end, format!("{letter}{rest}{text}"));
+}
+
+/// Has a block a code that a mirror turns the other way round?
+pub(crate) fn switches_side(place: &Place, model: &Model<'_>) -> bool {
+    let mut words = place.table.words(place.block()).iter();
+    words.any(|word| word.code.is_some() && mirrored(model.effect(word.code)).is_some())
 }
 
 /// Codes that turn the other way round.

@@ -42,6 +42,11 @@ pub fn plan(
     if let Some(refusal) = witness.refusal() {
         return Err(refusal);
     }
+    if let Scope::Tool(tool) = scope
+        && !witness.selects_any()
+    {
+        return Err(Refusal::whole(format!("no block runs with T{tool} in the spindle")));
+    }
     let Some(file) = program.file(0) else { return Err(Refusal::whole("the text has no program")) };
     let mut sheet = Sheet::new(program, &file.loaded, model, machine);
     let rows = Rows::of(witness, &file.loaded, program, model);
@@ -80,16 +85,22 @@ pub fn plan(
     let edits = sheet.into_edits();
     rows.check(&edits)?;
     let mut notes = Vec::new();
+    if let Tracker::Cycles(cycles) = &witness.following.tracker {
+        notes.extend(cycles.note()?);
+    }
     if matches!(change, Change::Mirror(..)) && planner.cuts && !edits.is_empty() {
         notes.push(
             "climb milling becomes conventional milling, and the other way round: the spindle still turns as before"
                 .to_owned(),
         );
     }
-    if let Tracker::Rates(rates) = &witness.following.tracker
-        && let Some(name) = &rates.leaves
-    {
-        notes.push(format!("feeds and speeds that {name} gives stay as they are"));
+    if let Tracker::Rates(rates) = &witness.following.tracker {
+        if rates.keeps_threads {
+            notes.push("the feed of a tap and the lead of a thread stay as they are".to_owned());
+        }
+        if let Some(name) = &rates.leaves {
+            notes.push(format!("feeds and speeds that {name} gives stay as they are"));
+        }
     }
     Ok(Plan { edits, notes })
 }
@@ -165,7 +176,8 @@ impl Planner<'_> {
         let read = read(place, &seen.facts, self.model);
         match &self.witness.following.tracker {
             Tracker::Course(course) => {
-                if !read.has_places() {
+                // A side or a way round may be switched in a block of its own.
+                if !read.has_places() && !places::switches_side(place, self.model) {
                     return Ok(());
                 }
                 if !seen.is_certain {

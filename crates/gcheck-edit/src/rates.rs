@@ -38,6 +38,8 @@ pub(crate) struct Rates<'c> {
     inserted: BTreeMap<u32, (Given, Pair<f64>)>,
     /// The block under way cuts a thread.
     threads: bool,
+    /// A tap or a thread of the selection has a feed that stays.
+    pub(crate) keeps_threads: bool,
     /// Another file has feeds or speeds of its own, which stay.
     pub(crate) leaves: Option<String>,
 }
@@ -53,6 +55,7 @@ impl<'c> Rates<'c> {
             own: BTreeMap::new(),
             inserted: BTreeMap::new(),
             threads: false,
+            keeps_threads: false,
             leaves: None,
         }
     }
@@ -88,6 +91,8 @@ impl<'c> Rates<'c> {
         let read = read(block.place, &block.facts, self.model);
         let wanted = self.wanted(block.is_selected, &read, &block.facts);
         self.threads = read.threads && !read.taps;
+        self.keeps_threads |=
+            block.is_selected && read.threads && matches!(self.change, Change::ScaleFeeds(_));
         let is_limit = matches!(read.class, Class::Origin { .. }) || self.is_limit(block);
         let gives = |sought: Meaning| read.words.iter().any(|(_, meaning)| *meaning == sought);
         let gives = Pair { feed: gives(Meaning::Feed), speed: gives(Meaning::Speed) && !is_limit };

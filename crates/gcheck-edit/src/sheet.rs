@@ -185,6 +185,18 @@ impl<'a, 'p> Sheet<'a, 'p> {
         }
     }
 
+    /// A length that counts least increments, times `factor` in other units: the nearest whole number of those.
+    pub(crate) fn increments(&self, number: f64, from: Option<Units>, to: Units, factor: f64) -> String {
+        let numbers = self.model.control().numbers();
+        let least = |units: Units| match (self.reads_all_digits(), units) {
+            (true, _) => 1.0,
+            (_, Units::Inch) => numbers.least_inch,
+            (_, Units::Mm) => numbers.least_mm,
+        };
+        let count = number * factor * from.map_or(1.0, least) / least(to);
+        self.hand.write("1", count.round(), 0)
+    }
+
     /// The value of a word times `factor` and more by `offset`, both in units of the program, in the form that it has.
     ///
     /// # Errors
@@ -203,7 +215,17 @@ impl<'a, 'p> Sheet<'a, 'p> {
         match word.value {
             Value::Number(number) => {
                 let value = number * count * factor + offset;
-                if (count - 1.0).abs() > 1e-12 {
+                let counts = (count - 1.0).abs() > 1e-12;
+                if counts && number == 0.0 {
+                    // Zero is zero whatever it counts; the new number says itself what it counts.
+                    let form = self.hand.padded(decimals);
+                    return Ok(if value == 0.0 {
+                        text.to_owned()
+                    } else {
+                        self.hand.write(&form, value, decimals)
+                    });
+                }
+                if counts {
                     // It counts least increments, and has no point.
                     let counts = value / count;
                     if (counts - counts.round()).abs() > 1e-3 {

@@ -4,7 +4,7 @@
 
 use std::collections::BTreeMap;
 
-use gcheck_controls::{Effect, Letter, WordKind};
+use gcheck_controls::{Effect, Letter, LetterSet, WordKind};
 use gcheck_engine::{FeedMode, Model, Role, Units};
 use gcheck_program::{Place, Value, Word};
 
@@ -84,7 +84,13 @@ impl<'c> Conversion<'c> {
                 continue;
             }
             let (range, _) = sheet.value(place, word);
-            let text = sheet.converted(place, word, facts.units, self.to, factor)?;
+            let counts = kind(place, word, facts, self.model) == Some(WordKind::LeastIncrements);
+            let text = match word.value {
+                Value::Number(number) if counts && !word.shape.point => {
+                    sheet.increments(number, facts.units, self.to, factor)
+                }
+                _ => sheet.converted(place, word, facts.units, self.to, factor)?,
+            };
             sheet.replace(range, text);
         }
         Ok(())
@@ -115,16 +121,22 @@ fn factor(place: &Place, word: &Word, facts: &Facts, model: &Model<'_>, to: Unit
         }
         Meaning::Direction | Meaning::Polar | Meaning::Other => {}
     }
+    let is_length =
+        matches!(kind(place, word, facts, model), Some(WordKind::Length | WordKind::LeastIncrements));
+    is_length.then_some(length)
+}
+
+/// What the value of a word is: as its code says, or the cycle that it stays from, or else its address. `None` also for digits
+/// that are packed into a number.
+fn kind(place: &Place, word: &Word, facts: &Facts, model: &Model<'_>) -> Option<WordKind> {
     let control = model.control();
-    let codes = place.table.words(place.block()).iter().filter_map(|word| control.code_at(word.code));
-    let entry = { codes }.find_map(|code| {
-        code.entry().words.iter().find(|entry| Letter::parse(&entry.letter) == Some(word.letter))
-    });
-    // A word that stays from a cycle before is what the cycle says it is.
-    let cycle = control.code_at(facts.cycle);
-    let of_cycle = cycle.and_then(|code| {
-        code.entry().words.iter().find(|entry| Letter::parse(&entry.letter) == Some(word.letter))
-    });
-    let kind = entry.or(of_cycle).map(|entry| entry.kind).or_else(|| Some(control.letter(word.letter)?.kind));
-    (kind == Some(WordKind::Length)).then_some(length)
+    let words = place.table.words(place.block());
+    let codes = words.iter().map(|word| word.code).chain([facts.cycle]);
+    let mut entries = codes.filter_map(|code| control.code_at(code)).flat_map(|code| &code.entry().words);
+    let Some(entry) = entries.find(|entry| Letter::parse(&entry.letter) == Some(word.letter)) else {
+        return Some(control.letter(word.letter)?.kind);
+    };
+    let others = LetterSet::of(&entry.packed_without);
+    let is_packed = !entry.packed.is_empty() && !words.iter().any(|word| others.contains(word.letter));
+    (!is_packed).then_some(entry.kind)
 }

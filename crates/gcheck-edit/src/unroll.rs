@@ -3,8 +3,9 @@
 //! Knows: which blocks of a loop a run executed, in which order. Must not know: how expressions are computed (the engine does).
 
 use std::collections::BTreeMap;
+use std::ops::Range;
 
-use gcheck_controls::WordKind;
+use gcheck_controls::{Control, VariableKind, WordKind};
 use gcheck_engine::{
     AbstractValue, At, Concrete, ConcreteValue, Look, Machine, Model, Program, State, Units,
 };
@@ -149,6 +150,22 @@ impl<'c> Loops<'c> {
         if kinds.iter().any(|kind| matches!(kind, StatementKind::Print | StatementKind::Command)) {
             return refuse("this block prints or commands something in each turn", "select lines without it");
         }
+        for kind in &kinds {
+            let StatementKind::Assign { target, .. } = kind else { continue };
+            let what = match target {
+                Target::Variable(number)
+                    if self.model.control().variable_kind(*number) == VariableKind::System =>
+                {
+                    "a variable of the control itself"
+                }
+                Target::Computed(_) => "a variable by a computed number, which may be read after the program",
+                Target::Named(name) if is_global(program, place, name) => {
+                    "a global parameter, which other programs may read"
+                }
+                _ => continue,
+            };
+            return refuse(&format!("in each turn this block sets {what}"), "select lines without it");
+        }
         let is_conditional =
             kinds.iter().any(|kind| matches!(kind, StatementKind::If { .. } | StatementKind::Guard { .. }));
         let says = words.iter().any(|word| word.letter.ascii() != b'N');
@@ -254,7 +271,7 @@ impl<'c> Loops<'c> {
             let place = program.file(0).and_then(|file| file.loaded.place(first, program.dialect()));
             Refusal::at(place.map_or(0..0, |place| place.range()), reason).help(help)
         };
-        let values = left(program, turns.blocks, state)
+        let values = left(program, self.model.control(), turns.blocks, state)
             .map_err(|reason| refusal(reason, "unroll only loops whose variables nothing else reads"))?;
         let new = Done { last, lines: turns.lines, values };
         if self.done.get(&first).is_some_and(|old| *old != new) {
@@ -278,9 +295,16 @@ impl<'c> Loops<'c> {
     }
 }
 
-/// The values that a loop leaves to blocks outside of it.
+/// Is a named parameter one of all programs, as LinuxCNC writes them: `#<_name>`?
+fn is_global(program: &Program<'_>, place: &Place, name: &Range<u32>) -> bool {
+    let in_file = place.base + name.start..place.base + name.end;
+    program.file(0).is_some_and(|file| file.loaded.slice(in_file).trim_start().starts_with('_'))
+}
+
+/// The values that a loop leaves to blocks outside of it, and to programs that run later.
 fn left(
     program: &Program<'_>,
+    control: &Control,
     [first, last]: [u32; 2],
     state: &State<Concrete>,
 ) -> Result<Vec<(u32, f64)>, String> {
@@ -319,7 +343,8 @@ fn left(
     }
     assigned.sort_unstable();
     assigned.dedup();
-    assigned.retain(|variable| reads_any || read.contains(variable));
+    let outlives = |variable: u32| control.variable_kind(variable) != VariableKind::Local;
+    assigned.retain(|variable| reads_any || outlives(*variable) || read.contains(variable));
     let value = |variable: u32| {
         let value = state.local(variable).copied().unwrap_or_else(|| state.variables().get(variable));
         match value {

@@ -180,6 +180,11 @@ impl<'c> Witness<'c> {
         self.blocks.iter().rev().flatten().find_map(|seen| seen.facts.units)
     }
 
+    /// Has a run come to a block that is to be changed?
+    pub(crate) fn selects_any(&self) -> bool {
+        self.blocks.iter().flatten().any(|seen| seen.is_selected)
+    }
+
     /// Why the change cannot be proved, as far as the runs have shown.
     pub(crate) fn refusal(&self) -> Option<Refusal> {
         self.unfollowed.as_ref().or(self.following.refusal.as_ref()).cloned()

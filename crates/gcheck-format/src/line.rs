@@ -5,7 +5,7 @@
 
 use std::ops::Range;
 
-use gcheck_controls::{Letter, WordKind};
+use gcheck_controls::Letter;
 use gcheck_program::Dialect;
 use gcheck_syntax::SyntaxKind as K;
 
@@ -422,8 +422,7 @@ impl<'s> Writer<'s> {
 /// May zeros after the point of such a word go? Not where the number is a name.
 fn takes_fractions(letter: Letter, dialect: &Dialect<'_>) -> bool {
     let kind = dialect.control().letter(letter).map(|entry| entry.kind);
-    !matches!(letter.ascii(), b'G' | b'M' | b'N' | b'O')
-        && kind.is_some_and(|kind| !matches!(kind, WordKind::Integer | WordKind::Label | WordKind::Program))
+    !matches!(letter.ascii(), b'G' | b'M' | b'N' | b'O') && kind.is_some_and(|kind| !kind.is_whole())
 }
 
 /// `1.50` without the zeros at its end; a digit and the point stay.

@@ -10,8 +10,8 @@ use gcheck_diagnostics::Edit;
 use gcheck_program::OLabel;
 
 use crate::symbols::{
-    Occurrence, Symbol, callers, computed_call, files_of, has_indirect_variables, is_elsewhere, kind_of,
-    leaves, o_name_range, occurrences, parameter_key, returned_to, stem_matches, subs, symbol_at,
+    Occurrence, Symbol, callers, computed_call, files_of, has_indirect_variables, is_elsewhere, leaves,
+    o_name_range, occurrences, parameter_key, returned_to, stem_matches, subs, symbol_at,
 };
 use crate::{FileEdits, ReferenceKind, Workspace, WorkspaceFile};
 
@@ -288,7 +288,7 @@ fn check_variable(
     part: Option<&Range<u32>>,
 ) -> Checked {
     let control = file.snapshot.control();
-    match kind_of(control, number) {
+    match control.variable_kind(number) {
         VariableKind::System => return refuse(format!("#{number} is the control's own")),
         VariableKind::Retained => {
             return refuse(format!("the control keeps #{number} over power off: other programs may use it"));
@@ -357,7 +357,7 @@ fn check_new(workspace: &Workspace, file: &WorkspaceFile, symbol: &Symbol, new: 
             Symbol::Branch { label: OLabel::of_name(parameter_key(name)), part: part.clone() }
         }
         (Symbol::Variable { number: old, part }, NewName::Number(number)) => {
-            if *number == 0 || kind_of(control, *number) != kind_of(control, *old) {
+            if *number == 0 || control.variable_kind(*number) != control.variable_kind(*old) {
                 return refuse(format!("#{number} is not the same kind of variable as #{old}"));
             }
             Symbol::Variable { number: *number, part: part.clone() }

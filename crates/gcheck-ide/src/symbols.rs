@@ -4,7 +4,7 @@
 
 use std::ops::Range;
 
-use gcheck_controls::{CodeIx, Control, Effect, ReturnTo, Variable, VariableKind, WordKind};
+use gcheck_controls::{CodeIx, Control, Effect, ReturnTo, VariableKind, WordKind};
 use gcheck_db::{DocumentId, Snapshot};
 use gcheck_program::{Call, CallKind, FileIndex, Jump, OKeyword, OLabel, OWord, profile};
 use gcheck_syntax::SyntaxKind;
@@ -225,7 +225,7 @@ pub(crate) fn files_of<'w>(
         | Symbol::Parameter { part: Some(_), .. } => workspace.file(document).into_iter().collect(),
         Symbol::Program(_) | Symbol::Subroutine(_) => workspace.files.iter().collect(),
         Symbol::Variable { number, .. } => {
-            let kind = workspace.file(document).map(|file| kind_of(file.snapshot.control(), *number));
+            let kind = workspace.file(document).map(|file| file.snapshot.control().variable_kind(*number));
             match kind {
                 // What the control keeps over programs may be set by any of them.
                 Some(VariableKind::Retained | VariableKind::System) => workspace.files.iter().collect(),
@@ -233,18 +233,6 @@ pub(crate) fn files_of<'w>(
             }
         }
         Symbol::Parameter { .. } => joined_by_calls(workspace, document),
-    }
-}
-
-/// How long a variable lives.
-pub(crate) fn kind_of(control: &Control, number: u32) -> VariableKind {
-    let [first, last] = control.semantics().locals;
-    if (first.max(1)..=last).contains(&number) {
-        return VariableKind::Local;
-    }
-    match control.variable(number) {
-        Variable::Known(entry) => entry.kind,
-        Variable::Unlisted => VariableKind::Common,
     }
 }
 
@@ -558,7 +546,7 @@ fn variables(snapshot: &Snapshot, lexemes: &[Lexeme], scopes: &Scopes) -> Vec<Oc
                 let digits = text.trim_start_matches('#').trim_end_matches('.');
                 let Ok(number) = digits.parse() else { continue };
                 let start = lexeme.range.start + 1;
-                let part = (self::kind_of(control, number) == VariableKind::Local)
+                let part = (control.variable_kind(number) == VariableKind::Local)
                     .then(|| scopes.around(snapshot, start));
                 let symbol = Symbol::Variable { number, part };
                 found.push(Occurrence { symbol, range: start..start + digits.len() as u32, kind });

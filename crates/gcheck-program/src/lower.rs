@@ -98,14 +98,13 @@ impl<'c> Dialect<'c> {
     /// Prepares a control.
     pub fn new(control: &'c Control) -> Self {
         let mut letters = [LetterFacts::UNKNOWN; Letter::COUNT];
-        let is_whole = |kind| matches!(kind, WordKind::Integer | WordKind::Label | WordKind::Program);
         // What is a length elsewhere may be a count with some code: `Q` of `G74` on a lathe.
-        let words = control.codes().flat_map(|code| &code.entry().words).filter(|word| is_whole(word.kind));
+        let words = control.codes().flat_map(|code| &code.entry().words).filter(|word| word.kind.is_whole());
         let counts_with_a_code: LetterSet = words.filter_map(|word| Letter::parse(&word.letter)).collect();
         let all = (0..=u8::MAX).filter_map(|b| Letter::new(b).or_else(|| Letter::sign(b)));
         for letter in all.chain([Letter::CORNER_R, Letter::CORNER_C, Letter::CORNER_A]) {
             let Some(entry) = control.letter(letter) else { continue };
-            let integer = is_whole(entry.kind);
+            let integer = entry.kind.is_whole();
             // Coordinates and centres are read by the million.
             let is_coordinate = entry.axis || LetterSet::of("IJKR").contains(letter);
             let with_a_code = counts_with_a_code.contains(letter) && !is_coordinate;

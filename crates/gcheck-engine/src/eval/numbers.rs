@@ -109,7 +109,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         }
         let numbers = self.model.control().numbers();
         match self.kind_read(letter, words) {
-            Some(WordKind::Integer) if semantics.computed_counts_round => self.to_multiple(value, 1.0),
+            Some(WordKind::Integer | WordKind::LeastIncrements) if semantics.computed_counts_round => {
+                self.to_multiple(value, 1.0)
+            }
             Some(WordKind::Angle) if semantics.computed_lengths_round => {
                 self.to_multiple(value, numbers.least_angle)
             }

@@ -31,7 +31,7 @@ impl ValueRange {
     fn new(letter: Letter, kind: WordKind, [min, max, above]: [Option<f64>; 3]) -> Option<Self> {
         let range = Self {
             letter,
-            whole: matches!(kind, WordKind::Integer | WordKind::Program),
+            whole: matches!(kind, WordKind::Integer | WordKind::LeastIncrements | WordKind::Program),
             min: min.unwrap_or(f64::NEG_INFINITY),
             max: max.unwrap_or(f64::INFINITY),
             above: above.unwrap_or(f64::NEG_INFINITY),
@@ -200,7 +200,7 @@ impl CodeContract {
 }
 
 fn is_count(word: &WordEntry) -> bool {
-    matches!(word.kind, WordKind::Integer | WordKind::Program | WordKind::Label)
+    word.kind.is_whole()
 }
 
 impl BlockContract {

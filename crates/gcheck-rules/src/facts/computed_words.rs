@@ -81,7 +81,7 @@ fn judged(value: &AbstractValue, facts: &WordFacts<'_>) -> Option<(f64, Why, boo
 
 fn why(value: f64, facts: &WordFacts<'_>) -> Option<Why> {
     let low = facts.min.is_some_and(|min| value < min) || facts.above.is_some_and(|above| value <= above);
-    let is_count = matches!(facts.kind, WordKind::Integer | WordKind::Program | WordKind::Label);
+    let is_count = facts.kind.is_whole();
     if low || value < 0.0 && !facts.negative {
         Some(Why::Small)
     } else if facts.max.is_some_and(|max| value > max) {

@@ -99,8 +99,8 @@ pub enum EditCommand {
     },
     /// Write loops turn by turn, with values in the place of variables
     ///
-    /// `WHILE … END` and the O-word loops of LinuxCNC become plain blocks; an assignment stays only if a later block reads
-    /// the variable.
+    /// `WHILE … END` and the O-word loops of LinuxCNC become plain blocks. Variables that a later block reads, or that
+    /// live longer than the program, get their last value.
     UnrollLoop {
         /// The program and the part of it that changes.
         #[command(flatten)]
@@ -254,10 +254,17 @@ impl EditCommand {
     }
 }
 
+/// Nobody means a larger factor: `80` is 80 percent.
+const MOST: f64 = 10.0;
+
 fn factor(text: &str) -> Result<f64, String> {
     let (number, per) = text.strip_suffix('%').map_or((text, 1.0), |number| (number, 100.0));
     match number.trim().parse::<f64>() {
-        Ok(value) if value.is_finite() && value > 0.0 => Ok(value / per),
+        Ok(value) if value.is_finite() && value > 0.0 && value / per <= MOST => Ok(value / per),
+        Ok(value) if value > MOST && per == 1.0 => {
+            Err(format!("that is {value} times as fast; write {value}% if you mean percent"))
+        }
+        Ok(value) if value > MOST => Err(format!("a factor is {MOST} or less, which is {}%", MOST * 100.0)),
         _ => Err("write a factor above zero, such as 0.8 or 80%".to_owned()),
     }
 }

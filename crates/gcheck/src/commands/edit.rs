@@ -18,7 +18,7 @@ use crate::args::{
 };
 use crate::console::{finish, say};
 use crate::execution::{self, Prepared, Rests, Session, Start};
-use crate::{Problem, output, paths, rewriting};
+use crate::{Problem, discovery, output, paths, rewriting};
 
 /// Runs the command; the exit code is its result.
 pub(crate) fn run(global: &Global, command: &EditCommand) -> Result<u8, Problem> {
@@ -26,6 +26,11 @@ pub(crate) fn run(global: &Global, command: &EditCommand) -> Result<u8, Problem>
     let change = change(command)?;
     // Nothing may rest on a control that was just switched on.
     let mut prepared = execution::prepare(global, &execution(target), Start::Any)?;
+    let is_dry = target.check || target.diff;
+    let is_standard_input = paths::is_standard_input(&target.file);
+    if !is_dry && !is_standard_input {
+        discovery::refuse_to_leave(&prepared.path, std::slice::from_ref(&target.file))?;
+    }
     let scope = scope(target, &prepared)?;
     if matches!(change, Change::Convert(_)) && scope != Scope::All {
         return Err(Problem::new("a program is converted as a whole, as the feed and other words stay in effect from block to block")
@@ -39,8 +44,6 @@ pub(crate) fn run(global: &Global, command: &EditCommand) -> Result<u8, Problem>
     };
     let before = prepared.source.to_bytes();
     let after = apply_to_bytes(&before, &planned.edits);
-    let is_dry = target.check || target.diff;
-    let is_standard_input = paths::is_standard_input(&target.file);
     let tolerance = target.tolerance.unwrap_or(change.tolerance());
     let asked = proof::Asked { change: &change, scope: &scope, tolerance, units: planned.units };
     // Also where no word changes: the moves may not be as the change says for that very reason.

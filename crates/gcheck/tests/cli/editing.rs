@@ -407,10 +407,11 @@ fn taps_keep_their_lead_and_threads_too() {
         "haas-mill",
         "scale-feeds 0.5",
         &expect![[r#"
-        11 G1 X30. F100.
-        ! part.nc: changed for haas-mill: every feed is 0.5 times what it was, within 0.001 mm (13 moves compared)
-        exit 0
-    "#]],
+            11 G1 X30. F100.
+            ! part.nc: changed for haas-mill: every feed is 0.5 times what it was, within 0.001 mm (13 moves compared)
+            ! note: the feed of a tap and the lead of a thread stay as they are
+            exit 0
+        "#]],
     );
     changes(
         program,
@@ -958,6 +959,29 @@ fn usage() {
 
             For more information, try '--help'.
         "#]],
+        ),
+        (
+            "edit scale-feeds 80 part.nc",
+            expect![[r#"
+                error: invalid value '80' for '<FACTOR>': that is 80 times as fast; write 80% if you mean percent
+
+                For more information, try '--help'.
+            "#]],
+        ),
+        (
+            "edit scale-speeds 5000% part.nc",
+            expect![[r#"
+                error: invalid value '5000%' for '<FACTOR>': a factor is 10 or less, which is 1000%
+
+                For more information, try '--help'.
+            "#]],
+        ),
+        (
+            "edit mirror x part.nc --tool 99",
+            expect![[r#"
+                error: part.nc: cannot mirror the path: no block runs with T99 in the spindle
+                part.nc: nothing is changed
+            "#]],
         ),
         (
             "edit rotate 45 part.nc",
@@ -1712,10 +1736,11 @@ fn a_thread_that_has_its_lead_in_a_word_of_its_own() {
         "linuxcnc",
         "scale-feeds 0.8",
         &expect![[r#"
-         5 G1 X30 F0.16
-        ! part.nc: changed for linuxcnc: every feed is 0.8 times what it was, within 0.001 mm (76 moves compared)
-        exit 0
-    "#]],
+             5 G1 X30 F0.16
+            ! part.nc: changed for linuxcnc: every feed is 0.8 times what it was, within 0.001 mm (76 moves compared)
+            ! note: the feed of a tap and the lead of a thread stay as they are
+            exit 0
+        "#]],
     );
 }
 
@@ -2042,4 +2067,230 @@ fn a_length_that_is_not_configured_is_unknown() {
     let run = shop.gcheck("edit incremental part.nc --control linuxcnc");
     assert_eq!(run.code, 0, "{}", run.stderr);
     assert_eq!(shop.read("part.nc"), "G21 G90 G54\nT1 M6\nG0 X0 Y0 Z50\nG43 H1\nG0 Z5\nG91 Z-2\nM2\n");
+}
+
+#[test]
+fn zero_without_a_point_becomes_a_number_that_says_what_it_counts() {
+    let program = "%\nO1\nG21 G17 G90 G94 G54 G40 G80\nT1 M6\nG0 X0 Y0\nG43 H1 Z10.\nG1 Z0 F300.\nX50. Y0\nG0 Z10.\nM30\n%\n";
+    changes(
+        program,
+        "haas-mill",
+        "translate --x 15 --z 1.5",
+        &expect![[r#"
+         5 G0 X15. Y0
+         6 G43 H1 Z11.5
+         7 G1 Z1.5 F300.
+         8 X65. Y0
+         9 G0 Z11.5
+        ! part.nc: changed for haas-mill: every move is shifted by X15 Z1.5, within 0.001 mm (5 moves compared)
+        exit 0
+    "#]],
+    );
+    changes(
+        program,
+        "haas-mill",
+        "incremental",
+        &expect![[r#"
+         7 G91 G1 Z-10. F300.
+        ! part.nc: changed for haas-mill: every move is as before, within 0.001 mm (5 moves compared)
+        exit 0
+    "#]],
+    );
+}
+
+#[test]
+fn places_of_the_machine_stay_whatever_code_goes_there() {
+    // A tool change takes Z to the machine's zero; a return without words is one of all axes.
+    let program = "%\nO1\nG21 G17 G90 G94 G54 G40 G80\nT1 M6\nG0 X5. Y20.\nG43 H1 Z10.\nG1 Z-2. F300.\nG0 Z10.\nT2 M6\nG0 X6. Y21.\nG43 H2 Z10.\nG1 Z-3. F300.\nG0 Z10.\nG53 Y0.\nG28\nM30\n%\n";
+    changes(
+        program,
+        "haas-mill",
+        "translate --z 1.5",
+        &expect![[r#"
+         6 G43 H1 Z11.5
+         7 G1 Z-0.5 F300.
+         8 G0 Z11.5
+        11 G43 H2 Z11.5
+        12 G1 Z-1.5 F300.
+        13 G0 Z11.5
+        ! part.nc: changed for haas-mill: every move is shifted by Z1.5, within 0.001 mm (10 moves compared)
+        exit 0
+    "#]],
+    );
+    changes(
+        program,
+        "haas-mill",
+        "mirror X",
+        &expect![[r#"
+         5 G0 X-5. Y20.
+        10 G0 X-6. Y21.
+        ! part.nc: changed for haas-mill: every move is mirrored at X0, within 0.001 mm (10 moves compared)
+        ! note: climb milling becomes conventional milling, and the other way round: the spindle still turns as before
+        exit 0
+    "#]],
+    );
+    changes(
+        program,
+        "haas-mill",
+        "rotate 90",
+        &expect![[r#"
+         5 G0 X-20. Y5.
+        10 G0 X-21. Y6.
+        ! part.nc: changed for haas-mill: every move is rotated by 90° about X0 Y0, within 0.001 mm (10 moves compared)
+        exit 0
+    "#]],
+    );
+}
+
+#[test]
+fn a_side_that_is_switched_in_a_block_of_its_own_is_mirrored() {
+    let program = "%\nO1\nG21 G17 G90 G94 G54 G40 G80\nT1 M6\nG0 X-10. Y-10.\nG43 H1 Z10.\nG1 Z-2. F300.\nG41 D1\nX0. Y0.\nY40.\nX50.\nG40\nX60. Y50.\nG0 Z10.\nM30\n%\n";
+    changes(
+        program,
+        "haas-mill",
+        "mirror X",
+        &expect![[r#"
+         5 G0 X10. Y-10.
+         8 G42 D1
+        11 X-50.
+        13 X-60. Y50.
+        ! part.nc: changed for haas-mill: every move is mirrored at X0, within 0.001 mm (8 moves compared)
+        ! note: climb milling becomes conventional milling, and the other way round: the spindle still turns as before
+        ! note: the size of cutter 1 is not known; the proof takes a radius of 0.01 mm
+        exit 0
+    "#]],
+    );
+}
+
+#[test]
+fn a_lathe_drills_along_z_whatever_the_plane() {
+    let program = "%\nO1\nG21 G18 G40 G99 G54\nT0101\nG97 S800 M3\nG0 X0. Z10.\nG81 Z-12. R2. F0.1\nG80\nG0 Z50.\nM30\n%\n";
+    changes(
+        program,
+        "haas-lathe",
+        "translate --z 1.5",
+        &expect![[r#"
+         6 G0 X0. Z11.5
+         7 G81 Z-10.5 R3.5 F0.1
+         9 G0 Z51.5
+        ! part.nc: changed for haas-lathe: every move is shifted by Z1.5, within 0.001 mm (5 moves compared)
+        exit 0
+    "#]],
+    );
+}
+
+#[test]
+fn a_cycle_that_taps_stays_beside_others() {
+    let program = "%\nO1\nG21 G17 G90 G94 G54 G40 G80\nT3 M6\nS500 M3\nG0 X0. Y0.\nG43 H3 Z5.\nG81 Z-10. R2. F100.\nG80\nG84 Z-10. R2. F500.\nG80\nM30\n%\n";
+    changes(
+        program,
+        "haas-mill",
+        "expand-cycle",
+        &expect![[r#"
+         8 G0 Z2.
+         9 G1 Z-10. F100.
+        10 G0 Z5.
+        12 G84 Z-10. R2. F500.
+        13 G80
+        14 M30
+        15 %
+        ! part.nc: changed for haas-mill: every move is as before, within 0.001 mm (9 moves compared)
+        ! note: G84 stays: a cycle that taps, or stops and turns the spindle, is more than moves and dwells
+        exit 0
+    "#]],
+    );
+}
+
+#[test]
+fn values_that_a_loop_leaves_to_later_programs_stay() {
+    let head =
+        "%\nO1\nG21 G17 G90 G54 G40 G80\n#1=0\n#501=0\nG0 X0. Y0. Z5.\nWHILE [#1 LT 2] DO1\nG0 X[#1*10.]\n";
+    let tail = "#1=#1+1\nEND1\nM30\n%\n";
+    changes(
+        &format!("{head}#501=#501+1\n{tail}"),
+        "fanuc-mill",
+        "unroll-loop",
+        &expect![[r#"
+         7 G0 X0.
+         8 G0 X10.
+         9 #501=2.
+        10 M30
+        11 %
+        ! part.nc: changed for fanuc-mill: every move is as before, within 0.001 mm (2 moves compared)
+        exit 0
+    "#]],
+    );
+    refuses(
+        &format!("{head}#5221=#1\n{tail}"),
+        "fanuc-mill",
+        "unroll-loop",
+        &expect![[r#"
+        error: part.nc:9:1: cannot unroll the loop: in each turn this block sets a variable of the control itself
+          |
+        9 | #5221=#1
+          | ^^^^^^^^
+          help: select lines without it
+        part.nc: nothing is changed
+    "#]],
+    );
+    refuses(
+        &format!("{head}#[500+#1]=5.\n{tail}"),
+        "fanuc-mill",
+        "unroll-loop",
+        &expect![[r#"
+        error: part.nc:9:1: cannot unroll the loop: in each turn this block sets a variable by a computed number, which may be read after the program
+          |
+        9 | #[500+#1]=5.
+          | ^^^^^^^^^^^^
+          help: select lines without it
+        part.nc: nothing is changed
+    "#]],
+    );
+    refuses(
+        "G21 G90\n#<n>=0\no1 while [#<n> lt 2]\n  G0 X[#<n>*10]\n  #<_parts>=[#<n>+1]\n  #<n>=[#<n>+1]\no1 endwhile\nM2\n",
+        "linuxcnc",
+        "unroll-loop",
+        &expect![[r#"
+            error: part.nc:5:1: cannot unroll the loop: in each turn this block sets a global parameter, which other programs may read
+              |
+            5 |   #<_parts>=[#<n>+1]
+              | ^^^^^^^^^^^^^^^^^^^^
+              help: select lines without it
+            part.nc: nothing is changed
+        "#]],
+    );
+}
+
+#[test]
+fn lengths_in_least_increments_are_converted_to_whole_numbers() {
+    let program = "%\nO1\nG21 G18 G40 G99 G54\nT0101\nG97 S500 M3\nG0 X0. Z2.54\nG74 R0.508\nG74 Z-20.32 Q5080 F0.1\nG0 X50.8 Z50.8\nT0202\nG0 X22.86 Z5.08\nG76 P010060 Q51 R0.0254\nG76 X18.288 Z-20.32 P914 Q305 F1.5\nG0 X50.8 Z50.8\nM30\n%\n";
+    changes(
+        program,
+        "fanuc-lathe",
+        "inch",
+        &expect![[r#"
+         3 G20 G18 G40 G99 G54
+         6 G0 X0. Z0.1
+         7 G74 R0.02
+         8 G74 Z-0.8 Q2000 F0.003937
+         9 G0 X2. Z2.
+        11 G0 X0.9 Z0.2
+        12 G76 P010060 Q20 R0.001
+        13 G76 X0.72 Z-0.8 P360 Q120 F0.059055
+        14 G0 X2. Z2.
+        ! part.nc: changed for fanuc-lathe: every move is as before, within 0.002 mm (65 moves compared)
+        exit 0
+    "#]],
+    );
+}
+
+#[cfg(unix)]
+#[test]
+fn a_link_that_leads_out_of_its_folder_is_not_written_through() {
+    let shop = Shop::with(&[("out/part.nc", PART), ("in/other.nc", PART)]);
+    std::os::unix::fs::symlink(shop.path("out/part.nc"), shop.path("in/link.nc")).unwrap();
+    let run = shop.gcheck("edit translate --x 10 in/link.nc --control haas-mill");
+    assert_eq!(shop.read("out/part.nc"), PART, "nothing is written");
+    assert_eq!(run.code, 2);
+    assert!(run.stderr.contains("is a link that leads out of the folder"), "{}", run.stderr);
 }

@@ -39,7 +39,7 @@ fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
     for word in cx.words().iter().filter(|w| w.shape.point) {
         let general = cx.control().letter(word.letter);
         if let Some(facts) = cx.facts(word)
-            && is_whole(facts.kind)
+            && takes_no_point(facts.kind)
             && cx.is_plain(&facts)
             // The meaning of a word that no code of the block reads is unknown here.
             && (facts.code.is_some() || general.is_some_and(|entry| entry.free))
@@ -49,15 +49,18 @@ fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
     }
 }
 
-fn is_whole(kind: WordKind) -> bool {
-    matches!(kind, WordKind::Integer | WordKind::Label | WordKind::Program | WordKind::Milliseconds)
+fn takes_no_point(kind: WordKind) -> bool {
+    kind.is_whole() || kind == WordKind::Milliseconds
 }
 
 fn finding(cx: &BlockCx<'_>, word: &Word, facts: &WordFacts<'_>) -> Finding {
     let text = cx.text(word);
     // That an address is whole everywhere is more certain than its meaning with one code.
-    let general =
-        cx.control().letter(word.letter).filter(|entry| is_whole(entry.kind)).map(|entry| entry.confidence);
+    let general = cx
+        .control()
+        .letter(word.letter)
+        .filter(|entry| takes_no_point(entry.kind))
+        .map(|entry| entry.confidence);
     let confidence = general.map_or(facts.confidence, |general| general.max(facts.confidence));
     let help = match word.number() {
         // A time in milliseconds with a point may have been meant as seconds.

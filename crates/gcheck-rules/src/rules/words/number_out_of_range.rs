@@ -41,7 +41,7 @@ declare_rule! {
 
 fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
     let is_bound = |w: &WordEntry| {
-        w.min.is_some() || w.max.is_some() || w.above.is_some() || !w.gaps.is_empty() || is_count(w.kind)
+        w.min.is_some() || w.max.is_some() || w.above.is_some() || !w.gaps.is_empty() || w.kind.is_whole()
     };
     let has_bounds = |code: Code<'_>| code.entry().words.iter().any(is_bound);
     let has_gap = |word: &Word| cx.control().letter(word.letter).is_some_and(|entry| !entry.gaps.is_empty());
@@ -74,7 +74,7 @@ fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
             report.add(no_spindle(cx, word, &facts, assumed));
         } else if is_in_gap(value, &facts) && !is_sign && cx.is_plain(&facts) {
             report.add(in_gap(cx, word, &facts));
-        } else if is_count(facts.kind) && value.fract() != 0.0 {
+        } else if facts.kind.is_whole() && value.fract() != 0.0 {
             if !told && cx.is_plain(&facts) && has_meaning(cx, word, &facts) {
                 report.add(fraction(cx, word, &facts, value));
             }
@@ -105,11 +105,6 @@ fn nearest_reading(cx: &BlockCx<'_>, word: &Word, facts: &WordFacts<'_>, value: 
 /// Is it known what the word is? In a block without its code, the mode in effect may read it.
 fn has_meaning(cx: &BlockCx<'_>, word: &Word, facts: &WordFacts<'_>) -> bool {
     facts.code.is_some() || cx.control().letter(word.letter).is_some_and(|entry| entry.free)
-}
-
-/// Does the word count something, or name it by its number?
-fn is_count(kind: WordKind) -> bool {
-    matches!(kind, WordKind::Integer | WordKind::Program | WordKind::Label)
 }
 
 /// Decimals that controls leave away where a number counts.
