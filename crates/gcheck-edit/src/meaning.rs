@@ -124,8 +124,8 @@ pub(crate) fn read(place: &Place, facts: &Facts, model: &Model<'_>) -> Read {
         class(&codes, words, model)
     };
     // On many controls a cycle drills along Z whatever the plane.
-    let plane = if model.semantics().cycles.all_planes { facts.plane } else { None };
-    let depth = if model.drills_across(facts.cycle) { 0 } else { plane.unwrap_or(Plane::Xy).axes().2 };
+    let drilled = if model.semantics().cycles.all_planes { facts.plane } else { None };
+    let depth = if model.drills_across(facts.cycle) { 0 } else { drilled.unwrap_or(Plane::Xy).axes().2 };
     let meanings = words.iter().map(|word| {
         if facts.is_row {
             return (*word, Meaning::Other);

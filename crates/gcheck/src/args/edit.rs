@@ -258,13 +258,14 @@ impl EditCommand {
 const MOST: f64 = 10.0;
 
 fn factor(text: &str) -> Result<f64, String> {
-    let (number, per) = text.strip_suffix('%').map_or((text, 1.0), |number| (number, 100.0));
-    match number.trim().parse::<f64>() {
-        Ok(value) if value.is_finite() && value > 0.0 && value / per <= MOST => Ok(value / per),
-        Ok(value) if value > MOST && per == 1.0 => {
-            Err(format!("that is {value} times as fast; write {value}% if you mean percent"))
+    let percent = text.strip_suffix('%');
+    let factor = |number: f64| if percent.is_some() { number / 100.0 } else { number };
+    match percent.unwrap_or(text).trim().parse::<f64>() {
+        Ok(number) if number > 0.0 && factor(number) <= MOST => Ok(factor(number)),
+        Ok(number) if number > MOST && percent.is_none() && number.is_finite() => {
+            Err(format!("that is {number} times as fast; write {number}% if you mean percent"))
         }
-        Ok(value) if value > MOST => Err(format!("a factor is {MOST} or less, which is {}%", MOST * 100.0)),
+        Ok(number) if number > MOST => Err(format!("a factor is {MOST} or less, which is {}%", MOST * 100.0)),
         _ => Err("write a factor above zero, such as 0.8 or 80%".to_owned()),
     }
 }
