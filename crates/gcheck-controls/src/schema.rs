@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 
 use serde::Deserialize;
 
-use crate::SyntaxForm;
+use crate::{LetterSet, SyntaxForm};
 
 /// `control.toml`: what kind of control this is, and how it reads text and numbers.
 #[derive(Debug, Clone, Deserialize)]
@@ -170,6 +170,17 @@ pub struct NumberRules {
     pub source: String,
     /// How sure they are.
     pub confidence: Confidence,
+}
+
+impl NumberRules {
+    /// What one counts on a word in least increments: inches or millimetres.
+    pub fn least(&self, in_inches: bool) -> f64 {
+        match (self.unpointed, in_inches) {
+            (Unpointed::AsWritten, _) => 1.0,
+            (_, true) => self.least_inch,
+            (_, false) => self.least_mm,
+        }
+    }
 }
 
 /// What `X1` means.
@@ -846,6 +857,13 @@ pub enum WordKind {
     Ratio,
     /// Only its presence counts.
     Flag,
+}
+
+impl WordEntry {
+    /// Is its number made of packed digits in a block that has these letters, and no value of its own?
+    pub fn is_packed_beside(&self, letters: LetterSet) -> bool {
+        !self.packed.is_empty() && !letters.intersects(LetterSet::of(&self.packed_without))
+    }
 }
 
 impl WordKind {

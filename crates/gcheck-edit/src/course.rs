@@ -15,7 +15,7 @@ use gcheck_toolpath::{Act, Doing, Move};
 
 use crate::change::Change;
 use crate::facts::mapping_name;
-use crate::meaning::{Class, Meaning, Read, read, rotary_axis};
+use crate::meaning::{Class, Meaning, Read, read};
 use crate::refusal::Refusal;
 use crate::rigid::{LINEAR, Rigid};
 use crate::run::Executed;
@@ -62,6 +62,8 @@ pub(crate) struct Course<'c> {
     passed: VecDeque<Passed>,
     /// Of the last move.
     last: [Owner; 3],
+    /// The axis that a tool change of the last block has taken to the machine's zero.
+    changed_at: Option<Axis>,
     reached: Position,
 }
 
@@ -75,6 +77,7 @@ impl<'c> Course<'c> {
             owners: [Owner::Plain; 3],
             passed: VecDeque::with_capacity(REMEMBERED),
             last: [Owner::Plain; 3],
+            changed_at: None,
             reached: Position::UNKNOWN,
         }
     }
@@ -88,6 +91,7 @@ impl<'c> Course<'c> {
     pub(crate) fn begin(&mut self) {
         self.owners = [Owner::Plain; 3];
         self.last = [Owner::Plain; 3];
+        self.changed_at = None;
         self.reached = Position::UNKNOWN;
         self.passed.clear();
     }
@@ -96,7 +100,11 @@ impl<'c> Course<'c> {
     /// Why the points of the block cannot be moved.
     pub(crate) fn executed(&mut self, block: &Executed<'_>) -> Result<(), Refusal> {
         let read = read(block.place, &block.facts, self.model);
-        self.change_tool(block);
+        if let Some(axis) = self.changed_at.take()
+            && let Some(owner) = self.last.get_mut(axis.index())
+        {
+            *owner = Owner::Plain;
+        }
         let before = self.owners;
         if block.is_selected {
             self.selected(block, &read)?;
@@ -118,6 +126,7 @@ impl<'c> Course<'c> {
             after: self.owners,
             level,
         });
+        self.change_tool(block);
         Ok(())
     }
 
@@ -274,20 +283,19 @@ impl<'c> Course<'c> {
         Ok(())
     }
 
-    /// A tool change takes an axis to the machine's zero, before the words of its block count.
+    /// A tool change takes an axis to the machine's zero, after the move of its block.
     fn change_tool(&mut self, block: &Executed<'_>) {
         let mut codes = block.place.table.words(block.place.block()).iter();
         if !codes.any(|word| self.model.effect(word.code) == Effect::ToolChange) {
             return;
         }
-        let rules = self.model.semantics().tools;
-        let Some(axis) = rules.change_at_zero.and_then(|letter| Axis::of(Letter::of(letter))) else { return };
-        for owners in [&mut self.owners, &mut self.last] {
-            if let Some(owner) = owners.get_mut(axis.index()) {
-                *owner = Owner::Plain;
-            }
+        let letter = self.model.semantics().tools.change_at_zero;
+        let axis = letter.and_then(|letter| Axis::of(Letter::of(letter))).filter(|axis| goes(block, *axis));
+        let Some(axis) = axis else { return };
+        if let Some(owner) = self.owners.get_mut(axis.index()) {
+            *owner = Owner::Plain;
+            self.changed_at = Some(axis);
         }
-        self.keep_turned();
     }
 
     fn machine_point(&mut self, block: &Executed<'_>, read: &Read) {
@@ -299,13 +307,21 @@ impl<'c> Course<'c> {
             }
         }
         // A return without words is one of all axes.
-        let mut codes = block.place.table.words(block.place.block()).iter();
-        let returns = codes.any(|word| matches!(self.model.effect(word.code), Effect::ReturnReference(_)));
-        let names_axis = |(word, meaning): &(Word, Meaning)| {
-            matches!(meaning, Meaning::Place { .. }) || rotary_axis(word, self.model).is_some()
+        let words = block.place.table.words(block.place.block());
+        let returns =
+            words.iter().any(|word| matches!(self.model.effect(word.code), Effect::ReturnReference(_)));
+        let axes = self.model.control().axes();
+        let increments = &self.model.semantics().increments;
+        let names_axis = |word: &Word| {
+            axes.contains(word.letter)
+                || increments.keys().any(|name| Letter::parse(name) == Some(word.letter))
         };
-        if returns && !read.words.iter().any(names_axis) {
-            self.owners = [Owner::Plain; 3];
+        if returns && !words.iter().any(names_axis) {
+            for (owner, axis) in self.owners.iter_mut().zip(LINEAR) {
+                if goes(block, axis) {
+                    *owner = Owner::Plain;
+                }
+            }
         }
         self.keep_turned();
     }
@@ -399,6 +415,11 @@ impl<'c> Course<'c> {
         let both = [first, second];
         both.into_iter().all(is_same) && (both.into_iter().all(is_moved) || both.into_iter().all(is_plain))
     }
+}
+
+/// Is an axis elsewhere after a block? One whose condition does not hold goes nowhere.
+fn goes(block: &Executed<'_>, axis: Axis) -> bool {
+    block.state.position().raw(axis).to_bits() != block.before.raw(axis).to_bits()
 }
 
 /// A block of another file moves with the whole program only where it gives increments, and only along a shift.

@@ -72,13 +72,21 @@ pub(crate) struct Cycles<'c> {
     found: BTreeMap<u32, Expansion>,
     /// The first block of a cycle that stays, as it is more than moves and dwells.
     stays: Option<Refusal>,
-    /// Codes of cycles that stay.
+    /// Codes of cycles that stay, and their blocks by number.
     staying: BTreeSet<String>,
+    staying_blocks: BTreeSet<u32>,
 }
 
 impl<'c> Cycles<'c> {
     pub(crate) fn new(model: &'c Model<'c>) -> Self {
-        Self { model, events: Vec::new(), found: BTreeMap::new(), stays: None, staying: BTreeSet::new() }
+        Self {
+            model,
+            events: Vec::new(),
+            found: BTreeMap::new(),
+            stays: None,
+            staying: BTreeSet::new(),
+            staying_blocks: BTreeSet::new(),
+        }
     }
 
     pub(crate) fn before(&mut self) {
@@ -105,7 +113,15 @@ impl<'c> Cycles<'c> {
             self.stays.get_or_insert_with(|| block.refusal(reason));
             let code = self.model.control().code_at(block.facts.cycle);
             self.staying.extend(code.map(|code| code.number().to_string()));
-            return Ok(());
+            self.staying_blocks.insert(block.at.block);
+        }
+        if self.staying_blocks.contains(&block.at.block) {
+            let also_drills = self.found.contains_key(&block.at.block)
+                || is_moves_and_dwells(self.model.effect(block.facts.cycle));
+            return match &self.stays {
+                Some(stays) if also_drills => Err(stays.clone()),
+                _ => Ok(()),
+            };
         }
         if self.events.len() > MOST_STROKES {
             return Err(block.refusal(format!("this block would become more than {MOST_STROKES} moves")));
@@ -167,10 +183,7 @@ impl<'c> Cycles<'c> {
             return Err(stays.clone());
         }
         let codes: Vec<&str> = self.staying.iter().map(String::as_str).collect();
-        Ok(Some(format!(
-            "{} stays: a cycle that taps, or stops and turns the spindle, is more than moves and dwells",
-            codes.join(", ")
-        )))
+        Ok(Some(format!("cycles that tap, or stop and turn the spindle, stay: {}", codes.join(", "))))
     }
 
     /// Writes the moves in the place of the cycles.

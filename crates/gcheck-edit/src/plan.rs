@@ -45,7 +45,7 @@ pub fn plan(
     if let Scope::Tool(tool) = scope
         && !witness.selects_any()
     {
-        return Err(Refusal::whole(format!("no block runs with T{tool} in the spindle")));
+        return Err(Refusal::whole(format!("no block is known to run with T{tool}")));
     }
     let Some(file) = program.file(0) else { return Err(Refusal::whole("the text has no program")) };
     let mut sheet = Sheet::new(program, &file.loaded, model, machine);
@@ -176,11 +176,17 @@ impl Planner<'_> {
         let read = read(place, &seen.facts, self.model);
         match &self.witness.following.tracker {
             Tracker::Course(course) => {
-                // A side or a way round may be switched in a block of its own.
-                if !read.has_places() && !places::switches_side(place, self.model) {
+                let certain = if read.has_places() {
+                    seen.is_certain
+                } else if course.rigid().is_some_and(|rigid| !rigid.is_shift())
+                    && places::switches_side(place, self.model)
+                {
+                    // A side or a way round that is switched in a block of its own.
+                    seen.keeps_plane
+                } else {
                     return Ok(());
-                }
-                if !seen.is_certain {
+                };
+                if !certain {
                     let reason = "this block runs more than once, under different modes, so its words mean different places";
                     return Err(Refusal::at(place.range(), reason));
                 }

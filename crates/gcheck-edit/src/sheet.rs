@@ -185,16 +185,18 @@ impl<'a, 'p> Sheet<'a, 'p> {
         }
     }
 
-    /// A length that counts least increments, times `factor` in other units: the nearest whole number of those.
-    pub(crate) fn increments(&self, number: f64, from: Option<Units>, to: Units, factor: f64) -> String {
-        let numbers = self.model.control().numbers();
-        let least = |units: Units| match (self.reads_all_digits(), units) {
-            (true, _) => 1.0,
-            (_, Units::Inch) => numbers.least_inch,
-            (_, Units::Mm) => numbers.least_mm,
-        };
-        let count = number * factor * from.map_or(1.0, least) / least(to);
-        self.hand.write("1", count.round(), 0)
+    /// A length that counts least increments, times `factor` in other units: the nearest whole number of those; `None` where
+    /// that is none.
+    pub(crate) fn increments(
+        &self,
+        number: f64,
+        from: Option<Units>,
+        to: Units,
+        factor: f64,
+    ) -> Option<String> {
+        let least = |units: Units| self.model.control().numbers().least(units == Units::Inch);
+        let count = (number * factor * from.map_or(1.0, least) / least(to)).round();
+        (count != 0.0).then(|| self.hand.write("1", count, 0))
     }
 
     /// The value of a word times `factor` and more by `offset`, both in units of the program, in the form that it has.

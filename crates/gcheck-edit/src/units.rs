@@ -4,7 +4,7 @@
 
 use std::collections::BTreeMap;
 
-use gcheck_controls::{Effect, Letter, LetterSet, WordKind};
+use gcheck_controls::{Effect, Letter, WordKind};
 use gcheck_engine::{FeedMode, Model, Role, Units};
 use gcheck_program::{Place, Value, Word};
 
@@ -87,7 +87,14 @@ impl<'c> Conversion<'c> {
             let counts = kind(place, word, facts, self.model) == Some(WordKind::LeastIncrements);
             let text = match word.value {
                 Value::Number(number) if counts && !word.shape.point => {
-                    sheet.increments(number, facts.units, self.to, factor)
+                    sheet.increments(number, facts.units, self.to, factor).ok_or_else(|| {
+                        Refusal::at(range.clone(), "this length would be less than one least increment")
+                    })?
+                }
+                Value::Expr(_) if counts => {
+                    let reason =
+                        "this word counts least increments, and what a computed one counts is not certain";
+                    return Err(Refusal::at(range, reason));
                 }
                 _ => sheet.converted(place, word, facts.units, self.to, factor)?,
             };
@@ -136,7 +143,5 @@ fn kind(place: &Place, word: &Word, facts: &Facts, model: &Model<'_>) -> Option<
     let Some(entry) = entries.find(|entry| Letter::parse(&entry.letter) == Some(word.letter)) else {
         return Some(control.letter(word.letter)?.kind);
     };
-    let others = LetterSet::of(&entry.packed_without);
-    let is_packed = !entry.packed.is_empty() && !words.iter().any(|word| others.contains(word.letter));
-    (!is_packed).then_some(entry.kind)
+    (!entry.is_packed_beside(place.block().letters)).then_some(entry.kind)
 }

@@ -29,9 +29,14 @@ pub fn assume_cutters(machine: &mut Machine, assumptions: &BTreeSet<Assumption>)
 
 /// Puts the axes, the work offsets and the lengths of tools, which a run did not know, somewhere, so that both paths are known
 /// all the way. A change is planned without these numbers: one that rests on how things are at the start, such as the first
-/// absolute word written as an increment, has another path from elsewhere.
-pub fn assume_places(machine: &mut Machine, assumptions: &BTreeSet<Assumption>) {
+/// absolute word written as an increment, has another path from elsewhere. The answer is whether anything was unknown.
+pub fn assume_places(machine: &mut Machine, assumptions: &BTreeSet<Assumption>) -> bool {
+    let mut assumes = false;
     for assumption in assumptions {
+        assumes |= matches!(
+            assumption,
+            Assumption::StartPosition | Assumption::WorkOffset(_) | Assumption::ToolLength(_)
+        );
         match assumption {
             Assumption::StartPosition => machine.start = Some(somewhere(0)),
             Assumption::WorkOffset(number) => {
@@ -47,6 +52,7 @@ pub fn assume_places(machine: &mut Machine, assumptions: &BTreeSet<Assumption>) 
             _ => {}
         }
     }
+    assumes
 }
 
 fn tool(machine: &mut Machine, number: u32) -> &mut Tool {
@@ -96,7 +102,7 @@ mod tests {
         told.set(Axis::X, 100.0);
         machine.offsets.insert(1, WorkOffset { origin: told, rotation: 0.0 });
         let unknown = [Assumption::StartPosition, Assumption::WorkOffset(1), Assumption::ToolLength(7)];
-        assume_places(&mut machine, &BTreeSet::from(unknown));
+        assert!(assume_places(&mut machine, &BTreeSet::from(unknown)));
         let offset = machine.offsets.get(&1).unwrap();
         assert!((offset.origin.raw(Axis::X) - 100.0).abs() < 1e-12);
         assert!(offset.origin.raw(Axis::Y).is_finite());

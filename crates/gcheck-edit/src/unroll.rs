@@ -5,7 +5,7 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use gcheck_controls::{Control, VariableKind, WordKind};
+use gcheck_controls::{Control, Effect, VariableKind, WordKind};
 use gcheck_engine::{
     AbstractValue, At, Concrete, ConcreteValue, Look, Machine, Model, Program, State, Units,
 };
@@ -17,6 +17,8 @@ use crate::refusal::Refusal;
 use crate::scope::Scope;
 use crate::sheet::Sheet;
 
+/// Decimals of the value that a variable has after a loop.
+const FINEST: usize = 9;
 /// Lines that a loop may become.
 const MOST_LINES: usize = 20_000;
 
@@ -36,7 +38,11 @@ struct Turns {
     /// Its first and last block.
     blocks: [u32; 2],
     depth: usize,
+    /// Assignments stay in each turn: a program that the loop calls may read them, or they act by themselves.
+    keeps: bool,
     lines: Vec<String>,
+    /// Variables that a turn has set, and whether that is certain: no condition decided it.
+    set: BTreeMap<u32, bool>,
 }
 
 /// A loop that has run.
@@ -87,7 +93,9 @@ impl<'c> Loops<'c> {
             && let Some(blocks) = self.outermost.iter().find(|[first, _]| *first == at.block)
             && self.scope.selects(starts, tool(state))
         {
-            self.under_way = Some(Turns { blocks: *blocks, depth, lines: Vec::new() });
+            let keeps = self.keeps_assignments(program, *blocks);
+            self.under_way =
+                Some(Turns { blocks: *blocks, depth, keeps, lines: Vec::new(), set: BTreeMap::new() });
         }
         if self.under_way.is_some() { self.turn(program, machine, at, place, state) } else { Ok(()) }
     }
@@ -133,6 +141,34 @@ impl<'c> Loops<'c> {
         }
     }
 
+    /// Do the assignments of a loop do more than count its turns and compute its words?
+    fn keeps_assignments(&self, program: &Program<'_>, [first, last]: [u32; 2]) -> bool {
+        let control = self.model.control();
+        let Some(file) = program.file(0) else { return false };
+        let mut places = (first..=last).filter_map(|number| file.loaded.place(number, program.dialect()));
+        places.any(|place| {
+            let mut words = place.table.words(place.block()).iter();
+            let calls = words.any(|word| {
+                control.code_at(word.code).is_some_and(|code| code.entry().any_words)
+                    || matches!(
+                        self.model.effect(word.code),
+                        Effect::MacroCall | Effect::MacroModal | Effect::CallProgram | Effect::CallLocal
+                    )
+            });
+            calls
+                || place.table.statements(place.ix).any(|statement| match &statement.kind {
+                    StatementKind::OWord { keyword, .. } => *keyword == OKeyword::Call,
+                    StatementKind::Assign { target, .. } => match target {
+                        Target::Variable(number) => control.variable_kind(*number) == VariableKind::System,
+                        Target::Named(name) => is_global(program, &place, name),
+                        Target::Computed(_) => true,
+                        Target::Invalid => false,
+                    },
+                    _ => false,
+                })
+        })
+    }
+
     /// Writes down a block of a loop with the values that it has in this turn.
     fn turn(
         &mut self,
@@ -150,22 +186,6 @@ impl<'c> Loops<'c> {
         if kinds.iter().any(|kind| matches!(kind, StatementKind::Print | StatementKind::Command)) {
             return refuse("this block prints or commands something in each turn", "select lines without it");
         }
-        for kind in &kinds {
-            let StatementKind::Assign { target, .. } = kind else { continue };
-            let what = match target {
-                Target::Variable(number)
-                    if self.model.control().variable_kind(*number) == VariableKind::System =>
-                {
-                    "a variable of the control itself"
-                }
-                Target::Computed(_) => "a variable by a computed number, which may be read after the program",
-                Target::Named(name) if is_global(program, place, name) => {
-                    "a global parameter, which other programs may read"
-                }
-                _ => continue,
-            };
-            return refuse(&format!("in each turn this block sets {what}"), "select lines without it");
-        }
         let is_conditional =
             kinds.iter().any(|kind| matches!(kind, StatementKind::If { .. } | StatementKind::Guard { .. }));
         let says = words.iter().any(|word| word.letter.ascii() != b'N');
@@ -175,20 +195,47 @@ impl<'c> Loops<'c> {
                 "write the condition as a jump over the block",
             );
         }
+        let keeps = self.under_way.as_ref().is_some_and(|turns| turns.keeps);
+        let assigns = kinds.iter().any(|kind| matches!(kind, StatementKind::Assign { .. }));
+        if keeps && assigns && is_conditional {
+            return refuse(
+                "a condition decides in each turn whether this block sets its variable",
+                "write the condition as a jump over the block",
+            );
+        }
+        if let Some(turns) = &mut self.under_way {
+            for kind in &kinds {
+                if let StatementKind::Assign { target: Target::Variable(number), .. } = kind {
+                    *turns.set.entry(*number).or_default() |= !is_conditional;
+                }
+            }
+        }
+        let mut kept = Vec::new();
+        for statement in place.table.statements(place.ix).filter(|_| keeps) {
+            if let (StatementKind::Assign { .. }, Some(file)) = (&statement.kind, program.file(0)) {
+                let in_file = place.base + statement.range.start..place.base + statement.range.end;
+                kept.push(file.loaded.slice(in_file).trim().to_owned());
+            }
+        }
         let is_comment = flags.contains(BlockFlags::COMMENT) && words.is_empty() && kinds.is_empty();
         if !says && !is_comment {
-            return Ok(());
+            return self.add(kept, place);
         }
         let Some(line) = self.line(program, machine, at, place, state, !kinds.is_empty()) else {
             return refuse("a word of this block has no value that is known", "give values with --set");
         };
+        // The words of a block count with the values from before its assignments.
+        kept.insert(0, line);
+        self.add(kept, place)
+    }
+
+    /// Adds lines to the loop that runs.
+    fn add(&mut self, lines: Vec<String>, place: &Place) -> Result<(), Refusal> {
         let Some(turns) = &mut self.under_way else { return Ok(()) };
-        turns.lines.push(line);
+        turns.lines.extend(lines);
         if turns.lines.len() > MOST_LINES {
-            return refuse(
-                &format!("the loop would become more than {MOST_LINES} lines"),
-                "select another loop",
-            );
+            let reason = format!("the loop would become more than {MOST_LINES} lines");
+            return Err(Refusal::at(place.range(), reason).help("select another loop"));
         }
         Ok(())
     }
@@ -271,8 +318,12 @@ impl<'c> Loops<'c> {
             let place = program.file(0).and_then(|file| file.loaded.place(first, program.dialect()));
             Refusal::at(place.map_or(0..0, |place| place.range()), reason).help(help)
         };
-        let values = left(program, self.model.control(), turns.blocks, state)
-            .map_err(|reason| refusal(reason, "unroll only loops whose variables nothing else reads"))?;
+        let values = if turns.keeps {
+            Vec::new()
+        } else {
+            left(program, self.model.control(), &turns, state)
+                .map_err(|reason| refusal(reason, "unroll only loops whose variables nothing else reads"))?
+        };
         let new = Done { last, lines: turns.lines, values };
         if self.done.get(&first).is_some_and(|old| *old != new) {
             let reason = "this loop runs more than once, each time in another way".to_owned();
@@ -288,7 +339,7 @@ impl<'c> Loops<'c> {
         let Some(last) = sheet.loaded.place(done.last, program.dialect()) else { return };
         let mut lines = done.lines.clone();
         for (variable, value) in &done.values {
-            lines.push(format!("#{variable}={}", sheet.hand.write("1.", *value, 6)));
+            lines.push(format!("#{variable}={}", sheet.hand.write("1.", *value, FINEST)));
         }
         let text = lines.join(sheet.line_end());
         sheet.replace(place.range().start..last.range().end, text);
@@ -305,11 +356,12 @@ fn is_global(program: &Program<'_>, place: &Place, name: &Range<u32>) -> bool {
 fn left(
     program: &Program<'_>,
     control: &Control,
-    [first, last]: [u32; 2],
+    turns: &Turns,
     state: &State<Concrete>,
 ) -> Result<Vec<(u32, f64)>, String> {
     let Some(file) = program.file(0) else { return Ok(Vec::new()) };
-    let (mut assigned, mut read): (Vec<u32>, Vec<u32>) = (Vec::new(), Vec::new());
+    let [first, last] = turns.blocks;
+    let mut read: Vec<u32> = Vec::new();
     let (mut reads_any, mut names) = (false, false);
     for (number, place) in file
         .loaded
@@ -317,15 +369,8 @@ fn left(
     {
         let is_inside = (first..=last).contains(&number);
         if is_inside {
-            for statement in place.table.statements(place.ix) {
-                match &statement.kind {
-                    StatementKind::Assign { target: Target::Variable(variable), .. } => {
-                        assigned.push(*variable);
-                    }
-                    StatementKind::Assign { .. } => names = true,
-                    _ => {}
-                }
-            }
+            let is_named = |kind: &StatementKind| matches!(kind, StatementKind::Assign { target, .. } if !matches!(target, Target::Variable(_)));
+            names |= place.table.statements(place.ix).any(|statement| is_named(&statement.kind));
             continue;
         }
         for expr in place.expressions() {
@@ -341,18 +386,18 @@ fn left(
     if names && reads_any {
         return Err("this loop sets a parameter by name or by a computed number, and blocks outside of it may read that".to_owned());
     }
-    assigned.sort_unstable();
-    assigned.dedup();
     let outlives = |variable: u32| control.variable_kind(variable) != VariableKind::Local;
-    assigned.retain(|variable| reads_any || outlives(*variable) || read.contains(variable));
-    let value = |variable: u32| {
-        let value = state.local(variable).copied().unwrap_or_else(|| state.variables().get(variable));
-        match value {
-            ConcreteValue::Number(number) => Ok((variable, number)),
-            ConcreteValue::Vacant | ConcreteValue::Unknown => {
-                Err(format!("the value that this loop leaves in #{variable} is not known"))
-            }
+    let is_left = |variable: u32| reads_any || outlives(variable) || read.contains(&variable);
+    let value = |(variable, is_certain): (u32, bool)| {
+        let local = state.local(variable).copied();
+        let is_set = is_certain || local.is_some() || state.variables().is_written(variable);
+        match local.unwrap_or_else(|| state.variables().get(variable)) {
+            ConcreteValue::Number(number) => Ok(Some((variable, number))),
+            // The condition of the assignment never held.
+            _ if !is_set => Ok(None),
+            _ => Err(format!("the value that this loop leaves in #{variable} is not known")),
         }
     };
-    assigned.into_iter().map(value).collect()
+    let set = turns.set.iter().map(|(variable, is_certain)| (*variable, *is_certain));
+    set.filter(|(variable, _)| is_left(*variable)).filter_map(|set| value(set).transpose()).collect()
 }

@@ -41,6 +41,8 @@ pub(crate) struct Seen {
     pub(crate) is_selected: bool,
     /// The modes were the same each time.
     pub(crate) is_certain: bool,
+    /// The plane was the same each time.
+    pub(crate) keeps_plane: bool,
 }
 
 /// What is followed along a run for a change.
@@ -282,13 +284,15 @@ impl Witness<'_> {
             self.blocks.resize(index + 1, None);
         }
         let Some(slot) = self.blocks.get_mut(index) else { return };
-        let new = Seen { facts: block.facts, is_selected: block.is_selected, is_certain: true };
+        let new =
+            Seen { facts: block.facts, is_selected: block.is_selected, is_certain: true, keeps_plane: true };
         *slot = Some(match slot {
             None => new,
             Some(old) => {
                 let is_same = new.facts.places_alike(&old.facts) && old.is_selected == new.is_selected;
                 Seen {
                     is_certain: old.is_certain && is_same,
+                    keeps_plane: old.keeps_plane && new.facts.plane == old.facts.plane,
                     is_selected: old.is_selected || new.is_selected,
                     ..*old
                 }

@@ -490,9 +490,14 @@ impl Cx<'_> {
         let kind = reader.as_ref().map(|(_, entry)| entry.kind).or(general.map(|entry| entry.kind));
         let or_label = reader.as_ref().is_some_and(|(_, entry)| entry.or_label);
         let moved = self.moved(word, reader);
-        // What an argument counts is for the macro to say.
-        let counted =
-            if calls.is_some() { None } else { self.counted(word, kind, &moved, look.as_deref_mut()) };
+        let is_packed =
+            reader.as_ref().is_some_and(|(_, entry)| entry.is_packed_beside(self.place.block().letters));
+        // What an argument counts is for the macro to say, and digits that are packed count nothing together.
+        let counted = if calls.is_some() || is_packed {
+            None
+        } else {
+            self.counted(word, kind, &moved, look.as_deref_mut())
+        };
         if let Some(counted) = counted {
             let _ = write!(text, "\n\n{counted}");
         }
@@ -605,7 +610,7 @@ impl Cx<'_> {
         let reader = StateReader::new(self.snapshot, look.model());
         let units = reader.units(&state.before);
         let unit = match kind? {
-            WordKind::Length => unit(units),
+            WordKind::Length | WordKind::LeastIncrements => unit(units),
             WordKind::Angle => "degrees",
             WordKind::Seconds => "s",
             WordKind::Milliseconds => "ms",
@@ -632,9 +637,15 @@ impl Cx<'_> {
         let diameter = if is_diameter { ", a diameter" } else { "" };
         match word.value {
             Value::Number(number) => {
+                let control = self.snapshot.control();
+                let counts_steps = kind == Some(WordKind::LeastIncrements);
                 let is_scaled = !word.shape.point
-                    && self.snapshot.control().letter(word.letter).is_some_and(|entry| entry.scaled);
-                let counts = if is_scaled { look.counted(word.letter, number, Some(units)) } else { number };
+                    && (counts_steps || control.letter(word.letter).is_some_and(|entry| entry.scaled));
+                let counts = match is_scaled {
+                    true if counts_steps => number * control.numbers().least(units == Units::Inch),
+                    true => look.counted(word.letter, number, Some(units)),
+                    false => number,
+                };
                 let why = if is_scaled && counts.to_bits() != number.to_bits() {
                     ": without a decimal point it counts least increments"
                 } else {
@@ -1272,6 +1283,13 @@ mod tests {
             | work | 2 | 1.5 |
         "#]],
         );
+    }
+
+    #[test]
+    fn a_length_in_least_increments() {
+        let program =
+            "O1\nG21 G18 G54\nG0 X22. Z4.\nG76 P010060 Q$050 R0.02\nG76 X18. Z-20. P$1920 Q300 F1.5\nM30\n";
+        check("fanuc-lathe", program, &expect![[""]]);
     }
 
     #[test]

@@ -45,13 +45,22 @@ pub(crate) fn run(global: &Global, command: &EditCommand) -> Result<u8, Problem>
     let before = prepared.source.to_bytes();
     let after = apply_to_bytes(&before, &planned.edits);
     let tolerance = target.tolerance.unwrap_or(change.tolerance());
-    let asked = proof::Asked { change: &change, scope: &scope, tolerance, units: planned.units };
     // Also where no word changes: the moves may not be as the change says for that very reason.
     let mut proving = prepared.with_text(prepared.source.clone(), prepared.shown.clone());
-    assume_places(&mut proving.equipment.machine, &planned.unknown);
+    let assumes_places = assume_places(&mut proving.equipment.machine, &planned.unknown);
+    let asked =
+        proof::Asked { change: &change, scope: &scope, tolerance, units: planned.units, assumes_places };
     let proof = match proof::prove(&proving, &after, &asked, &runs) {
         Ok(proof) => proof,
-        Err(problem) => return Ok(refused(&prepared, problem)),
+        Err(problem) => {
+            let leaves_cycles = change == Change::ExpandCycle && !planned.notes.is_empty();
+            let problem = if leaves_cycles {
+                problem.help("a cycle that stays may take Z, R or its return level from one that becomes moves: give it words of its own, or select lines with --lines")
+            } else {
+                problem
+            };
+            return Ok(refused(&prepared, problem));
+        }
     };
     if after == before {
         if is_standard_input && !is_dry {

@@ -2143,6 +2143,15 @@ fn places_of_the_machine_stay_whatever_code_goes_there() {
 }
 
 #[test]
+fn a_return_of_a_rotary_axis_and_a_change_that_does_not_happen_move_nothing_else() {
+    let program =
+        "O1\nG21 G18 G40 G98\nT0101\nG97 S500 M3\nG0 X60. Z5.\nG28 H0\nG0 C90.\nG1 Z-5. F100.\nX50.\nM30\n";
+    changes(program, "fanuc-lathe", "translate --z 1", &expect![[""]]);
+    let program = "O1\nG21 G17 G90 G94 G54 G40 G80\nT1 M6\nG0 X5. Y6.\nG43 H1 Z5.\n#1=0\nIF [#1 EQ 1] G28\nG1 X8. F100.\nG0 Z20. M6 T2\nG0 X1. Y2.\nG43 H2 Z5.\nM30\n";
+    changes(program, "haas-mill", "translate --z 1", &expect![[""]]);
+}
+
+#[test]
 fn a_side_that_is_switched_in_a_block_of_its_own_is_mirrored() {
     let program = "%\nO1\nG21 G17 G90 G94 G54 G40 G80\nT1 M6\nG0 X-10. Y-10.\nG43 H1 Z10.\nG1 Z-2. F300.\nG41 D1\nX0. Y0.\nY40.\nX50.\nG40\nX60. Y50.\nG0 Z10.\nM30\n%\n";
     changes(
@@ -2220,50 +2229,33 @@ fn values_that_a_loop_leaves_to_later_programs_stay() {
         exit 0
     "#]],
     );
-    refuses(
-        &format!("{head}#5221=#1\n{tail}"),
-        "fanuc-mill",
-        "unroll-loop",
-        &expect![[r#"
-        error: part.nc:9:1: cannot unroll the loop: in each turn this block sets a variable of the control itself
-          |
-        9 | #5221=#1
-          | ^^^^^^^^
-          help: select lines without it
-        part.nc: nothing is changed
-    "#]],
-    );
-    refuses(
-        &format!("{head}#[500+#1]=5.\n{tail}"),
-        "fanuc-mill",
-        "unroll-loop",
-        &expect![[r#"
-        error: part.nc:9:1: cannot unroll the loop: in each turn this block sets a variable by a computed number, which may be read after the program
-          |
-        9 | #[500+#1]=5.
-          | ^^^^^^^^^^^^
-          help: select lines without it
-        part.nc: nothing is changed
-    "#]],
-    );
-    refuses(
+    // Assignments that act by themselves, or that a called program may read, stay in each turn.
+    changes(&format!("{head}#5221=#1\n{tail}"), "fanuc-mill", "unroll-loop", &expect![[""]]);
+    changes(&format!("{head}#[500+#1]=5.\n{tail}"), "fanuc-mill", "unroll-loop", &expect![[""]]);
+    let calls = format!("{head}M98 P50\n{tail}").replace("M30\n", "M30\nO50\n#502=#1\nM99\n");
+    changes(&calls, "fanuc-mill", "unroll-loop", &expect![[""]]);
+    changes(
         "G21 G90\n#<n>=0\no1 while [#<n> lt 2]\n  G0 X[#<n>*10]\n  #<_parts>=[#<n>+1]\n  #<n>=[#<n>+1]\no1 endwhile\nM2\n",
         "linuxcnc",
         "unroll-loop",
-        &expect![[r#"
-            error: part.nc:5:1: cannot unroll the loop: in each turn this block sets a global parameter, which other programs may read
-              |
-            5 |   #<_parts>=[#<n>+1]
-              | ^^^^^^^^^^^^^^^^^^^^
-              help: select lines without it
-            part.nc: nothing is changed
-        "#]],
+        &expect![[""]],
+    );
+    // What no turn sets is not written.
+    let never = format!("{head}IF [#1 EQ 7] THEN #502=1\n{tail}");
+    changes(&never, "fanuc-mill", "unroll-loop", &expect![[""]]);
+    refuses(
+        &format!("{head}IF [#1 EQ 1] THEN #502=1\nM98 P50\n{tail}").replace("M30\n", "M30\nO50\nM99\n"),
+        "fanuc-mill",
+        "unroll-loop",
+        &expect![[""]],
     );
 }
 
 #[test]
 fn lengths_in_least_increments_are_converted_to_whole_numbers() {
     let program = "%\nO1\nG21 G18 G40 G99 G54\nT0101\nG97 S500 M3\nG0 X0. Z2.54\nG74 R0.508\nG74 Z-20.32 Q5080 F0.1\nG0 X50.8 Z50.8\nT0202\nG0 X22.86 Z5.08\nG76 P010060 Q51 R0.0254\nG76 X18.288 Z-20.32 P914 Q305 F1.5\nG0 X50.8 Z50.8\nM30\n%\n";
+    refuses(&program.replace("Q5080", "Q1"), "fanuc-lathe", "inch", &expect![[""]]);
+    refuses(&program.replace("Q305", "Q[305]"), "fanuc-lathe", "inch", &expect![[""]]);
     changes(
         program,
         "fanuc-lathe",

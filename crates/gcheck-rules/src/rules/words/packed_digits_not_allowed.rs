@@ -1,6 +1,6 @@
 //! Digits of a packed number that the control does not accept.
 
-use gcheck_controls::{Code, Letter, LetterSet, PackedPart, WordEntry};
+use gcheck_controls::{Code, Letter, PackedPart, WordEntry};
 
 use crate::declare::declare_rule;
 use crate::facts::callers::CallerValues;
@@ -72,8 +72,7 @@ impl PathRule for PackedDigitsNotAllowed {
 
 fn check(cx: &PathCx<'_>, code: Code<'_>, word: &WordEntry, report: &mut Report<'_>) {
     let Some(letter) = Letter::parse(&word.letter) else { return };
-    let others = LetterSet::of(&word.packed_without);
-    if cx.origin().letters.intersects(others) {
+    if !word.is_packed_beside(cx.origin().letters) {
         return;
     }
     let Some(number) = cx.known_number(char::from(letter.ascii())) else { return };

@@ -37,6 +37,8 @@ pub(super) struct Asked<'a> {
     pub(super) tolerance: f64,
     /// In which messages show lengths.
     pub(super) units: Units,
+    /// Unknown places of the machine were put somewhere.
+    pub(super) assumes_places: bool,
 }
 
 /// Compares the runs of a program before and after a change.
@@ -108,6 +110,11 @@ fn different(before: &Prepared, after: &Prepared, asked: &Asked<'_>, differences
             problem.help("the last digit of an inch is 0.00254 mm, and roundings of increments and arcs add up: `--tolerance` allows more")
         }
         _ => problem,
+    };
+    let problem = if asked.assumes_places {
+        problem.note("work offsets, tool lengths and the start are not known, so the coordinates of places of the machine (`G53`, `G28`) are made up for the proof")
+    } else {
+        problem
     };
     problem.note("`-` is what the change promises, `+` is what the changed program does")
 }
