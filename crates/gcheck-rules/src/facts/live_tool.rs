@@ -22,7 +22,9 @@ pub(crate) enum LiveTool {
 }
 
 /// The modal groups of codes that a lathe has for live tools.
-const GROUPS: [&str; 2] = ["c-axis", "live-tool"];
+const GROUPS: [&str; 2] = [C_AXIS, "live-tool"];
+/// The modal group of the codes that make the spindle an axis.
+const C_AXIS: &str = "c-axis";
 /// Blocks before this one that are searched, as far as they belong to the same tool.
 const BEFORE: u32 = 60;
 
@@ -77,6 +79,22 @@ pub(crate) fn may_be_live(cx: &PathCx<'_>) -> bool {
             || words.iter().any(|word| starts_with_coolant(cx.model.effect(word.code)))
             || has_builders(cx, words)
     })
+}
+
+/// May the part stand still although the spindle was started: does a block from this one of the main file on engage the C axis or move
+/// it, hold the spindle at an angle, stop the program, or have an M code of the machine builder?
+pub(crate) fn may_hold_part_since(cx: &PathCx<'_>, first: u32) -> bool {
+    first > cx.origin().at.block
+        || some_block_since(cx, first, |place| {
+            let words = place.table.words(place.block());
+            let holds = |word: &Word| {
+                let is_c_axis = cx.code_of(word.code).is_some_and(|code| code.entry().group == C_AXIS);
+                is_c_axis || matches!(cx.model.effect(word.code), Effect::SpindleOrient | Effect::Stop)
+            };
+            place.block().letters.intersects(LetterSet::of("CHY"))
+                || words.iter().any(holds)
+                || has_builders(cx, words)
+        })
 }
 
 /// Is there an M code whose meaning is the machine builder's in the blocks from this one of the main file up to the one that is

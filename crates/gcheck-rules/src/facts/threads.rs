@@ -43,6 +43,20 @@ pub(crate) enum Wanted {
     Written,
 }
 
+impl Thread {
+    /// The diameter of an outside thread at its crest, as its name gives it (`M20X1.5`, `3/8-16`): millimetres.
+    pub(crate) fn crest(&self) -> Option<f64> {
+        let name = self.name.to_ascii_uppercase();
+        let size = name.split(['X', '-', '*']).next()?;
+        if let Some(size) = size.strip_prefix('M') {
+            return size.parse().ok().filter(|size: &f64| *size > 0.0);
+        }
+        let (above, below) = size.split_once('/')?;
+        let inches = above.parse::<f64>().ok()? / below.parse::<f64>().ok()?;
+        Some(inches * 25.4).filter(|size| *size > 0.0 && size.is_finite())
+    }
+}
+
 /// The thread that the comment at a tool change names: in its block, in the one before it or in the one after it.
 pub(crate) fn thread_of_tool(cx: &PathCx<'_>, changed: At, wanted: Wanted) -> Option<Thread> {
     let before = changed.block.checked_sub(1).map(|block| At { block, ..changed });

@@ -44,6 +44,30 @@ impl ToolComment {
         self.has(&["LH", "L", "LEFT", "LEFTHAND", "REVERSE", "CCW", "M4", "M04"]) || words.any(is_left_thread)
     }
 
+    /// The radius of a nose that it gives (`R0.8`, in the units of the program), or that of a round insert by its code
+    /// (`RCMT 12`, `RCMT1204`), whose first two digits are its diameter in millimetres.
+    pub(crate) fn nose_radius(&self, units: Option<Units>) -> Option<Mm> {
+        let upper = self.text.to_ascii_uppercase();
+        let ends = |c: char| c.is_whitespace() || matches!(c, ',' | ':' | ';' | '|' | '=' | '-');
+        let tokens: Vec<&str> = upper.split(ends).filter(|token| !token.is_empty()).collect();
+        let two_digits = |text: &str| text.get(..2)?.parse::<f64>().ok();
+        let of_insert = tokens.iter().enumerate().find_map(|(at, token)| {
+            let own = round_insert(token)?;
+            let size = if own.is_empty() { tokens.get(at + 1)? } else { own };
+            Some(Mm(two_digits(size)? / 2.0))
+        });
+        let given = || {
+            let radius = tokens.iter().find_map(|token| token.strip_prefix('R')?.parse::<f64>().ok())?;
+            Some(Mm(radius * units?.in_mm()))
+        };
+        of_insert.or_else(given).filter(|radius| radius.0 > 0.0 && radius.0.is_finite())
+    }
+
+    /// Does it name a round insert?
+    pub(crate) fn names_round_insert(&self) -> bool {
+        self.has(&["BUTTON", "ROUND"]) || self.words.iter().any(|word| round_insert(word).is_some())
+    }
+
     /// The one size that it gives, as `10 MM`, `1/4 IN` or `DRILL 3/4`: of a drill or an end mill its diameter. `None` where it
     /// gives none or several, or says that it is the size of something else (`LEAVE .01 IN`). `D=12.`, as posts list their tools,
     /// counts in the units of the program.
@@ -63,6 +87,17 @@ impl ToolComment {
         });
         sizes.next().filter(|_| sizes.next().is_none())
     }
+}
+
+/// What follows the code of a round insert (`RCMT`, `RNMG`): `R`, the clearance, the tolerance, the way it is held.
+fn round_insert(word: &str) -> Option<&str> {
+    let rest = word.strip_prefix('R')?;
+    let (code, size) = rest.split_at_checked(3)?;
+    let is_one_of = |place: usize, letters: &str| {
+        code.as_bytes().get(place).is_some_and(|letter| letters.as_bytes().contains(letter))
+    };
+    let is_code = is_one_of(0, "BCDENP") && is_one_of(1, "CEGHKMNU") && is_one_of(2, "AGMNTWX");
+    (is_code && size.bytes().all(|byte| byte.is_ascii_digit())).then_some(size)
 }
 
 /// Words beside which a size is not a diameter.

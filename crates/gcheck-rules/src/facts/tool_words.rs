@@ -48,6 +48,45 @@ impl ToolWords {
         ])
     }
 
+    /// Is the tool a drill that works on the centre of a turning part, and nowhere else? Drills with inserts bore as well, and spot drills
+    /// break edges.
+    pub(crate) fn only_drills(&self) -> bool {
+        let others = [
+            "AFTER",
+            "BAR",
+            "BORE",
+            "BORING",
+            "CENTER",
+            "CENTRE",
+            "CHAMFER",
+            "DEBURR",
+            "FACE",
+            "FACING",
+            "FINISH",
+            "ID",
+            "INDEX",
+            "INDEXABLE",
+            "INSERT",
+            "INSERTS",
+            "LIVE",
+            "MILL",
+            "MILLING",
+            "OD",
+            "REAM",
+            "ROUGH",
+            "SPADE",
+            "SPOT",
+            "SPOTDRILL",
+            "TAP",
+            "THREAD",
+            "TURN",
+            "TURNING",
+            "U",
+            "UDRILL",
+        ];
+        self.has(&["DRILL"]) && !self.has(&others)
+    }
+
     /// Does the tool cut a thread by its own shape, so that it is fed by the pitch: a tap, a die, a chaser?
     pub(crate) fn follows_its_pitch(&self) -> bool {
         self.has(&["TAP", "TAPS", "TAPPING", "TAPPER", "DIE", "DIEHEAD", "DIESTOCK", "CHASER", "CHASERS"])

@@ -213,7 +213,9 @@ impl Turned {
     }
 
     fn rapid(&mut self, from: Spot, to: Spot) {
-        self.mark(Some(to[0] - from[0]).filter(|_| is_level(from, to)));
+        // Along Z out of the part, farther from the centre than all that it cut, no tool leaves a bore.
+        let clears = (from[0] - to[0]).abs() < SLACK && to[1] > SLACK;
+        self.mark(Some(to[0] - from[0]).filter(|_| is_level(from, to)), clears);
         let is_beside = is_level(from, to) && to[1] > -SLACK;
         let is_along = (from[0] - to[0]).abs() < SLACK;
         let approach = if is_beside && !is_along {
@@ -244,7 +246,7 @@ impl Turned {
         // Fed out to where it came from, the tool has cut the outside.
         let came_from = self.chain.as_ref().and_then(|chain| chain.approach).map(|[before, _]| before);
         if !is_expanded && came_from.is_some_and(|before| to[0] > before - SLACK) {
-            self.mark(None);
+            self.mark(None, false);
         }
     }
 
@@ -323,13 +325,14 @@ impl Turned {
     }
 
     /// The sides of a chain of cuts, by how the tool leaves them; `out` is its way in X, if it leaves in X alone.
-    fn mark(&mut self, out: Option<f64>) {
+    fn mark(&mut self, out: Option<f64>, clears: bool) {
         let leaves = self.leaves(out);
+        let is_clear = clears && leaves == Side::Outside && out.is_none();
         let Some(chain) = &self.chain else { return };
         let Some(cuts) = self.cuts.get_mut(chain.first..) else { return };
-        let Some([before, begins]) = chain.approach else { return };
+        let [before, begins] = chain.approach.unwrap_or([f64::NAN; 2]);
         let side = match leaves {
-            Side::Outside if before > begins + SLACK => Side::Outside,
+            Side::Outside if before > begins + SLACK || is_clear => Side::Outside,
             Side::Inside if before < begins - SLACK => Side::Inside,
             _ => return,
         };
@@ -475,6 +478,45 @@ impl Turned {
         // Other faces open nothing below this one.
         let is_open = self.cuts.iter().any(|cut| !cut.is_face_to_centre() && cut.opens(to));
         (is_into && !is_open && !self.has_hole(z1)).then_some(face)
+    }
+
+    /// The face behind which a pass of a cycle begins: across at rapid, toward the centre, where nothing was cut.
+    pub(crate) fn face_passed(&self, from: Spot, to: Spot) -> Option<&Cut> {
+        let face = self.face()?;
+        let [radius, level] = [face.radius(), face.ends[0][1]];
+        let is_behind = is_level(from, to) && to[1] < level - UNDER;
+        let is_into = to[0] < from[0] - UNDER && to[0] < radius - UNDER && to[0] > UNDER;
+        let is_cut = |cut: &Cut| cut.back() < level - SLACK && cut.opens(to);
+        (is_behind && is_into && !self.has_hole(to[1]) && !self.cuts.iter().any(is_cut)).then_some(face)
+    }
+
+    /// The outside that a way along Z runs into which goes on at rapid where the tool has cut at feed: the cut before it ended there, at
+    /// the same radius.
+    pub(crate) fn outside_ahead(&self, from: Spot, to: Spot) -> Option<&Cut> {
+        let last = self.cuts.last()?;
+        let [[_, z0], [r1, z1]] = [from, to];
+        let goes_on = is_one(last.ends[1], from)
+            && last.is_straight()
+            && last.is_surface()
+            && last.side != Side::Inside;
+        let is_ahead = (from[0] - r1).abs() < SLACK && z1 < z0 - UNDER && r1 > UNDER;
+        if !goes_on || !is_ahead || self.has_hole(z1) || self.is_opened_to(to) {
+            return None;
+        }
+        let is_wall = |cut: &&Cut| {
+            let is_below = cut.spans(z1) && cut.back() < z0 - UNDER;
+            cut.side == Side::Outside && is_below && cut.radius() > r1 + UNDER
+        };
+        self.cuts.iter().rev().find(is_wall)
+    }
+
+    /// Was the part cut as near to the centre as this place, and at its level?
+    fn is_opened_to(&self, [radius, z]: Spot) -> bool {
+        self.outside(z - UNDER)
+            .chain(self.outside(z + UNDER))
+            .chain(self.outside(z))
+            .any(|(least, _)| least < radius + SLACK)
+            || self.is_open_across(z, radius, 0.0)
     }
 
     /// The shoulder that a way along Z runs into from the front: outside of what is turned before it, or so near the outside that

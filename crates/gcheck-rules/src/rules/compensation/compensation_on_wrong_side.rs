@@ -12,7 +12,8 @@ use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// The tool comes to a closed contour from its outside and is compensated to its inside (`G41`, `G42`), or the other way.
+    /// The tool comes to a closed contour from its outside and is compensated to its inside (`G41`, `G42`), or the other way. Or it comes
+    /// from the right side, and the move that switches compensation off leads over the finished contour, at the depth of it.
     ///
     /// ## Why it matters
     /// The tool crosses the contour on its way in, and cuts the part too small, or the pocket too large, by its own diameter.
@@ -139,7 +140,8 @@ impl PathRule for CompensationOnWrongSide {
             if !is_way_out && contour.loop_of().is_none() {
                 contour.goes(way.as_ref());
             }
-            self.judge(cx, &contour, report);
+            let way_out = way.as_ref().filter(|_| is_way_out).filter(|way| !way.is_arc);
+            self.judge(cx, &contour, way_out, report);
         }
         let (Some(is_left), Some(on)) = (side, on) else { return };
         let contour = self.contour.get_or_insert_with(|| Contour {
@@ -158,7 +160,7 @@ impl PathRule for CompensationOnWrongSide {
 }
 
 impl CompensationOnWrongSide {
-    fn judge(&mut self, cx: &PathCx<'_>, contour: &Contour, report: &mut Report<'_>) {
+    fn judge(&mut self, cx: &PathCx<'_>, contour: &Contour, way_out: Option<&Way>, report: &mut Report<'_>) {
         if self.told == Some(contour.on) {
             return;
         }
@@ -175,6 +177,10 @@ impl CompensationOnWrongSide {
         let to_inside = contour.is_left == (area(&around) > 0.0);
         let is_inside = goes_around(&around, beside);
         if to_inside == is_inside {
+            if let Some(way) = way_out.filter(|way| crosses(contour, &around, to_inside, way)) {
+                self.told = Some(contour.on);
+                over_contour(cx, contour, to_inside, way, report);
+            }
             return;
         }
         self.told = Some(contour.on);
@@ -236,11 +242,37 @@ impl Contour {
                 if !meet(edge(first)?, edge(last)?) {
                     return None;
                 }
-                let around = points.get(first + 1..=last)?.to_vec();
+                let mut around = points.get(first + 1..=last)?.to_vec();
+                around.push(meeting(edge(first)?, edge(last)?));
                 (area(&around).abs() > SMALL).then_some(around)
             })
         })
     }
+}
+
+/// Does the way out end on the other side of the contour than the one on which the cutter goes around it, at the depth of it?
+fn crosses(contour: &Contour, around: &[Vector], is_inside: bool, way: &Way) -> bool {
+    let Some(end) = way.points.last().copied() else { return false };
+    let away = edges(around).map(|edge| from_edge(end, edge)).fold(f64::INFINITY, f64::min);
+    let is_level = (way.height - contour.height).abs() <= NEAR;
+    is_level
+        && !contour.is_over
+        && !contour.winds_down
+        && away > NEAR
+        && goes_around(around, end) != is_inside
+}
+
+/// The way out leads over the finished contour.
+fn over_contour(cx: &PathCx<'_>, contour: &Contour, is_inside: bool, way: &Way, report: &mut Report<'_>) {
+    let side = if is_inside { "outside" } else { "inside" };
+    let moves = if way.is_rapid { "at rapid" } else { "at feed" };
+    let mut finding = cx
+        .finding(&META, cx.range(), format!("the way out leads over the finished contour, to its {side}"))
+        .label(format!("crosses the contour {moves}, at the depth of it"));
+    if let Some(range) = cx.range_of(contour.on) {
+        finding = finding.also(range, "the contour begins here");
+    }
+    report.add(finding.help("lead out to the side from which the tool came, or lift the tool first"));
 }
 
 /// A move of the contour; `None` for one that is not known.
@@ -332,6 +364,18 @@ fn meet(one: [Vector; 2], other: [Vector; 2]) -> bool {
     parts(one, other) && parts(other, one) || is_near(one, other) || is_near(other, one)
 }
 
+/// Where two edges that meet do so.
+fn meeting([a, b]: [Vector; 2], [c, d]: [Vector; 2]) -> Vector {
+    let (along, across) = ([b[0] - a[0], b[1] - a[1]], [d[0] - c[0], d[1] - c[1]]);
+    let cross = along[0] * across[1] - along[1] * across[0];
+    // Edges in one direction meet end to end.
+    if cross.abs() < 1e-9 {
+        return b;
+    }
+    let share = (((c[0] - a[0]) * across[1] - (c[1] - a[1]) * across[0]) / cross).clamp(0.0, 1.0);
+    [a[0] + share * along[0], a[1] + share * along[1]]
+}
+
 /// Does the polygon go around the point, once or more often?
 fn goes_around(points: &[Vector], point: Vector) -> bool {
     let turns = edges(points).map(|[a, b]| {
@@ -383,6 +427,39 @@ mod tests {
             "#]],
         );
         check_rule(&RULE, "fanuc-mill", &program("X40. Y-25.", "G42", POCKET), &expect![[""]]);
+    }
+
+    #[test]
+    fn the_way_out_over_the_contour() {
+        let outline = |out: &str| {
+            format!(
+                "G21 G17 G90 G94 G54 S3000 M3\nG0 X-20. Y-20. Z-5.\nG41 D1 G1 X0. F300.\nY60.\nX80.\nY0.\nX-20.\n{out}\nG0 Z50.\nM30\n"
+            )
+        };
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            &outline("G40 X20. Y20."),
+            &expect![[r#"
+                8 | G40 X20. Y20.
+                  | ^^^^^^^^^^^^^ warning[compensation-on-wrong-side] the way out leads over the finished contour, to its inside
+            "#]],
+        );
+        for out in ["G40 Y-20.", "G40 X-40. Y20.", "G0 Z5.\nG40 X20. Y20.", "G40 G0 X20. Y20. Z5."] {
+            check_rule(&RULE, "fanuc-mill", &outline(out), &expect![[""]]);
+        }
+        let pocket = program("X40. Y25.", "G41", POCKET);
+        let out = |place: &str| pocket.replace("G40 X40. Y25.", &format!("G40 {place}"));
+        check_rule(&RULE, "fanuc-mill", &out("X45. Y20."), &expect![[""]]);
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            &out("X40. Y-25."),
+            &expect![[r#"
+                13 | G1 G40 X40. Y-25.
+                   | ^^^^^^^^^^^^^^^^^ warning[compensation-on-wrong-side] the way out leads over the finished contour, to its outside
+            "#]],
+        );
     }
 
     #[test]

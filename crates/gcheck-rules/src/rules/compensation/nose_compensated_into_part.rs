@@ -5,7 +5,8 @@ use gcheck_engine::{At, Event, Fact, Role, TravelKind};
 
 use crate::declare::declare_rule;
 use crate::facts::compensation::{is_left, is_on};
-use crate::facts::turned::{Side, Turned, end};
+use crate::facts::tool_words::ToolWords;
+use crate::facts::turned::{Side, Spot, Turned, UNDER, end};
 use crate::facts::turning::{is_turned, profile, profile_blocks, turns_the_part};
 use crate::{Finding, MakeShared, PathCx, PathRule, Remembers, Report, Run, Uses, Watch, remembers};
 
@@ -13,7 +14,8 @@ declare_rule! {
     /// On a lathe the outside of the part is turned toward the chuck with the nose compensated to the left (`G41`), or a bore
     /// with the nose compensated to the right (`G42`): to the side on which the part is.
     ///
-    /// What is the outside shows by the side from which the tool or its cycle comes, and to which it leaves; of a profile for
+    /// What is the outside shows by the side from which the tool or its cycle comes, and to which it leaves: a tool that is fed outward past
+    /// all that it cut, and goes on from there outward or out of the part, is not in a bore. Of a profile it shows for
     /// `G71` and `G70` by its diameters.
     ///
     /// ## Why it matters
@@ -99,8 +101,10 @@ impl PathRule for NoseCompensatedIntoPart {
         let Some(turned) = Turned::of(cx) else { return };
         let Event::Travel(travel) = event else { return };
         if travel.kind == TravelKind::Rapid {
-            let out = turned.here().map(|from| end(cx, travel)[0] - from[0]);
-            self.leave(turned.leaves(out), report);
+            let to = end(cx, travel);
+            let out = turned.here().map(|from| to[0] - from[0]);
+            let is_clear = turned.here().is_some_and(|from| clears(from, to));
+            self.leave(turned.leaves(out), is_clear, report);
             return;
         }
         let Some(is_left) = is_left(cx) else { return };
@@ -112,9 +116,16 @@ impl PathRule for NoseCompensatedIntoPart {
         let Some(from) = turned.here() else { return };
         // The side is known of cuts toward the chuck alone.
         let side = turned.side_of(cx, [from, end(cx, travel)], travel.expanded);
-        let is_wrong = matches!((side, is_left), (Side::Outside, true) | (Side::Inside, false));
+        let to = end(cx, travel);
+        let is_deep = from[1] - to[1] > UNDER && to[1] < -UNDER && from[0].min(to[0]) > UNDER;
+        let may_be_outside =
+            side == Side::Unknown && is_deep && !travel.expanded && !ToolWords::of(cx).may_bore();
+        let is_wrong = matches!((side, is_left), (Side::Outside, true) | (Side::Inside, false))
+            || may_be_outside && is_left;
         let Some(name) = cx.code_name(Role::Compensation).filter(|_| is_wrong) else { return };
-        let Some(finding) = finding(cx, on, &name, side) else { return };
+        // A side that only the way out shows can be the outside alone.
+        let shown = if side == Side::Unknown { Side::Outside } else { side };
+        let Some(finding) = finding(cx, on, &name, shown) else { return };
         let finding = finding.also(cx.range(), "turned here, toward the chuck");
         if travel.expanded {
             // Where a cycle begins shows its side.
@@ -126,13 +137,19 @@ impl PathRule for NoseCompensatedIntoPart {
     }
 }
 
+/// Does a rapid move from where the cut ended go outward, or along Z out of the part? In a bore it would go through the wall.
+fn clears(from: Spot, to: Spot) -> bool {
+    to[0] > from[0] + UNDER || to[0] > from[0] - SAME && to[1] > UNDER
+}
+
 impl NoseCompensatedIntoPart {
     /// The tool leaves what it cut, to this side as far as that shows. A bore may be approached from outside as well.
-    fn leave(&mut self, leaves: Side, report: &mut Report<'_>) {
+    fn leave(&mut self, leaves: Side, is_clear: bool, report: &mut Report<'_>) {
         let Some(waiting) = self.waiting.take() else { return };
         let is_sure = match waiting.side {
             Side::Inside => leaves != Side::Outside,
-            side => leaves == side,
+            Side::Unknown => leaves == Side::Outside && is_clear,
+            Side::Outside => leaves == Side::Outside,
         };
         if is_sure {
             self.told = Some(waiting.on);
@@ -236,6 +253,33 @@ mod tests {
     #[test]
     fn as_it_should_be() {
         for program in [outside("G42"), bore("G41"), outside("G40")] {
+            check_rule(&RULE, "fanuc-lathe", &program, &expect![[""]]);
+        }
+    }
+
+    #[test]
+    fn an_outside_that_only_the_way_out_shows() {
+        let far = |on: &str, out: &str| {
+            format!(
+                "G21 G18 G99 G40 T0101\nG97 S800 M3\nG0 X60. Z2.\n{on} X30.\nG1 Z-20. F.2\nX40. Z-25.\n{out}\nG40 G0 X100. Z50.\nM30\n"
+            )
+        };
+        check_rule(
+            &RULE,
+            "fanuc-lathe",
+            &far("G41", "X50."),
+            &expect![[r#"
+            4 | G41 X30.
+              | ^^^ warning[nose-compensated-into-part] the nose is compensated into the part (`G41`)
+        "#]],
+        );
+        for program in [
+            far("G42", "X50."),
+            // Into a bore, and out of it: the retract comes first.
+            far("G41", "X24.\nG0 Z5."),
+            far("G41", "X50.").replace("T0101", "T0101 (BORING BAR)"),
+            far("G41", "G0 Z5."),
+        ] {
             check_rule(&RULE, "fanuc-lathe", &program, &expect![[""]]);
         }
     }

@@ -1,16 +1,23 @@
 //! A lathe that drills beside the centre of its turning part.
 
 use gcheck_controls::{Effect, Machine};
-use gcheck_engine::{Axis, Event, Spindle, TravelKind, Truth};
+use gcheck_engine::{Axis, Event, Fact, Spindle, Travel, TravelKind, Truth};
 use gcheck_geometry::Mm;
 
 use crate::declare::declare_rule;
 use crate::facts::cycles::{cycle_name, is_drilling};
-use crate::facts::live_tool::may_be_live;
-use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
+use crate::facts::live_tool::{may_be_live, may_hold_part_since};
+use crate::facts::second_spindle::has_second_spindle;
+use crate::facts::tool_words::ToolWords;
+use crate::facts::turned::{Turned, UNDER};
+use crate::facts::turning::turns_the_part;
+use crate::{MakeShared, PathCx, PathRule, Report, Run, Uses, Watch};
 
 declare_rule! {
-    /// A drilling or tapping cycle of a lathe goes along Z beside the centre, while the part turns and no live tool does.
+    /// A drilling or tapping cycle of a lathe goes along Z beside the centre, while the part turns and no live tool does. So does a feed
+    /// move of a tool that its comment calls a drill, where no hole is yet.
+    ///
+    /// A cycle of a live tool beside the centre is reported too if the spindle was started and nothing has stopped it or made it the C axis.
     ///
     /// A tool that works with the C axis, or after an M code of the machine builder, may be a live one: it is not judged.
     ///
@@ -52,13 +59,24 @@ const OFF_CENTRE: f64 = 1.0;
 
 impl PathRule for DrilledBesideTheCentre {
     fn concerns(&self, program: &Uses<'_>) -> bool {
-        program.environment.control().machine() == Machine::Lathe && program.may(drills)
+        program.environment.control().machine() == Machine::Lathe && !has_second_spindle(program)
+    }
+
+    fn shares(&self) -> Option<MakeShared> {
+        Some(Turned::shared)
     }
 
     fn cut(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
         let Event::Travel(travel) = event else { return };
-        let cycle = cx.state().active_cycle(cx.model).filter(|code| code.is_some() && travel.expanded);
-        if travel.kind != TravelKind::Feed || !cycle.is_some_and(|code| drills(cx.model.effect(code))) {
+        if travel.kind != TravelKind::Feed {
+            return;
+        }
+        if !travel.expanded {
+            by_feed(cx, travel, report);
+            return;
+        }
+        let cycle = cx.state().active_cycle(cx.model).filter(|code| code.is_some());
+        if !cycle.is_some_and(|code| drills(cx.model.effect(code))) {
             return;
         }
         let turns = cx.state().spindle().is_some_and(Spindle::turns);
@@ -67,9 +85,16 @@ impl PathRule for DrilledBesideTheCentre {
             && (from.raw(Axis::Z) - to.raw(Axis::Z)).abs() > f64::EPSILON;
         // A place that is not known is NaN, and not beside anything.
         let is_beside = to.raw(Axis::X).abs() > OFF_CENTRE;
-        let may_turn = cx.state().live_tool() != Truth::False;
-        if !turns || may_turn || !goes_along || !is_beside || may_be_live(cx) {
+        if !turns || !goes_along || !is_beside {
             return;
+        }
+        match cx.state().live_tool() {
+            Truth::False if !may_be_live(cx) => {}
+            Truth::True => {
+                with_live_tool(cx, report);
+                return;
+            }
+            _ => return,
         }
         let away = cx.shown(Mm(to.raw(Axis::X).abs()));
         report.add(
@@ -83,6 +108,59 @@ impl PathRule for DrilledBesideTheCentre {
             .help("give `X0.` before the cycle, or start the live tool"),
         );
     }
+}
+
+/// A live tool drills beside the centre, and the spindle turns the part under it.
+fn with_live_tool(cx: &PathCx<'_>, report: &mut Report<'_>) {
+    let Some(started) = cx.definitions().set_by(Fact::Spindle).filter(|at| at.file == 0) else { return };
+    // Without a code for it, the machine builder's codes make the spindle an axis.
+    if !cx.control_has(|effect| effect == Effect::LiveToolOn)
+        || !cx.is_certain()
+        || may_hold_part_since(cx, started.block)
+    {
+        return;
+    }
+    let finding = cx
+        .finding(
+            &META,
+            cx.range(),
+            format!("`{}` drills beside the centre while the spindle turns the part", cycle_name(cx)),
+        )
+        .label("the part turns past the live tool")
+        .help("stop the spindle and engage the C axis before the live tool drills");
+    report.add(cx.resting_on(finding, Fact::Spindle, "the spindle"));
+}
+
+/// A drill that is fed along Z into the part.
+fn by_feed(cx: &PathCx<'_>, travel: &Travel, report: &mut Report<'_>) {
+    let (from, to) = (&travel.from, &travel.to);
+    let radius = to.raw(Axis::X);
+    let is_level = (from.raw(Axis::X) - radius).abs() < f64::EPSILON;
+    let is_into = from.raw(Axis::Z) > -UNDER && to.raw(Axis::Z) < -UNDER;
+    if !is_level || !is_into || radius.is_nan() || radius.abs() <= OFF_CENTRE || !turns_the_part(cx) {
+        return;
+    }
+    let turns = cx.state().spindle().is_some_and(Spindle::turns);
+    if !turns
+        || cx.is_called_only()
+        || !cx.is_certain()
+        || !ToolWords::of(cx).only_drills()
+        || may_be_live(cx)
+    {
+        return;
+    }
+    // A drill may widen the hole that another one made.
+    if cx.shared::<Turned>().is_none_or(|turned| turned.depth_at_centre(None) < -UNDER || !turned.knows(cx)) {
+        return;
+    }
+    let away = cx.shown(Mm(radius.abs()));
+    report.add(
+        cx.finding(&META, cx.range(), "the drill is fed into the turning part beside its centre")
+            .label(format!("{away} beside the centre"))
+            .note("the comment of the tool names a drill, and the spindle turns the part")
+            .assuming("the part has no bore before the program starts")
+            .help("bring the drill to the centre first (`X0.`)"),
+    );
 }
 
 fn drills(effect: Effect) -> bool {
@@ -113,6 +191,58 @@ mod tests {
         );
         check_rule(&RULE, "haas-lathe", &program("G97 S900 M3", "X0."), &expect![[""]]);
         check_rule(&RULE, "haas-lathe", &program("G97 S900 M3", "X#500"), &expect![[""]]);
+    }
+
+    #[test]
+    fn a_drill_that_is_fed() {
+        let fed = |comment: &str, before: &str, x: &str| {
+            format!(
+                "G21 G99\n{before}T0303 ({comment})\nG97 S900 M3\nG0 {x} Z5.\nG1 Z-40. F0.1\nG0 Z5.\nM30\n"
+            )
+        };
+        check_rule(
+            &RULE,
+            "fanuc-lathe",
+            &fed("10 MM DRILL", "", "X10."),
+            &expect![[r#"
+                5 | G1 Z-40. F0.1
+                  | ^^^^^^^^^^^^^ warning[drilled-beside-the-centre] the drill is fed into the turning part beside its centre
+            "#]],
+        );
+        for (comment, before, x) in [
+            ("10 MM DRILL", "", "X0."),
+            ("10 MM DRILL", "", "X0.2"),
+            ("U DRILL 25", "", "X27."),
+            ("SPOT DRILL", "", "X27."),
+            ("BORE AFTER DRILL", "", "X27."),
+            ("10 MM DRILL", "T0202\nG97 S900 M3\nG0 X0 Z5.\nG1 Z-50. F.1\nG0 Z5.\n", "X10."),
+            ("10 MM DRILL", "M45\n", "C90. X10."),
+        ] {
+            check_rule(&RULE, "fanuc-lathe", &fed(comment, before, x), &expect![[""]]);
+        }
+    }
+
+    #[test]
+    fn a_live_tool_in_a_part_that_turns() {
+        let live = |between: &str| {
+            format!(
+                "G20 G99 T101\nG97 S600 M3\nG54 G0 X2.7 Z0.1\nG1 X2. F.01\nZ-1.\nX2.7\nG0 X5.\nT808\n{between}G98 P2000 M133\nG0 X1.5 Z0.5\nG83 X1.5 Z-0.75 R0.1 Q0.2 F8.\nG80\nM135\nM5\nM30\n"
+            )
+        };
+        check_rule(
+            &RULE,
+            "haas-lathe",
+            &live(""),
+            &expect![[r#"
+                11 | G83 X1.5 Z-0.75 R0.1 Q0.2 F8.
+                   | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[drilled-beside-the-centre] `G83` drills beside the centre while the spindle turns the part
+            "#]],
+        );
+        for between in ["M5\n", "M5\nM154\nG0 C0.\n", "M19\n", "M154\n", "M0\n", "M50\n"] {
+            check_rule(&RULE, "haas-lathe", &live(between), &expect![[""]]);
+        }
+        // On the centre both may turn.
+        check_rule(&RULE, "haas-lathe", &live("").replace("X1.5 Z", "X0. Z"), &expect![[""]]);
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! A hole that takes hundreds of pecks.
 
 use gcheck_controls::{Effect, Unpointed};
-use gcheck_engine::{At, Axis, Event, TravelKind};
+use gcheck_engine::{At, Axis, Event, Travel, TravelKind};
 use gcheck_geometry::Mm;
 
 use crate::declare::declare_rule;
@@ -10,7 +10,8 @@ use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// A cycle that drills in pecks (`G83`, `G73`; `G74` of lathes) makes more than 500 of them in one hole.
+    /// A cycle that drills in pecks (`G83`, `G73`; `G74` of lathes) makes more than 500 of them in one hole, or a grooving cycle (`G75`) more
+    /// than 500 plunges side by side.
     ///
     /// ## Why it matters
     /// Each peck rubs more than it cuts, and the hole takes very long. Mostly the number has another unit: without a decimal point
@@ -49,11 +50,13 @@ declare_rule! {
 struct PeckVeryShort {
     /// The block that pecks, and how often so far in the hole; with the bottom that was reached.
     pecks: Option<(At, u32, f64)>,
+    /// The block that cuts grooves, how many plunges so far, and where the last one is along Z.
+    plunges: Option<(At, u32, f64)>,
     /// A hole was reported. One finding is enough for a program: mostly all holes have the same `Q`.
     is_told: bool,
 }
 
-remembers!(PeckVeryShort: pecks);
+remembers!(PeckVeryShort: pecks, plunges);
 
 /// No drill pecks as often.
 const MOST: u32 = 500;
@@ -64,12 +67,16 @@ impl PathRule for PeckVeryShort {
     }
 
     fn concerns(&self, program: &Uses<'_>) -> bool {
-        program.may(pecks)
+        program.may(|effect| pecks(effect) || effect == Effect::GrooveDiameter)
     }
 
     fn moved(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
         let Event::Travel(travel) = event else { return };
         if travel.kind != TravelKind::Feed || !travel.expanded || self.is_told {
+            return;
+        }
+        if cx.has_effect(|effect| effect == Effect::GrooveDiameter) {
+            self.plunge(cx, travel, report);
             return;
         }
         let cycle = cx.state().active_cycle(cx.model).filter(|code| code.is_some());
@@ -105,6 +112,28 @@ impl PathRule for PeckVeryShort {
     }
 }
 
+impl PeckVeryShort {
+    /// A plunge of a grooving cycle, which steps along Z.
+    fn plunge(&mut self, cx: &PathCx<'_>, travel: &Travel, report: &mut Report<'_>) {
+        let (z, at) = (travel.to.raw(Axis::Z), cx.origin().at);
+        let (count, step) = match self.plunges {
+            Some((before, count, last)) if before == at && z.to_bits() == last.to_bits() => (count, 0.0),
+            Some((before, count, last)) if before == at => (count + 1, (z - last).abs()),
+            _ => (1, 0.0),
+        };
+        self.plunges = Some((at, count, z));
+        if count != MOST + 1 {
+            return;
+        }
+        self.is_told = true;
+        report.add(
+            cx.finding(&META, cx.letter_range('Q'), format!("more than {MOST} plunges for one groove"))
+                .label(format!("each is {} beside the one before", cx.shown(Mm(step))))
+                .help("check the unit and the decimal point of `Q`: the step is less than the width of the tool, but not much"),
+        );
+    }
+}
+
 fn pecks(effect: Effect) -> bool {
     matches!(effect, Effect::CyclePeck | Effect::CycleChipBreak | Effect::GrooveFace)
 }
@@ -115,6 +144,27 @@ mod tests {
 
     use super::RULE;
     use crate::testing::{World, check_rule, findings, only, words};
+
+    #[test]
+    fn grooves_side_by_side() {
+        let program = |q: &str| {
+            format!(
+                "G21 G99 T0404\nG97 S700 M3\nG0 X52. Z-15.\nG75 R.5\nG75 X40. Z-45. P2000 {q} F.08\nG0 X60.\nM30\n"
+            )
+        };
+        check_rule(
+            &RULE,
+            "fanuc-lathe",
+            &program("Q15"),
+            &expect![[r#"
+                5 | G75 X40. Z-45. P2000 Q15 F.08
+                  |                      ^^^ warning[peck-very-short] more than 500 plunges for one groove
+            "#]],
+        );
+        for q in ["Q2500", "Q500"] {
+            check_rule(&RULE, "fanuc-lathe", &program(q), &expect![[""]]);
+        }
+    }
 
     #[test]
     fn on_mills_and_in_series() {

@@ -1,12 +1,14 @@
 //! A threading cycle whose height does not belong to the thread that a comment names.
 
-use gcheck_engine::{At, Fact};
+use gcheck_engine::{At, Event, Fact, TravelKind};
 use gcheck_geometry::Mm;
 use gcheck_program::Word;
 
 use crate::declare::declare_rule;
 use crate::facts::thread_cycles::{is_cycle, length, words, written};
+use crate::facts::thread_passes::{Pass, ThreadPasses, cuts_pass};
 use crate::facts::threads::{Thread, named_thread, trimmed};
+use crate::facts::turning::shown_radius;
 use crate::{Finding, FollowedCx, PathCx, PathRule, Remembers, Report, Run, Uses, Watch, remembers};
 
 declare_rule! {
@@ -14,6 +16,9 @@ declare_rule! {
     ///
     /// The height of a metric thread or of an inch thread is 0.613 of its pitch outside, and 0.541 in a bore. Less than 0.45 and more than 0.9
     /// is reported. A lead of several pitches belongs to a thread of several starts, which is not judged.
+    ///
+    /// Passes that a program gives one by one (`G92`, `G32`) are reported where they go deeper than 0.9 of the pitch under the diameter that
+    /// the comment names.
     ///
     /// ## Why it matters
     /// With too small a height no nut goes on the thread, and with too large a one the insert cuts the thread away and the first passes are
@@ -47,7 +52,7 @@ declare_rule! {
         tier: Path,
         since: "0.1.0",
         run: Run::Path {
-            watch: Watch::BLOCKS.union(Watch::FOLLOWED),
+            watch: Watch::BLOCKS.union(Watch::MOVES).union(Watch::CHANGES).union(Watch::FOLLOWED),
             make: || Box::new(ThreadHeightOffPitch::default()),
         },
     }
@@ -57,9 +62,12 @@ declare_rule! {
 struct ThreadHeightOffPitch {
     /// What is reported unless a later cycle of the same thread has the right height: then this one roughs.
     found: Vec<Found>,
+    passes: ThreadPasses,
+    /// The tool whose passes were reported.
+    told: Option<At>,
 }
 
-remembers!(ThreadHeightOffPitch: found);
+remembers!(ThreadHeightOffPitch: found, passes, told);
 
 /// A cycle of another height.
 #[derive(Clone, PartialEq)]
@@ -77,6 +85,10 @@ remembers!(Found: tool, named, finding);
 const HEIGHTS: std::ops::RangeInclusive<f64> = 0.45..=0.9;
 /// For pitches that were rounded, as a part of them.
 const ROUNDED: f64 = 0.006;
+/// Radii that differ by less are one: millimetres.
+const STRAIGHT: f64 = 0.001;
+/// Passes that are deeper by so many pitches are of another thread.
+const MUCH: f64 = 2.5;
 /// Findings that are kept.
 const MOST: usize = 64;
 
@@ -86,7 +98,22 @@ impl PathRule for ThreadHeightOffPitch {
     }
 
     fn concerns(&self, program: &Uses<'_>) -> bool {
-        program.may(is_cycle)
+        program.may(is_cycle) || program.may(cuts_pass)
+    }
+
+    fn changed(&mut self, _: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
+        self.passes.see(event);
+    }
+
+    fn moved(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
+        if !matches!(event, Event::Travel(travel) if travel.kind == TravelKind::Thread)
+            || cx.has_effect(is_cycle)
+        {
+            return;
+        }
+        if let Some((before, pass)) = self.passes.pass(cx, event) {
+            self.pass(cx, &before, &pass, report);
+        }
     }
 
     fn block(&mut self, cx: &PathCx<'_>, _: &mut Report<'_>) {
@@ -117,6 +144,46 @@ impl PathRule for ThreadHeightOffPitch {
     }
 }
 
+impl ThreadHeightOffPitch {
+    /// A pass that is given by itself, after another one of the thread.
+    fn pass(&mut self, cx: &PathCx<'_>, before: &Pass, pass: &Pass, report: &mut Report<'_>) {
+        let [start, end] = pass.x;
+        let is_straight = (start - end).abs() < STRAIGHT;
+        let goes_in = end < before.x[1] - STRAIGHT && end > 0.0;
+        let tool = cx.definitions().set_by(Fact::Tool);
+        if !is_straight || !goes_in || tool.is_none() || self.told == tool || cx.depth() > 1 {
+            return;
+        }
+        let Some((thread, false)) = named_thread(cx, tool) else { return };
+        let Some(crest) = thread.crest().map(|crest| crest / 2.0) else { return };
+        let height = (crest - end) / thread.pitch;
+        if (pass.lead - thread.pitch).abs() > thread.pitch * ROUNDED
+            || !(*HEIGHTS.end()..MUCH).contains(&height)
+        {
+            return;
+        }
+        self.told = tool;
+        let root = shown_radius(cx, crest - 0.613 * thread.pitch);
+        let finding = cx
+            .finding(
+                &META,
+                cx.letter_range('X'),
+                format!("the pass goes deeper than {} is high", thread.name),
+            )
+            .label(format!(
+                "{} under the diameter of the thread, {} of its pitch",
+                cx.shown(Mm(crest - end)),
+                trimmed((height * 100.0).round() / 100.0)
+            ))
+            .note("a thread of 60 degrees is 0.613 of its pitch high, on the radius")
+            .help(format!("check the digits of `X`: the root of the thread is near X {root}"));
+        report.add(match cx.range_of(thread.at) {
+            Some(range) => finding.also(range, format!("names the thread: {}", thread.name)),
+            None => finding,
+        });
+    }
+}
+
 fn finding(cx: &PathCx<'_>, word: &Word, height: f64, thread: &Thread) -> Option<Finding> {
     let right = |part: f64| written(cx, word, thread.pitch * part);
     let letter = word.letter;
@@ -144,6 +211,34 @@ mod tests {
         format!(
             "; T2 thread M26 x 1.5\nG21 G7 G90 G95 G97 S600 M3\nT2 M6\nG43\nG0 X28 Z4\nG76 P1.5 Z-16 I-2 J0.3 R1.5 K{height} Q29.5 H2\nM2\n"
         )
+    }
+
+    #[test]
+    fn passes_one_by_one() {
+        let program = |comment: &str, last: &str| {
+            format!(
+                "G21 G99\nT0404 ({comment})\nG97 S700 M3\nG0 X24. Z5.\nG92 X19.2 Z-18. F1.5\nX18.7\nX18.4\n{last}\nG0 X50. Z50.\nM30\n"
+            )
+        };
+        check_rule(
+            &RULE,
+            "fanuc-lathe",
+            &program("M20X1.5", "X17.2\nX17.16"),
+            &expect![[r#"
+                8 | X17.2
+                  | ^^^^^ warning[thread-height-off-pitch] the pass goes deeper than M20X1.5 is high
+            "#]],
+        );
+        for (comment, last) in [
+            ("M20X1.5", "X18.2\nX18.16"),
+            ("M20X1.5", "X18.05"),
+            ("THREAD", "X17.2"),
+            // A thread in a bore, and one of two starts.
+            ("M20X1.5", "X19.8"),
+            ("M20X0.75", "X17.2"),
+        ] {
+            check_rule(&RULE, "fanuc-lathe", &program(comment, last), &expect![[""]]);
+        }
     }
 
     #[test]

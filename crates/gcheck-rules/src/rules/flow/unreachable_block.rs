@@ -47,7 +47,8 @@ declare_rule! {
     /// at most: the operator may start there.
     ///
     /// Blocks that a condition skips because of values that the program itself sets are a *hint* at most: such a
-    /// program has its settings at its top. If the program does not set the variable that decides, both ways are taken.
+    /// program has its settings at its top. Blocks that do nothing but assign are not reported there: they keep a value within its
+    /// limits (`IF [#1 GT 5] THEN #1=5`). If the program does not set the variable that decides, both ways are taken.
     /// ```nc,quiet,fanuc-mill
     /// O0001
     /// IF [#500 EQ 1] GOTO 20
@@ -106,7 +107,7 @@ impl PathRule for UnreachableBlock {
         if decided_elsewhere {
             return;
         }
-        for group in groups {
+        for group in groups.into_iter().filter(|group| !group.is_guard()) {
             report.add(finding(group));
         }
     }
@@ -122,6 +123,15 @@ struct Group {
     range: Range<u32>,
     blocks: usize,
     cause: Cause,
+    /// Its blocks do nothing but assign.
+    assigns: bool,
+}
+
+impl Group {
+    /// Does it keep a value within its limits, where the values of the program are within them?
+    fn is_guard(&self) -> bool {
+        self.assigns && matches!(self.cause, Cause::Decided(_))
+    }
 }
 
 /// Why no path comes here.
@@ -191,6 +201,7 @@ fn groups(cx: &FinishCx<'_>, past_alarm: bool) -> Vec<Group> {
                 Some(group) => {
                     group.range.end = place.range().end;
                     group.blocks += 1;
+                    group.assigns &= only_assigns(&place);
                 }
                 None => {
                     let above =
@@ -199,7 +210,7 @@ fn groups(cx: &FinishCx<'_>, past_alarm: bool) -> Vec<Group> {
                     // After a call: the called program may not return, and its caller does not show that.
                     let above = above.filter(|above| !past_alarm || ends_program(above, cx));
                     open = cause(cx, above.as_ref(), last_reached.unwrap_or(block), block)
-                        .map(|cause| Group { range, blocks: 1, cause });
+                        .map(|cause| Group { range, blocks: 1, cause, assigns: only_assigns(&place) });
                     if open.is_none() {
                         last_reached = None;
                     }
@@ -319,6 +330,14 @@ fn profiles(cx: &FinishCx<'_>) -> Vec<Range<u32>> {
         }
     }
     profiles
+}
+
+/// Does the block assign to variables, and do nothing else?
+fn only_assigns(place: &Place) -> bool {
+    let mut statements = place.table.statements(place.ix).peekable();
+    statements.peek().is_some()
+        && statements.all(|statement| matches!(statement.kind, StatementKind::Assign { .. }))
+        && place.table.words(place.block()).iter().all(|word| word.letter.ascii() == b'N')
 }
 
 /// More than a comment, a label, an end, or the frame of a loop or branch.

@@ -6,11 +6,13 @@ use gcheck_geometry::Mm;
 
 use crate::declare::declare_rule;
 use crate::facts::depth::Depth;
-use crate::{MakeShared, PathCx, PathRule, Report, Run, Uses, Watch};
+use crate::{Finding, MakeShared, PathCx, PathRule, Report, Run, Uses, Watch};
 use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// A rapid move turns a rotary axis of a mill, and nothing else, while the tool is still where its last cut ended.
+    /// A rapid move turns a rotary axis of a mill, and nothing else, while the tool is still where its last cut ended. So does one with the
+    /// tool 5 mm or less above the face that it cut, if the next cut counts from another work offset: then each side of the part has its
+    /// own zero.
     ///
     /// Moves at feed are not looked at, nor those that take the tool sideways too, nor those while the control follows the
     /// tool's tip or a drawing is wrapped around the axis.
@@ -50,17 +52,39 @@ declare_rule! {
         severity: Warning,
         tier: Path,
         since: "0.1.0",
-        run: Run::Path { watch: Watch::RAPIDS, make: || Box::new(IndexBeforeRetract { told: None }) },
+        run: Run::Path {
+            watch: Watch::RAPIDS.union(Watch::CHANGES).union(Watch::CUTS),
+            make: || Box::new(IndexBeforeRetract::default()),
+        },
     }
 }
 
-#[derive(Clone, PartialEq)]
+#[derive(Default, Clone, PartialEq)]
 struct IndexBeforeRetract {
     /// The block that was reported: a loop repeats it.
     told: Option<At>,
+    /// The work offset in which the tool has cut below the zero since it came.
+    cut_in: Option<u16>,
+    /// An axis was turned with the tool close above the face.
+    close: Option<Close>,
 }
 
-remembers!(IndexBeforeRetract: told);
+remembers!(IndexBeforeRetract: told, close);
+
+/// A turn of the part with the tool close above the face that it cut.
+#[derive(Clone, PartialEq)]
+struct Close {
+    work: u16,
+    at: At,
+    finding: Finding,
+}
+
+remembers!(Close: at, finding);
+
+/// So close above a face its edges meet the tool when the part turns: millimetres.
+const CLOSE: f64 = 5.0;
+/// An axis that turns by less than this corrects a part, or follows a contour: degrees.
+const TURN: f64 = 20.0;
 
 const ROTARY: LetterSet = LetterSet::of("ABC");
 
@@ -77,6 +101,32 @@ impl PathRule for IndexBeforeRetract {
         program.environment.control().machine() == gcheck_controls::Machine::Mill
     }
 
+    fn cut(&mut self, cx: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
+        let end = match event {
+            Event::Travel(travel) => travel.to.get(Axis::Z),
+            Event::Arc(arc) => arc.to.get(Axis::Z),
+            _ => None,
+        };
+        self.close = None;
+        self.cut_in = cx.state().work().filter(|_| end.is_some_and(|z| z < 0.0));
+    }
+
+    fn changed(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
+        match event {
+            Event::ToolChange(_) | Event::Shift(_) => (self.close, self.cut_in) = (None, None),
+            Event::WorkOffset { .. } => {
+                let close = self.close.take();
+                if let Some(Close { work, at, finding }) = close
+                    && cx.state().work().is_some_and(|other| other != work)
+                {
+                    self.told = Some(at);
+                    report.add(finding.also(cx.range(), "the next side of the part has a zero of its own"));
+                }
+            }
+            _ => {}
+        }
+    }
+
     fn rapid(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
         let Event::Travel(travel) = event else { return };
         if !cx.origin().letters.intersects(ROTARY) || !turns_in_place(cx, travel) || !cx.is_on_every_path() {
@@ -84,7 +134,10 @@ impl PathRule for IndexBeforeRetract {
         }
         let is_plain = cx.state().cylinder().is_none() && !follows_the_tool(cx);
         let Some(z) = travel.from.get(Axis::Z).filter(|_| is_plain) else { return };
-        let Some(cut) = cx.shared::<Depth>().and_then(|depth| depth.last_cut(z)) else { return };
+        let Some(cut) = cx.shared::<Depth>().and_then(|depth| depth.last_cut(z)) else {
+            self.close_above(cx, travel, z);
+            return;
+        };
         if self.told.replace(cx.origin().at) == Some(cx.origin().at) {
             return;
         }
@@ -101,6 +154,28 @@ impl PathRule for IndexBeforeRetract {
                 .assuming("the tool has not left the part sideways")
                 .help("retract the tool before the axis turns, and feed it down again after that"),
         );
+    }
+}
+
+impl IndexBeforeRetract {
+    /// The part turns with the tool above its last cut.
+    fn close_above(&mut self, cx: &PathCx<'_>, travel: &Travel, z: f64) {
+        let by_much = [Axis::A, Axis::B, Axis::C].into_iter().any(|axis| {
+            let way = (travel.from.raw(axis) - travel.to.raw(axis)).abs();
+            cx.origin().letters.contains(axis.letter()) && (way.is_nan() || way > TURN)
+        });
+        let Some(work) = cx.state().work().filter(|work| self.cut_in == Some(*work)) else { return };
+        let at = cx.origin().at;
+        if !(0.0..=CLOSE).contains(&z) || !by_much || self.told == Some(at) {
+            return;
+        }
+        let range = cx.word_range(|word| !word.letter.is_corner() && ROTARY.contains(word.letter));
+        let finding = cx
+            .finding(&META, range, "the part is turned at rapid with the tool close above its face")
+            .label(format!("the tool stays {} above the face that it cut", cx.shown(Mm(z))))
+            .assuming("the part is not round")
+            .help("retract the tool before the axis turns: the edges of the part come nearer than its faces");
+        self.close = Some(Close { work, at, finding });
     }
 }
 
@@ -134,6 +209,33 @@ mod tests {
         format!(
             "T1 M6\nG21 G90 G54 G0 X0. Y0. A0. S4000 M3\nG43 H1 Z50.\nZ22.\nG1 Z18. F200.\nX50.\n{after}\nG0 Z50.\nM30\n"
         )
+    }
+
+    #[test]
+    fn close_above_a_face_with_a_zero_of_its_own() {
+        let tombstone = |between: &str| {
+            format!(
+                "T3 M6\nG20 G90 G54 G0 X0. Y0. B0. S4000 M3\nG43 H3 Z5.\nG99 G81 X1. Y1. Z-.5 R.1 F12.\nX2.\nG80\n{between}Z5.\nG99 G81 X1. Y1. Z-.5 R.1 F12.\nG80\nM30\n"
+            )
+        };
+        check_rule(
+            &RULE,
+            "haas-mill",
+            &tombstone("B90.\nG55 X0. Y0.\n"),
+            &expect![[r#"
+                7 | B90.
+                  | ^^^^ warning[index-before-retract] the part is turned at rapid with the tool close above its face
+            "#]],
+        );
+        for between in [
+            "G0 Z5.\nB90.\nG55 X0. Y0.\n",
+            "G53 Z0.\nB90.\nG55 X0. Y0.\n",
+            // One zero for all sides: that of the axis, around which a bar may turn.
+            "B90.\nG54 X0. Y0.\n",
+            "B2.\nG55 X0. Y0.\n",
+        ] {
+            check_rule(&RULE, "haas-mill", &tombstone(between), &expect![[""]]);
+        }
     }
 
     #[test]

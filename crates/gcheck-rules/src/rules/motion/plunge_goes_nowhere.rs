@@ -7,13 +7,16 @@ use gcheck_engine::{Axis, Event, Position, TravelKind};
 use gcheck_geometry::{Mm, Plane};
 
 use crate::declare::declare_rule;
-use crate::facts::cuts::{LEVEL, SURFACE};
+use crate::facts::cuts::{LEVEL, SURFACE, distance, point};
 use crate::{Finding, FollowedCx, PathCx, PathRule, Report, Run, Severity, Watch};
 use crate::{Remembers, remembers};
 
 declare_rule! {
     /// A rapid move ends below the zero of the part, and the feed move in Z after it does not go down: the tool is
     /// already at that depth, or deeper.
+    ///
+    /// So is a feed move in Z to the depth at which the tool has just come across at feed, if the tool is elsewhere fed down to this depth at
+    /// two or more places, from above the part, and never was at this place: the retract and its `G0` are missing.
     ///
     /// A program that does so more than twice does it on purpose, and is not reported.
     ///
@@ -82,9 +85,13 @@ struct PlungeGoesNowhere {
     before: Option<Before>,
     /// What was found, in text order.
     found: Vec<Finding>,
+    /// Where the tool is fed straight down, to which level, up to [`PLACES`].
+    plunges: Vec<[f64; 3]>,
+    /// Feed moves down to where the tool is, after a cut sideways, with their level.
+    across: Vec<(f64, Finding)>,
 }
 
-remembers!(PlungeGoesNowhere: before, found);
+remembers!(PlungeGoesNowhere: before, found, across);
 
 #[derive(Clone, PartialEq)]
 struct Before {
@@ -111,6 +118,12 @@ enum Way {
 
 /// Programs that do it more often do so on purpose: a cutter that is fed up step by step.
 const MOST: usize = 2;
+/// So many other places at which the tool is fed down to a depth make a habit.
+const HABIT: usize = 2;
+/// A program that feeds down at more places comes from a system.
+const PLACES: usize = 200;
+/// Places that are nearer than this are one: millimetres.
+const NEAR: f64 = 1.0;
 /// Clearance heights are no higher: millimetres. Cutters that are fed up from below begin deeper.
 const CLEARANCE: f64 = 5.1;
 
@@ -148,6 +161,9 @@ impl PathRule for PlungeGoesNowhere {
                 let letters = cx.origin().letters;
                 let is_straight =
                     letters.contains(Letter::of('Z')) && !letters.intersects(LetterSet::of("XYUVABC"));
+                if is_straight && let Some([x, y, z]) = point(&travel.programmed) {
+                    self.straight(cx, before.as_ref(), [x, y, z], travel.from.get(Axis::Z));
+                }
                 if let (Some(before), Some(z)) = (before.filter(|_| is_straight), z) {
                     self.plunge(cx, before, z);
                 }
@@ -163,6 +179,13 @@ impl PathRule for PlungeGoesNowhere {
         let found = std::mem::take(&mut self.found);
         if found.len() <= MOST {
             for finding in found {
+                report.add(finding);
+            }
+        }
+        let across = std::mem::take(&mut self.across);
+        for (level, finding) in across.into_iter().take(MOST) {
+            let others = self.plunges.iter().filter(|[_, _, z]| (z - level).abs() < LEVEL).count();
+            if others >= HABIT && self.plunges.len() < PLACES {
                 report.add(finding);
             }
         }
@@ -192,6 +215,35 @@ fn rapid(cx: &PathCx<'_>, before: Option<Before>, from: Option<f64>, to: Option<
 }
 
 impl PlungeGoesNowhere {
+    /// A feed move in Z alone, to this place.
+    fn straight(&mut self, cx: &PathCx<'_>, before: Option<&Before>, to: [f64; 3], from: Option<f64>) {
+        let [x, y, z] = to;
+        let is_known = cx.is_certain() && self.plunges.len() < PLACES;
+        if !is_known || z >= SURFACE {
+            return;
+        }
+        if from.is_some_and(|from| from > SURFACE) {
+            self.plunges.push(to);
+            return;
+        }
+        let is_new = self.plunges.iter().all(|[own_x, own_y, _]| distance([x, y], [*own_x, *own_y]) > NEAR);
+        let came_across = before.filter(|before| before.way == Way::Cut && (before.z - z).abs() < LEVEL);
+        let is_here = |before: &&Before| {
+            before.bytes != cx.range() && from.is_some_and(|from| (from - z).abs() < LEVEL)
+        };
+        if let Some(before) = came_across.filter(is_here).filter(|_| is_new && self.across.len() <= MOST) {
+            let finding = cx
+                .finding(&META, cx.range(), "feed move down to where the tool already is, at a new place")
+                .label(format!(
+                    "the tool is {} below the zero of the part, and was not lifted",
+                    cx.shown(Mm(-z))
+                ))
+                .also(before.bytes.clone(), "the tool comes across here at feed")
+                .help("retract the tool before it goes to this place, and go there at rapid (`G0`)");
+            self.across.push((z, finding));
+        }
+    }
+
     /// A feed move in Z alone.
     fn plunge(&mut self, cx: &PathCx<'_>, before: Before, z: f64) {
         let is_same = (z - before.z).abs() < LEVEL;
@@ -245,6 +297,35 @@ mod tests {
 
     use super::RULE;
     use crate::testing::check_rule;
+
+    #[test]
+    fn the_retract_and_its_rapid_move_are_missing() {
+        let slots = |third: &str| {
+            format!(
+                "G21 G17 G90 G54 G0 X20. Y20. S3000 M3\nG43 H1 Z2.\nG1 Z-5. F100.\nX60. F300.\nG0 Z2.\nX20. Y40.\nG1 Z-5. F100.\nX60. F300.\n{third}G1 Z-5. F100.\nX60. F300.\nG0 Z30.\nM30\n"
+            )
+        };
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            &slots("X20. Y60.\n"),
+            &expect![[r#"
+            10 | G1 Z-5. F100.
+               | ^^^^^^^^^^^^^ warning[plunge-goes-nowhere] feed move down to where the tool already is, at a new place
+        "#]],
+        );
+        // Again from the place where it was fed down, deeper, and after a retract.
+        for third in ["X20. Y40.\n", "G0 Z2.\nX20. Y60.\n", ""] {
+            let text = slots(third).replace("X60. F300.\nG1 Z-5.", "X60. F300.\nG1 Z-6.");
+            check_rule(&RULE, "fanuc-mill", &text, &expect![[""]]);
+        }
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            &slots("X20. Y60.\n").replace("Z2.\nX20. Y40.\nG1 Z-5.", "Z2.\nX20. Y40.\nG1 Z-9."),
+            &expect![[""]],
+        );
+    }
 
     #[test]
     fn a_minus_sign_too_many() {

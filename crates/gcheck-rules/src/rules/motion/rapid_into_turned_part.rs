@@ -1,7 +1,9 @@
 //! A rapid move of a lathe through an outside surface that the program has turned.
 
-use gcheck_controls::LetterSet;
-use gcheck_engine::{At, Event};
+use std::ops::Range;
+
+use gcheck_controls::{Effect, LetterSet};
+use gcheck_engine::{At, Event, Role};
 use gcheck_geometry::Mm;
 
 use crate::declare::declare_rule;
@@ -20,6 +22,9 @@ declare_rule! {
     ///
     /// Moves along Z into a shoulder are reported too: from outside of what is turned before it, or so near the outside that no bore
     /// leaves as little.
+    ///
+    /// So is one that goes on at rapid where a cut along Z has ended, at the same diameter, while the part is wider there; and a turning
+    /// cycle whose first pass goes at rapid into a faced part, behind its face.
     ///
     /// A part that was faced to its centre is solid, as far as no hole was made. A retract that goes out of the part and inwards at
     /// once is reported too where it ends under an outside surface that it passes: axes that leave together need not arrive
@@ -90,9 +95,11 @@ declare_rule! {
 struct RapidIntoTurnedPart {
     /// The move that was reported.
     told: Option<At>,
+    /// The face that the reported move goes through, or begins behind.
+    face: Option<Range<u32>>,
 }
 
-remembers!(RapidIntoTurnedPart: told);
+remembers!(RapidIntoTurnedPart: told, face);
 
 impl PathRule for RapidIntoTurnedPart {
     fn memory(&mut self) -> Remembers<'_> {
@@ -110,12 +117,15 @@ impl PathRule for RapidIntoTurnedPart {
     fn rapid(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
         let Some(turned) = Turned::of(cx) else { return };
         if let (Event::Travel(travel), Some(here)) = (event, turned.here())
-            && !travel.expanded
             && turned.knows(cx)
             && self.told != Some(cx.origin().at)
             && !cx.origin().letters.intersects(LetterSet::of("CYHV"))
         {
-            self.judge(cx, turned, here, end(cx, travel), report);
+            if travel.expanded {
+                self.judge_pass(cx, turned, here, end(cx, travel), report);
+            } else {
+                self.judge(cx, turned, here, end(cx, travel), report);
+            }
         }
     }
 }
@@ -130,6 +140,7 @@ impl RapidIntoTurnedPart {
             report.add(through_outside(cx, cut, from, to));
         } else if let Some(face) = turned.face_crossed(from, to) {
             self.told = Some(cx.origin().at);
+            self.face = Some(face.bytes.clone());
             report.add(
                 cx.finding(&META, cx.range(), "rapid move into the part, through its face")
                     .label(format!(
@@ -150,6 +161,16 @@ impl RapidIntoTurnedPart {
             );
             let help = "check X and Z of the move, or make it at feed (`G1`)";
             report.add(into_part(cx, cut, message, label, help));
+        } else if let Some(cut) = turned.outside_ahead(from, to).filter(|_| !ToolWords::of(cx).may_bore()) {
+            self.told = Some(cx.origin().at);
+            let message = "rapid move along Z goes on into the part, where the cut ended";
+            let label = format!(
+                "at X {} to Z {}, where nothing was cut",
+                shown_radius(cx, to[0]),
+                cx.shown(Mm(to[1]))
+            );
+            let help = "draw the tool out in X before this move, or make it at feed (`G1`)";
+            report.add(into_part(cx, cut, message, label, help));
         } else if let Some(cut) = turned.outside_beside(from, to) {
             self.told = Some(cx.origin().at);
             let radius = cut.radius();
@@ -161,6 +182,45 @@ impl RapidIntoTurnedPart {
                     .help("check X, or retract Z first"),
             );
         }
+    }
+
+    /// Was a way into this face reported before? The next passes begin at the same place.
+    fn is_told_of(&self, face: &Cut) -> bool {
+        self.face.as_ref() == Some(&face.bytes)
+    }
+
+    /// A rapid move of a cycle: to the diameter of its first pass.
+    fn judge_pass(
+        &mut self,
+        cx: &PathCx<'_>,
+        turned: &Turned,
+        from: Spot,
+        to: Spot,
+        report: &mut Report<'_>,
+    ) {
+        let is_turning = cx.state().effect(Role::Motion, cx.model) == Some(Effect::TurningPass);
+        if !is_turning && !cx.has_effect(|effect| effect == Effect::RoughAlongZ) {
+            return;
+        }
+        // A pass in a bore, and its way back, are not nearer to the centre than its start.
+        let comes_in = turned.block_begins(cx).is_some_and(|begins| to[0] < begins - SLACK);
+        let Some(face) = turned.face_passed(from, to).filter(|_| comes_in) else { return };
+        if self.is_told_of(face) {
+            return;
+        }
+        self.told = Some(cx.origin().at);
+        self.face = Some(face.bytes.clone());
+        report.add(
+            cx.finding(&META, cx.range(), "the turning cycle begins behind the face of the part")
+                .label(format!(
+                    "goes at rapid to X {} at Z {}, where nothing was cut",
+                    shown_radius(cx, to[0]),
+                    cx.shown(Mm(to[1]))
+                ))
+                .also(face.bytes.clone(), "the part is faced here")
+                .assuming("the part is as wide behind its face as it was faced")
+                .help("start the cycle in front of the face: check the sign of Z"),
+        );
     }
 }
 
@@ -353,6 +413,79 @@ mod tests {
         check_rule(&RULE, "fanuc-lathe", &program("", &format!("{TURNED}{groove}")), &expect![[""]]);
         let step = "G0 X30.\nG1 Z-20.\nX52.\nG0 Z-10.\nX32.";
         check_rule(&RULE, "fanuc-lathe", &program("", &format!("{TURNED}{step}")), &expect![[""]]);
+    }
+
+    #[test]
+    fn on_at_rapid_where_the_cut_ended() {
+        let stepped =
+            |way: &str| format!("G0 X40. Z2.\nG1 Z-50. F.2\nX52.\nG0 Z2.\nX30.\nG1 Z-20.\n{way}\nG0 X60.");
+        check_rule(
+            &RULE,
+            "fanuc-lathe",
+            &program("", &stepped("G0 Z-40.")),
+            &expect![[r#"
+            10 | G0 Z-40.
+               | ^^^^^^^^ warning[rapid-into-turned-part] rapid move along Z goes on into the part, where the cut ended
+        "#]],
+        );
+        for way in
+            ["G1 Z-40.", "X41.\nG0 Z-40.", "G0 Z2.", "G1 Z-45.\nX41.\nG0 Z2.\nX30.\nG1 Z-20.\nG0 Z-40."]
+        {
+            check_rule(&RULE, "fanuc-lathe", &program("", &stepped(way)), &expect![[""]]);
+        }
+        // In a bore it may be wider there.
+        check_rule(&RULE, "fanuc-lathe", &program("(ID BAR)", &stepped("G0 Z-40.")), &expect![[""]]);
+        let drilled = format!("G0 X0 Z2.\nG1 Z-60. F.1\nG0 Z2.\n{}", stepped("G0 Z-40."));
+        check_rule(&RULE, "fanuc-lathe", &program("", &drilled), &expect![[""]]);
+        // Behind a neck that was cut before, the way is free.
+        let neck = stepped("G0 Z-40.")
+            .replace("X30.\nG1 Z-20.", "Z-45.\nG1 X30.\nZ-18.\nX52.\nG0 Z2.\nX30.\nG1 Z-20.");
+        check_rule(&RULE, "fanuc-lathe", &program("", &neck), &expect![[""]]);
+    }
+
+    #[test]
+    fn a_cycle_that_begins_behind_the_face() {
+        let passes =
+            |before: &str, start: &str| format!("{before}{start}\nG90 X46. Z-40. F.25\nX42.\nG0 X60. Z5.");
+        let faced = "G0 X52. Z0.\nG1 X-1.6 F.2\nG0 X52. Z2.\n";
+        let by_cycle = "G0 X55. Z2.\nG94 X-1.6 Z0. F.2\n";
+        for faced in [faced, by_cycle] {
+            let text = program("", &passes(faced, "G0 X52. Z-2."));
+            let found = findings(&only(&RULE), "fanuc-lathe", &text, &World::default());
+            assert_eq!(found.len(), 1, "{found:?}");
+            check_rule(&RULE, "fanuc-lathe", &program("", &passes(faced, "G0 X52. Z2.")), &expect![[""]]);
+        }
+        check_rule(&RULE, "fanuc-lathe", &program("", &passes("", "G0 X52. Z-2.")), &expect![[""]]);
+        // The passes of a bore, which go back toward the centre.
+        let bore = |comment: &str| {
+            format!(
+                "{faced}X150. Z100.\nT0404 {comment}\nG0 X20. Z2.\nG71 U1.5 R.5\nG71 P10 Q20 U-.4 W.1 F.2\nN10 G0 X40.\nG1 Z-20. F.1\nX30.\nZ-35.\nN20 X20.\nG70 P10 Q20"
+            )
+        };
+        for comment in ["", "(BORING BAR)"] {
+            check_rule(&RULE, "fanuc-lathe", &program("", &bore(comment)), &expect![[""]]);
+            let drilled =
+                bore(comment).replace("T0404", "T0202\nG0 X0 Z2.\nG1 Z-60. F.1\nG0 Z2.\nX150. Z100.\nT0404");
+            check_rule(&RULE, "fanuc-lathe", &program("", &drilled), &expect![[""]]);
+        }
+        // Where a neck was cut, a pass may begin.
+        let neck = format!("{faced}G0 X54. Z-2.\nG1 X40. F.1\nX54.\n");
+        check_rule(&RULE, "fanuc-lathe", &program("", &passes(&neck, "G0 X52. Z-2.")), &expect![[""]]);
+        let profile = |z: &str| {
+            format!(
+                "{faced}G0 X52. Z{z}\nG71 U2. R.5\nG71 P10 Q20 U.5 W.1 F.3\nN10 G0 X20.\nG1 Z-20. F.15\nX30.\nZ-35.\nN20 X50."
+            )
+        };
+        check_rule(
+            &RULE,
+            "fanuc-lathe",
+            &program("", &profile("-2.")),
+            &expect![[r#"
+            9 | G71 P10 Q20 U.5 W.1 F.3
+              | ^^^^^^^^^^^^^^^^^^^^^^^ warning[rapid-into-turned-part] the turning cycle begins behind the face of the part
+        "#]],
+        );
+        check_rule(&RULE, "fanuc-lathe", &program("", &profile("2.")), &expect![[""]]);
     }
 
     #[test]

@@ -14,7 +14,7 @@ use crate::{Remembers, remembers};
 
 declare_rule! {
     /// A lathe moves along Z at rapid, nearer to the centre than a surface that the program has turned or faced, and then
-    /// feeds outward through that surface. No earlier cut was so near to the centre there.
+    /// feeds outward through that surface, at once or after it was fed on along Z. No earlier cut was so near to the centre there.
     ///
     /// A boring bar that goes into a bore at rapid never feeds out through the outside of the part, so it is not reported; nor is a
     /// tool whose comment says that it bores.
@@ -93,6 +93,8 @@ struct Dive {
     from: f64,
     to: f64,
     bytes: Range<u32>,
+    /// How many cuts came before it.
+    before: usize,
 }
 
 remembers!(Dive: at, bytes);
@@ -128,10 +130,13 @@ impl PathRule for RapidUnderTurnedSurface {
             *self = Self { work: cx.state().work(), ..Self::default() };
         }
         match event {
-            Event::Travel(travel) if travel.kind == TravelKind::Rapid => self.dive = look(cx, travel),
+            Event::Travel(travel) if travel.kind == TravelKind::Rapid => {
+                self.dive = look(cx, travel, self.cuts.len());
+            }
             Event::Travel(travel) => {
                 if let Some(dive) = dive.filter(|_| travel.kind == TravelKind::Feed) {
                     self.judge(cx, &dive, travel, report);
+                    self.dive = Some(dive).filter(|dive| goes_on(dive, travel));
                 }
                 self.cut(cx, &travel.from, &travel.to);
             }
@@ -142,7 +147,7 @@ impl PathRule for RapidUnderTurnedSurface {
 }
 
 /// A rapid move along Z to below the zero of the part, with the tool on the near side of the centre.
-fn look(cx: &PathCx<'_>, travel: &Travel) -> Option<Dive> {
+fn look(cx: &PathCx<'_>, travel: &Travel, before: usize) -> Option<Dive> {
     let ([from_radius, from], [radius, to]) = (point(&travel.from), point(&travel.to));
     let is_along_z = (radius - from_radius).abs() < SLACK && from - to > UNDER;
     (is_along_z && !travel.expanded && radius > UNDER && to < -UNDER).then(|| Dive {
@@ -151,7 +156,14 @@ fn look(cx: &PathCx<'_>, travel: &Travel) -> Option<Dive> {
         from,
         to,
         bytes: cx.range(),
+        before,
     })
+}
+
+/// Is the tool fed on along Z, at the radius of the rapid move?
+fn goes_on(dive: &Dive, travel: &Travel) -> bool {
+    let [radius, z] = point(&travel.to);
+    (radius - dive.radius).abs() < SLACK && z < dive.to && !travel.expanded
 }
 
 fn point(position: &Position) -> [f64; 2] {
@@ -171,15 +183,19 @@ impl RapidUnderTurnedSurface {
     /// A feed after the rapid move.
     fn judge(&mut self, cx: &PathCx<'_>, dive: &Dive, travel: &Travel, report: &mut Report<'_>) {
         let [radius, z] = point(&travel.to);
-        let is_outward = (z - dive.to).abs() < SLACK && radius > dive.radius + UNDER;
+        let [_, from] = point(&travel.from);
+        let is_outward = (z - from).abs() < SLACK && z < dive.to + SLACK && radius > dive.radius + UNDER;
         if !is_outward
             || ToolWords::of(cx).may_bore()
             || self.told == Some(dive.at)
-            || self.cuts.iter().any(|cut| cut.opens(dive))
+            || self.cuts.iter().take(dive.before).any(|cut| cut.opens(dive))
         {
             return;
         }
-        let Some(surface) = self.cuts.iter().rev().find(|cut| cut.is_above(dive, radius)) else { return };
+        let Some(surface) = self.cuts.iter().take(dive.before).rev().find(|cut| cut.is_above(dive, radius))
+        else {
+            return;
+        };
         self.told = Some(dive.at);
         let shown = |radius: f64| shown_radius(cx, radius);
         report.add(
@@ -250,6 +266,19 @@ mod tests {
               | ^^^^^ warning[rapid-under-turned-surface] rapid move into the part, under a surface that was turned
         "#]],
         );
+        // First on along Z at feed.
+        check_rule(
+            &RULE,
+            "fanuc-lathe",
+            &program(TURNED, "G0 X30.\nZ-10.\nG1 Z-20. F.2\nX50."),
+            &expect![[r#"
+            9 | Z-10.
+              | ^^^^^ warning[rapid-under-turned-surface] rapid move into the part, under a surface that was turned
+        "#]],
+        );
+        for way in ["G0 X30.\nZ1.\nG1 Z-20. F.2\nX50.", "G0 X30.\nZ-10.\nG1 Z-20. F.2\nX28."] {
+            check_rule(&RULE, "fanuc-lathe", &program(TURNED, way), &expect![[""]]);
+        }
         // Into a bore, which was there before.
         check_rule(&RULE, "fanuc-lathe", &program(TURNED, "G0 X30.\nZ-30.\nG1 X34. F.2"), &expect![[""]]);
         check_rule(&RULE, "fanuc-lathe", &program(TURNED, "G0 X30.\nZ-30.\nG1 Z-32. F.2"), &expect![[""]]);

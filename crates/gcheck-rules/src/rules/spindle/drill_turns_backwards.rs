@@ -1,8 +1,10 @@
 //! A drill that turns counter-clockwise.
 
-use gcheck_engine::{Axis, Event, Travel, TravelKind};
+use gcheck_controls::LetterSet;
+use gcheck_engine::{At, Axis, Event, Travel, TravelKind};
 
 use crate::declare::declare_rule;
+use crate::facts::cutting::turns_backwards;
 use crate::facts::cycles::drills_by_cycle;
 use crate::facts::tool_comment::ToolComment;
 use crate::facts::turned_backwards::{Called, TurnedBackwards, may_turn_backwards};
@@ -12,6 +14,8 @@ use crate::{Remembers, remembers};
 declare_rule! {
     /// A drilling cycle, or a feed move straight down, while the spindle turns counter-clockwise (`M4`), with a tool that its
     /// comment calls a drill. A comment that names a left-hand drill is accepted (`LH`, `LEFT`).
+    ///
+    /// A deep drill that is fed backwards into its pilot hole, and started forward there before it drills on, is not reported.
     ///
     /// ## Why it matters
     /// A drill cuts only clockwise (`M3`). Turning backwards, it rubs, gets hot and breaks.
@@ -70,6 +74,7 @@ impl PathRule for DrillTurnsBackwards {
     fn cut(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
         let Event::Travel(travel) = event else { return };
         if drills(cx, travel)
+            && (travel.expanded || !turns_forward_next(cx))
             && let Some(finding) = self.turned.judge(cx, &META, &CALLED, is_drill)
         {
             report.add(finding);
@@ -84,6 +89,24 @@ fn drills(cx: &PathCx<'_>, travel: &Travel) -> bool {
     }
     let way = |axis: Axis| travel.to.raw(axis) - travel.from.raw(axis);
     travel.kind == TravelKind::Feed && way(Axis::X).hypot(way(Axis::Y)) < WAY && way(Axis::Z) < -WAY
+}
+
+/// Blocks after the move in which the spindle starts forward before the tool moves on.
+const SOON: u32 = 4;
+
+/// Does the spindle start forward before the tool moves again? A deep drill goes into its pilot hole backwards, so that its lips do
+/// not catch.
+fn turns_forward_next(cx: &PathCx<'_>) -> bool {
+    let here = cx.origin().at;
+    let shows = |block: u32| {
+        let place = cx.place_of(At { block, ..here })?;
+        let mut effects = place.table.words(place.block()).iter().map(|word| cx.model.effect(word.code));
+        if effects.any(|effect| effect.starts_spindle() && !turns_backwards(effect)) {
+            return Some(true);
+        }
+        place.block().letters.intersects(LetterSet::of("XYZT")).then_some(false)
+    };
+    (here.block + 1..=here.block.saturating_add(SOON)).find_map(shows) == Some(true)
 }
 
 fn is_drill(comment: &ToolComment) -> bool {
@@ -115,6 +138,23 @@ mod tests {
         "#]],
         );
         check_rule(&RULE, "fanuc-mill", &program("5.1 drill", "M3", "G1 Z-9. F90."), &expect![[""]]);
+    }
+
+    #[test]
+    fn into_its_pilot_hole_a_deep_drill_goes_backwards() {
+        let entry = "G1 Z-9. F300.\nS2500 M3\nG4 P500\nG1 Z-80. F90.";
+        check_rule(&RULE, "haas-mill", &program("5.1 deep drill", "M4", entry), &expect![[""]]);
+        let entry = "G1 Z-9. F300.\n(IN THE PILOT HOLE)\nM3 S2500 M8\nZ-80. F90.";
+        check_rule(&RULE, "fanuc-mill", &program("5.1 deep drill", "M4", entry), &expect![[""]]);
+        check_rule(
+            &RULE,
+            "haas-mill",
+            &program("5.1 deep drill", "M4", "G1 Z-9. F300.\nZ-80. F90.\nM3"),
+            &expect![[r#"
+                3 | S900 M4
+                  |      ^^ warning[drill-turns-backwards] the drill turns backwards (`M4`)
+            "#]],
+        );
     }
 
     #[test]

@@ -139,7 +139,8 @@ impl SpindleStoppedWhileCutting {
         // length of a tool is that of a mill; the strict controls are those of machines that people build themselves, with
         // a switch for the spindle.
         let has_length = !cx.model.semantics().strict && cx.file_uses(|effect| effect == Effect::LengthPlus);
-        if !is_ever_started && !needs_turns && cx.definitions().set_by(Fact::Speed).is_none() && !has_length {
+        let has_speed = cx.definitions().set_by(Fact::Speed).is_some();
+        if !is_ever_started && !needs_turns && !has_speed && !has_length && !works_with_live_tool(cx) {
             return None;
         }
         if self.told.contains(&stopped_by) || !is_ever_started && !self.told.is_empty() {
@@ -176,6 +177,10 @@ impl CutAtRest {
                 stop_code(cx, at)
             ),
             (Some(at), false) => format!("cut after the spindle was stopped (`{}`)", stop_code(cx, at)),
+            (None, false) if self.live == LiveTool::Stands => match cx.name_of_effect(Effect::LiveToolOn) {
+                Some(name) => format!("cut, and the live tool was not started (no `{name}`)"),
+                None => "cut, and neither the spindle nor a live tool was started".to_owned(),
+            },
             (None, false) => "cut, and the spindle was not started (no `M3`)".to_owned(),
             (Some(at), true) => {
                 format!("feed per turn of a spindle that was stopped (`{}`)", stop_code(cx, at))
@@ -192,6 +197,7 @@ impl CutAtRest {
         let is_mill = self.is_ever_started
             || self.has_length
             || has_speed
+            || self.live == LiveTool::Stands && works_with_live_tool(cx)
             || cx.file_uses(|effect| effect == Effect::ToolChange);
         // Held at an angle, a tool may broach.
         // What starts the spindle may be in a program of another file.
@@ -295,6 +301,13 @@ impl PathRule for SpindleStoppedWhileCutting {
             .help("start the spindle with `S` and `M3` or `M4` before this block");
         report.add(refused(cx, since(cx, finding, stopped_by)));
     }
+}
+
+/// Does the C axis hold the part of a lathe whose control has a code that starts live tools? Then only such a tool cuts.
+fn works_with_live_tool(cx: &PathCx<'_>) -> bool {
+    !cx.is_mill()
+        && cx.control_has(|effect| effect == Effect::LiveToolOn)
+        && live_tool(cx) == LiveTool::Stands
 }
 
 /// Does a pass of a thread wait for the angle of the spindle? Taps that a cycle drives start and stop it themselves.
@@ -436,6 +449,41 @@ mod tests {
 
     use super::RULE;
     use crate::testing::{World, check_rule, findings, only, words};
+
+    #[test]
+    fn a_live_tool_that_no_block_starts() {
+        let drilled = |start: &str, cycle: &str| {
+            format!("G20 G98 T808\nM154\nG54 G0 X2. Z0.5 C0.\n{start}{cycle}\nC120.\nG80\nM155\nM30\n")
+        };
+        let cycle = "G83 X2. Z-0.75 R0.1 Q0.2 F8.";
+        check_rule(
+            &RULE,
+            "haas-lathe",
+            &drilled("", cycle),
+            &expect![[r#"
+                4 | G83 X2. Z-0.75 R0.1 Q0.2 F8.
+                  | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[spindle-stopped-while-cutting] cut, and the live tool was not started (no `M133`)
+            "#]],
+        );
+        for start in ["M133 P2000\n", "P2000 M133\n", "M134 P1500\n"] {
+            check_rule(&RULE, "haas-lathe", &drilled(start, cycle), &expect![[""]]);
+        }
+        // A cycle that taps turns the live tool itself.
+        check_rule(&RULE, "haas-lathe", &drilled("G99\n", "G95 Z-0.5 R0.1 F0.05 S500"), &expect![[""]]);
+        // The C axis holds the part for a tool that does not turn.
+        let broached = drilled("", "G1 Z-0.5 F20.").replace("T808", "T808 (KEYWAY BROACH)");
+        check_rule(&RULE, "haas-lathe", &broached, &expect![[""]]);
+        let milled = "G20 G98 T909\nM154\nG54 G0 X3. Z0.2 C0.\nG17 G112\nG0 X1.5 Y0.\nZ0.1\nG1 Z-0.25 F20.\nX0.6 F10.\nG113\nG18\nM155\nM30\n";
+        check_rule(
+            &RULE,
+            "haas-lathe",
+            milled,
+            &expect![[r#"
+                7 | G1 Z-0.25 F20.
+                  | ^^^^^^^^^^^^^^ warning[spindle-stopped-while-cutting] cut, and the live tool was not started (no `M133`)
+            "#]],
+        );
+    }
 
     #[test]
     fn a_power_that_nothing_switches_on() {

@@ -1,18 +1,21 @@
 //! A tool that works without its length.
 
-use gcheck_controls::{CodeIx, Effect, Letter};
-use gcheck_engine::{Abstract, At, Domain, Event, Fact, Role};
+use gcheck_controls::{CodeIx, Confidence, Effect, Letter};
+use gcheck_engine::{Abstract, At, Axis, Domain, Event, Fact, Role, Stop};
 
 use crate::declare::declare_rule;
 use crate::facts::five_axis::is_along_tool;
 use crate::facts::offset_schemes::whole;
 use crate::facts::probing::is_near;
-use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
+use crate::{Finding, FollowedCx, PathCx, PathRule, Report, Run, Severity, Watch};
 use crate::{Remembers, remembers};
 
 declare_rule! {
     /// After a tool change a block moves along Z in work coordinates without tool length compensation, with offset
     /// number zero, or with the length of the tool before.
+    ///
+    /// A program that never compensates is information: its tool may be zeroed by hand. It is a warning where a changer puts in
+    /// several tools that all work from one zero, with no stop between them.
     ///
     /// ## Why it matters
     /// The control takes the spindle nose for the tool tip and drives the tool into the part by its whole length.
@@ -52,13 +55,13 @@ declare_rule! {
         tier: Path,
         since: "0.1.0",
         run: Run::Path {
-            watch: Watch::CHANGES.union(Watch::MOVES),
-            make: || Box::new(ToolLengthMissing { changed: None, has_length: false, measured: None, is_done: false }),
+            watch: Watch::CHANGES.union(Watch::MOVES).union(Watch::FOLLOWED),
+            make: || Box::new(ToolLengthMissing::default()),
         },
     }
 }
 
-#[derive(Clone, PartialEq)]
+#[derive(Default, Clone, PartialEq)]
 struct ToolLengthMissing {
     /// The tool change whose tool has not worked yet.
     changed: Option<At>,
@@ -66,11 +69,27 @@ struct ToolLengthMissing {
     has_length: bool,
     /// The tool that was in the spindle when a length was given last.
     measured: Option<u32>,
-    /// A program that never compensates is reported once.
-    is_done: bool,
+    /// The first tool of a program that never compensates, which is reported once.
+    uncompensated: Option<Uncompensated>,
 }
 
-remembers!(ToolLengthMissing: changed);
+remembers!(ToolLengthMissing: changed, uncompensated);
+
+/// Tools of a program that never compensates.
+#[derive(Clone, PartialEq)]
+struct Uncompensated {
+    /// Of the first one.
+    finding: Finding,
+    /// Its number, and what it counts Z from.
+    tool: Option<u32>,
+    zero: Option<(u16, u64)>,
+    /// The tools work from one zero, for all that is known.
+    is_one_zero: bool,
+    /// Another tool works from the same zero.
+    has_other: bool,
+}
+
+remembers!(Uncompensated: finding);
 
 impl PathRule for ToolLengthMissing {
     fn memory(&mut self) -> Remembers<'_> {
@@ -87,8 +106,26 @@ impl PathRule for ToolLengthMissing {
                 self.has_length = true;
                 self.measured = Abstract::known(cx.state().tool()).and_then(whole);
             }
+            // The operator may put a tool in by hand and zero it.
+            Event::Stop(Stop::Program | Stop::Message(_)) => {
+                if let Some(first) = &mut self.uncompensated {
+                    first.is_one_zero = false;
+                }
+            }
             _ => {}
         }
+    }
+
+    fn followed(&mut self, _: &FollowedCx<'_>, report: &mut Report<'_>) {
+        let Some(first) = self.uncompensated.take() else { return };
+        let is_sure = first.has_other;
+        report.add(if is_sure {
+            first.finding.note(
+                "another tool works from the same zero, and the program never compensates for its length",
+            )
+        } else {
+            first.finding.at_most(Severity::Info)
+        });
     }
 
     fn moved(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
@@ -106,7 +143,7 @@ impl ToolLengthMissing {
         if cx.file_uses(is_along_tool) {
             return;
         }
-        if self.is_done || rules.change_by_t || rules.offset_in_t || needs_no_length(cx) {
+        if rules.change_by_t || rules.offset_in_t || needs_no_length(cx) {
             return;
         }
         // The tool's first work: reported here, or not at all.
@@ -126,6 +163,10 @@ impl ToolLengthMissing {
         let Some(on) = code_that_compensates(cx) else { return };
         let Some(is_touching) = is_touching_off(cx) else { return };
         let is_ever_used = cx.file_uses(Effect::takes_tool_length);
+        if !is_ever_used && self.uncompensated.is_some() {
+            self.another_uncompensated(cx);
+            return;
+        }
         let what = if matches!(event, Event::Travel(t) if t.kind == gcheck_engine::TravelKind::Rapid) {
             "moves"
         } else {
@@ -148,16 +189,40 @@ impl ToolLengthMissing {
         if is_ever_used {
             report.add(if is_touching { finding.at_most(Severity::Info) } else { finding });
         } else {
-            self.is_done = true;
-            report.add(
-                finding
-                    .note(format!(
-                        "the program never uses `{on}`: its tools may be set to one length, or zeroed by hand"
-                    ))
-                    .at_most(Severity::Info),
-            );
+            self.uncompensated = Some(Uncompensated {
+                finding: finding.note(format!(
+                    "the program never uses `{on}`: its tools may be set to one length, or zeroed by hand"
+                )),
+                tool: Abstract::known(cx.state().tool()).and_then(whole),
+                zero: zero(cx),
+                is_one_zero: has_changer(cx),
+                has_other: false,
+            });
         }
     }
+
+    /// Another tool works without a length, in a program that never compensates.
+    fn another_uncompensated(&mut self, cx: &PathCx<'_>) {
+        let Some(first) = &mut self.uncompensated else { return };
+        let tool = Abstract::known(cx.state().tool()).and_then(whole);
+        let is_other = first.tool.zip(tool).is_some_and(|(first, tool)| first != tool);
+        let is_same_zero = first.zero.is_some() && first.zero == zero(cx);
+        first.has_other |= first.is_one_zero && is_other && is_same_zero && cx.is_certain();
+    }
+}
+
+/// What Z counts from: the work offset, and the shift as bits.
+fn zero(cx: &PathCx<'_>) -> Option<(u16, u64)> {
+    Some((cx.state().work()?, cx.state().shift().raw(Axis::Z).to_bits()))
+}
+
+/// Does the machine change tools by itself? A strict control is one of machines that people build themselves, whose tools are mostly
+/// changed and zeroed by hand; a program of which nothing tells the control may be for one.
+fn has_changer(cx: &PathCx<'_>) -> bool {
+    let rules = cx.model.semantics();
+    let change = cx.control().codes().find(|code| code.effect() == Effect::ToolChange);
+    let is_known = change.is_some_and(|code| code.entry().confidence != Confidence::Assumed);
+    is_known && !rules.strict && !rules.tools.length_from_tool
 }
 
 /// The code that gives a tool its length, unless it is an option of the control.
@@ -277,6 +342,35 @@ mod tests {
         "#]],
         );
         check_rule(&RULE, "linuxcnc", &program("G43\n"), &expect![[""]]);
+    }
+
+    #[test]
+    fn several_tools_without_any_length() {
+        let program = |second: &str| {
+            format!(
+                "T1 M6\nG90 G54 G0 X0. Y0. S3000 M3\nZ1.\nG81 Z-.5 R.1 F9.\nG80 G0 Z1.\n{second}G54 G0 X0. Y0.\nZ1.\nG81 Z-.5 R.1 F9.\nG80\nM30\n"
+            )
+        };
+        check_rule(
+            &RULE,
+            "haas-mill",
+            &program("T2 M6\n"),
+            &expect![[r#"
+                3 | Z1.
+                  | ^^^ warning[tool-length-missing] the tool moves without its length (no `G43` since the tool change)
+            "#]],
+        );
+        for second in ["", "T1 M6\n", "M0\nT2 M6\n"] {
+            check_rule(
+                &RULE,
+                "fanuc-mill",
+                &program(second),
+                &expect![[r#"
+                    3 | Z1.
+                      | ^^^ info[tool-length-missing] the tool moves without its length (no `G43` since the tool change)
+                "#]],
+            );
+        }
     }
 
     #[test]
