@@ -104,6 +104,8 @@ pub(crate) struct Assumptions {
     all: BTreeSet<Assumption>,
     /// Those that came since they were told last, each once, in the order in which they came.
     untold: Vec<Assumption>,
+    /// A number without decimal point is among them: that is asked for every such number.
+    has_unpointed: bool,
 }
 
 impl Assumptions {
@@ -111,6 +113,14 @@ impl Assumptions {
         if !self.all.contains(&assumption) {
             self.untold.push(assumption.clone());
             self.all.insert(assumption);
+        }
+    }
+
+    /// A number without decimal point counts as the knowledge base assumes.
+    pub(crate) fn rest_on_unpointed(&mut self) {
+        if !self.has_unpointed {
+            self.has_unpointed = true;
+            self.insert(Assumption::UnpointedNumbers);
         }
     }
 

@@ -2,11 +2,11 @@
 //!
 //! Knows: the wording of every assumption and the keys of `gcheck.toml`. Must not know: how assumptions come about, files.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use gcheck_controls::{CodeIx, Effect, Machine};
 use gcheck_diagnostics::StatedAssumption;
-use gcheck_engine::{Assumption, Axis, Model, Unsettled};
+use gcheck_engine::{Assumption, Axis, Model, Units, Unsettled};
 
 /// Words for one assumption.
 pub fn describe(assumption: &Assumption, model: &Model<'_>) -> StatedAssumption {
@@ -266,7 +266,18 @@ fn setting(number: &str, model: &Model<'_>) -> StatedAssumption {
             .pin(format!("[settings] {} = …", key(number)));
     };
     let told = format!("setting {number} ({})", entry.title);
+    let is_length = entry.values.iter().any(|value| value == "length");
     match &entry.default {
+        Some(value) if is_length && value.parse::<f64>().is_ok_and(|length| length != 0.0) => {
+            let unit = match model.units_at_power_on(&BTreeMap::new()) {
+                Some(Units::Inch) => " inch",
+                Some(Units::Mm) => " mm",
+                None => "",
+            };
+            // The setting counts in the unit of the program, which may be another one.
+            StatedAssumption::new(format!("{told} is {value}{unit}, as usual"))
+                .pin(format!("[settings] {} = …", key(number)))
+        }
         Some(value) => StatedAssumption::new(format!("{told} is `{value}`, as usual")).pin(format!(
             "[settings] {} = {}",
             key(number),

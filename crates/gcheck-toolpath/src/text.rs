@@ -88,10 +88,20 @@ fn heading<W: Write>(sink: &mut Sink<W>, view: View, step: &Step<'_>) -> io::Res
     sink.end_line()
 }
 
+/// A number with more characters is shown by its power of ten: nobody reads its digits, and the last ones are none.
+const LONGEST: usize = 22;
+
 /// Writes a cell to the right of its column.
 fn right(out: &mut Vec<u8>, cell: &mut Vec<u8>, width: usize, write: impl FnOnce(&mut Vec<u8>)) {
     cell.clear();
     write(cell);
+    if cell.len() > LONGEST
+        && let Some(number) = std::str::from_utf8(cell).ok().and_then(|text| text.parse::<f64>().ok())
+    {
+        cell.clear();
+        // Writing to a vector cannot fail.
+        let _ = write!(cell, "{number:.4e}");
+    }
     // Two cells never touch, however long they are.
     out.extend(std::iter::repeat_n(
         b' ',

@@ -15,11 +15,12 @@ use gcheck_format::Numbering;
 use gcheck_report::Format;
 
 use crate::Problem;
+use crate::nearest::did_you_mean;
 
 pub use edit::{About, EditCommand, EditTarget, Lines, MirrorAxis, QuarterTurns};
 pub(crate) use values::FUEL;
 pub use values::{Assignment, BlockSkip, Switch, VariableName};
-use values::{assignment, block_skip, control_name, numbering, tolerance};
+use values::{assignment, block_skip, control_name, count, fuel, numbering, tolerance};
 
 /// Checks CNC part programs (G-code) before they run on the machine.
 #[derive(Debug, Parser)]
@@ -166,7 +167,7 @@ pub struct CheckOptions {
     /// Files, folders and patterns (`'parts/**/*.nc'`); `-` reads standard input
     #[arg(default_value = ".", value_name = "PATHS")]
     pub paths: Vec<PathBuf>,
-    /// A file that lists what to check in place of PATHS, a path a line; `-` reads the list from standard input
+    /// A file that lists what to check in place of PATHS, a path a line, `#` for comments; `-` reads the list from standard input
     #[arg(long, value_name = "FILE", conflicts_with_all = ["paths", "watch"])]
     pub files_from: Option<PathBuf>,
     /// What standard input is called
@@ -188,7 +189,7 @@ pub struct CheckOptions {
     #[arg(long)]
     pub fail_on_incomplete: bool,
     /// Exit with 1 when there are more warnings than this
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = count, allow_negative_numbers = true)]
     pub max_warnings: Option<usize>,
     /// How findings are printed
     #[arg(long, value_parser = format(), default_value = "full", env = "GCHECK_OUTPUT_FORMAT", value_name = "FORMAT")]
@@ -235,7 +236,7 @@ pub struct CheckOptions {
     #[arg(long, value_enum, value_name = "on|off")]
     pub block_skip: Option<Switch>,
     /// Blocks of a program that may be executed, moves of repeats and cycles included; by default 2,000,000, and 64 more for each block of the program
-    #[arg(long, value_name = "BLOCKS", default_value_t = FUEL, hide_default_value = true)]
+    #[arg(long, value_name = "BLOCKS", value_parser = fuel, allow_negative_numbers = true, default_value_t = FUEL, hide_default_value = true)]
     pub fuel: u64,
     /// Files checked at a time; the number of processors without it
     #[arg(long, value_name = "N")]
@@ -250,7 +251,7 @@ pub struct CheckOptions {
     #[arg(long, conflicts_with_all = ["fix", "diff", "update_baseline", "show_files", "show_settings", "stdin_filename"])]
     pub watch: bool,
     /// Print the files that would be checked
-    #[arg(long)]
+    #[arg(long, conflicts_with = "show_settings")]
     pub show_files: bool,
     /// Print what is in force for each file
     #[arg(long)]
@@ -342,7 +343,7 @@ pub struct Conditions {
     #[arg(long, value_enum, value_name = "on|off", default_value_t)]
     pub optional_stop: Switch,
     /// Blocks of a program that may be executed; moves of repeats and cycles count as blocks, too
-    #[arg(long, value_name = "BLOCKS", default_value_t = FUEL)]
+    #[arg(long, value_name = "BLOCKS", value_parser = fuel, allow_negative_numbers = true, default_value_t = FUEL)]
     pub fuel: u64,
 }
 
@@ -439,7 +440,7 @@ pub struct PlotOptions {
     /// What is executed, and how.
     #[command(flatten)]
     pub execution: ExecutionOptions,
-    /// Write to this file: `.svg` a picture, `.html` a page that needs nothing else
+    /// Write to this file: `.svg` a picture, `.html` a page that needs nothing else; `-` prints a picture to standard output
     #[arg(long, short, value_name = "FILE")]
     pub output_file: PathBuf,
 }
@@ -538,7 +539,7 @@ pub struct LspOptions {
 /// Options of `gcheck explain`.
 #[derive(Debug, Args)]
 pub struct ExplainOptions {
-    /// A rule (`unknown-code`) or a code (`G143`)
+    /// A rule (`unknown-code`), a code (`G143`), an address (`E`) or a variable (`'#4003'`)
     #[arg(value_name = "RULE|CODE")]
     pub subject: String,
 }
@@ -595,12 +596,17 @@ fn format() -> impl TypedValueParser<Value = Format> {
         .map(|name| Format::parse(&name).unwrap_or_default())
 }
 
-/// Reads `FILE` or `FORMAT=FILE`; a name before `=` that is not a format belongs to the file's name.
-#[expect(clippy::unnecessary_wraps, reason = "the form of a value parser")]
+/// Reads `FILE` or `FORMAT=FILE`; a name before `=` that is not a format belongs to the file's name, unless a format has nearly
+/// the same.
 fn output_file(text: &str) -> Result<OutputFile, String> {
-    let with_format = text.split_once('=').and_then(|(name, path)| Some((Format::parse(name)?, path)));
-    Ok(match with_format {
-        Some((format, path)) => OutputFile { format: Some(format), path: PathBuf::from(path) },
-        None => OutputFile { format: None, path: PathBuf::from(text) },
-    })
+    let whole = || OutputFile { format: None, path: PathBuf::from(text) };
+    let Some((name, path)) = text.split_once('=') else { return Ok(whole()) };
+    if let Some(format) = Format::parse(name) {
+        return Ok(OutputFile { format: Some(format), path: PathBuf::from(path) });
+    }
+    let near = did_you_mean(name, Format::ALL.map(Format::name));
+    if near.is_empty() {
+        return Ok(whole());
+    }
+    Err(format!("no format is called `{name}`{near} A file of this name is `./{text}`"))
 }

@@ -31,7 +31,7 @@ pub use pattern::PathPattern;
 pub use placed::Placed;
 pub use preset::Preset;
 pub use preset_name::PresetName;
-pub(crate) use read::{check_text, layer_of_text};
+pub(crate) use read::{check_text, in_words, layer_of_text};
 pub use settings::{FileSettings, RuleWishes};
 pub(crate) use validate::{
     JERK_ALONE, NO_LINEAR, implausible_acceleration, rotary_axis, unknown_rule, validate_control, work_offset,
@@ -74,6 +74,20 @@ impl Config {
     /// Folders besides a program's own in which called programs are looked for.
     pub(crate) fn search(&self) -> impl Iterator<Item = &Path> {
         self.layers.iter().flat_map(|layer| layer.search())
+    }
+
+    /// Whether what it says of the program at `path` without naming a control is right on the one that runs it: where no
+    /// configuration names the control, that shows only here.
+    ///
+    /// # Errors
+    /// The first value that the control does not have, at its place.
+    pub(crate) fn hold_to(
+        &self,
+        path: &Path,
+        control: &Arc<gcheck_controls::Control>,
+    ) -> Result<(), Problem> {
+        let path = paths::absolute(path);
+        self.layers.iter().try_for_each(|layer| layer.hold_to(&path, control))
     }
 
     /// Whether a walk over a folder reads a file: neither excluded nor, where `include` is given, left out by it.

@@ -129,7 +129,9 @@ pub(crate) fn listed(list: &Path) -> Result<Vec<PathBuf>, Problem> {
     let names: Vec<&str> = if text.contains('\0') {
         text.split('\0').collect()
     } else {
-        text.split(['\n', '\r']).map(str::trim).collect()
+        // `#` begins a comment, unless a file has such a name.
+        let is_path = |line: &&str| !line.starts_with('#') || Path::new(line).exists();
+        text.split(['\n', '\r']).map(str::trim).filter(is_path).collect()
     };
     Ok(names.into_iter().filter(|name| !name.is_empty()).map(PathBuf::from).collect())
 }

@@ -18,6 +18,7 @@ mod sheet;
 mod surroundings;
 mod table;
 mod tools;
+mod unread;
 mod yaml;
 
 use std::collections::BTreeMap;

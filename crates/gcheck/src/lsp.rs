@@ -145,6 +145,7 @@ impl Surroundings {
             Choice { control: name.clone(), source: format!("{source:?}").to_lowercase(), because };
         let control = self.controls.get(&name, &settings.codes)?;
         in_force.style = Some(settings.format.style(&control));
+        config.hold_to(program.path, &control)?;
         let machine = in_force::machine(&settings, &control, &[])?;
         let mut selection = settings
             .selection(&RuleWishes::default())

@@ -4,7 +4,7 @@
 
 use std::path::{Component, Path, PathBuf};
 
-/// Does the path of a command line mean standard input?
+/// Does the path of a command line mean standard input, or standard output where it is written to?
 pub(crate) fn is_standard_input(path: &Path) -> bool {
     path.as_os_str() == "-"
 }

@@ -175,6 +175,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if let Some(factor) = self.factor_of_setting(letter) {
             return number * factor;
         }
+        if self.unpointed_is_open && self.model.scale_setting(letter).is_none() {
+            self.assumptions.rest_on_unpointed();
+        }
         match self.unpointed_of(letter) {
             Unpointed::AsWritten => number,
             Unpointed::LeastIncrement => {
@@ -226,6 +229,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     ) -> f64 {
         if number == 0.0 || whole.contains(char::from(letter.ascii())) {
             return number;
+        }
+        if self.unpointed_is_open {
+            self.assumptions.rest_on_unpointed();
         }
         match self.unpointed {
             Unpointed::AsWritten => number,
@@ -347,6 +353,13 @@ pub(crate) fn settle_unpointed(
         Some(value) if Some(value) == entry.as_written.as_ref() => Unpointed::AsWritten,
         Some(_) => Unpointed::LeastIncrement,
     }
+}
+
+/// Does a setting decide how numbers without decimal point count, whose value nobody told?
+pub(crate) fn is_open(model: &Model<'_>, machine: &Machine) -> bool {
+    let setting = model.control().numbers().unpointed_setting.as_deref();
+    let number = setting.and_then(|setting| setting.rsplit(' ').next());
+    number.is_some_and(|number| !machine.settings.contains_key(number))
 }
 
 /// So many steps, as a number. Divided by a power of ten rather than multiplied: `X1500` is 1.5, not 1.5000000000000002.

@@ -6,7 +6,7 @@ use std::collections::VecDeque;
 use std::iter::Peekable;
 use std::sync::Arc as Shared;
 
-use gcheck_engine::Position;
+use gcheck_engine::{Axis, Position};
 
 use super::curve::Curve;
 use super::difference::{Differences, Place};
@@ -34,6 +34,8 @@ pub(super) struct Cursor<I: Iterator<Item = Placed>> {
     pub(super) at: Position,
     /// An axis has moved. Before that, a move that goes nowhere may be the other side's way from an unknown place.
     pub(super) started: bool,
+    /// Axes that a move at feed has brought to an unknown place, and nothing since to a known one.
+    lost: [bool; Axis::ALL.len()],
     /// The next move is the first one that is compared after what was not compared.
     pub(super) is_afresh: bool,
     /// The last move that was done.
@@ -59,6 +61,7 @@ impl<I: Iterator<Item = Placed>> Cursor<I> {
             piece: None,
             at: Position::UNKNOWN,
             started: false,
+            lost: [false; Axis::ALL.len()],
             is_afresh,
             last: None,
         }
@@ -92,7 +95,8 @@ impl<I: Iterator<Item = Placed>> Cursor<I> {
                     };
                     let driven = made.driven;
                     found.unknown |= driven != Driven::Rapid && curve.is_unknown();
-                    if curve.is_nothing() && self.started {
+                    let is_lost = self.loses(made);
+                    if curve.is_nothing() && self.started && !is_lost {
                         self.at = made.to;
                         continue;
                     }
@@ -102,6 +106,17 @@ impl<I: Iterator<Item = Placed>> Cursor<I> {
             }
         }
         stands
+    }
+
+    /// Where an axis was cut to an unknown place, it may move although nothing shows it. Way to a reference position or to a
+    /// tool change does not count: what is unknown there belongs to the machine.
+    fn loses(&mut self, made: &Move) -> bool {
+        let cuts = made.driven != Driven::Rapid;
+        for (axis, lost) in Axis::ALL.into_iter().zip(&mut self.lost) {
+            let (from, to) = (made.from.raw(axis), made.to.raw(axis));
+            *lost = to.is_nan() && (*lost || cuts && !from.is_nan());
+        }
+        self.lost.contains(&true)
     }
 
     /// Leaves the last ones of what was read to be read again.

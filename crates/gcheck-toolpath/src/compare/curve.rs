@@ -58,6 +58,22 @@ impl Curve {
         !a.open || !b.open || xyz.into_iter().all(|axis| is_known(a, axis) == is_known(b, axis))
     }
 
+    /// May a move of which only unknown axes are left be what the other one does? Then that one moves along these axes alone.
+    pub(super) fn may_go_as(&self, other: &Self, tolerance: f64) -> bool {
+        let mut goes_unseen = false;
+        for axis in Axis::ALL {
+            let (from, to) = (other.from.raw(axis), other.to.raw(axis));
+            let own = self.to.raw(axis);
+            let moves = (from - to).abs() > 1e-9;
+            if own.is_nan() {
+                goes_unseen |= moves;
+            } else if moves || (own - to).abs() > tolerance {
+                return false;
+            }
+        }
+        goes_unseen && other.arc.is_none() && !other.open
+    }
+
     /// Does nothing move?
     pub(super) fn is_nothing(&self) -> bool {
         !self.open && self.length <= 1e-9

@@ -47,12 +47,39 @@ pub(super) fn control_name(text: &str) -> Result<String, String> {
     Ok(known.map_or_else(|| text.to_owned(), |name| (*name).to_owned()))
 }
 
+/// A whole number from 0.
+pub(super) fn count(text: &str) -> Result<usize, String> {
+    text.parse().map_err(|_| "write a whole number from 0".to_owned())
+}
+
+/// A number of blocks; `1e6` and `1_000_000` are one as well.
+pub(super) fn fuel(text: &str) -> Result<u64, String> {
+    let digits: String = text.chars().filter(|c| !matches!(c, '_' | ',')).collect();
+    if let Ok(blocks) = digits.parse() {
+        return Ok(blocks);
+    }
+    match digits.parse::<f64>() {
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the range is checked")]
+        Ok(blocks) if blocks.fract() == 0.0 && (0.0..=MOST_FUEL).contains(&blocks) => Ok(blocks as u64),
+        _ => Err("write a whole number of blocks, such as `1000000` or `1e6`".to_owned()),
+    }
+}
+
+/// Beyond this not every whole number is one of these.
+const MOST_FUEL: f64 = 9e15;
+
 pub(super) fn tolerance(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
+        Ok(value) if value > MOST_TOLERANCE => {
+            Err(format!("within {MOST_TOLERANCE} mm any two paths may be the same; write a smaller length"))
+        }
         Ok(value) if value.is_finite() && value >= 0.0 => Ok(value),
         _ => Err("write a length in millimetres, such as 0.001".to_owned()),
     }
 }
+
+/// Tools are as large as this, and more is a slip of the pen.
+const MOST_TOLERANCE: f64 = 100.0;
 
 pub(super) fn assignment(text: &str) -> Result<Assignment, String> {
     let (name, value) = text.split_once('=').ok_or("write `#100=2.5` or `#<name>=1`")?;

@@ -113,6 +113,8 @@ fn decide(
     let mut selection =
         settings.selection(&bench.wishes).map_err(|unknown| Problem::new(unknown_rule(&unknown)))?;
     chosen.narrow(&mut selection);
+    let control = bench.controls.get(&chosen.choice.name, &settings.codes)?;
+    target.config.hold_to(&target.path, &control)?;
     Ok(Prepared { source, settings, chosen, selection })
 }
 

@@ -73,7 +73,9 @@ impl KnownFindings {
         let Self { path, folder, is_written, baseline } = self;
         let mut baseline = baseline.into_inner().unwrap_or_else(PoisonError::into_inner);
         if is_written {
-            baseline.forget(|file| is_gone(&folder, file));
+            let checked: BTreeSet<String> =
+                reports.iter().map(|report| name_in(&folder, &report.path)).collect();
+            baseline.forget(|file| !checked.contains(file) && is_gone(&folder, file));
             let text = baseline.to_text();
             output::to_file(&path, |out| out.write_all(text.as_bytes()))?;
             let known = baseline.len();
@@ -119,8 +121,9 @@ fn words(path: &Path, stale: &[StaleEntry]) -> String {
     )
 }
 
+/// Is a file not there any more? Of one whose name is not text, nobody can tell by what the baseline calls it.
 fn is_gone(folder: &Path, file: &str) -> bool {
-    !folder.join(file).exists()
+    !file.contains(char::REPLACEMENT_CHARACTER) && !folder.join(file).exists()
 }
 
 fn parse(path: &Path, text: &str) -> Result<Baseline, Problem> {

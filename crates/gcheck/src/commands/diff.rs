@@ -58,14 +58,24 @@ fn one(global: &Global, options: &DiffOptions) -> Result<u8, Problem> {
     output::refuse_to_replace(options.output_file.as_deref(), [options.a.as_path(), options.b.as_path()])?;
     let compared = runs::both(global, options, [&options.a, &options.b], &Arc::default(), Rest::Leave)?;
     let text = if options.output_format == DiffFormat::Json {
-        to_text(&compared.sides().json(&compared.differences))?
+        let mut whole = compared.sides().json(&compared.differences);
+        if let Some(whole) = whole.as_object_mut() {
+            whole.insert("assumptions".to_owned(), compared.taken_for_granted.clone().into());
+        }
+        to_text(&whole)?
     } else {
         if !global.quiet {
             for control in &compared.controls {
                 say(control);
             }
         }
-        compared.sides().text(&compared.differences)
+        let mut text = compared.sides().text(&compared.differences);
+        for taken in &compared.taken_for_granted {
+            text.push_str("taken for granted: ");
+            text.push_str(taken);
+            text.push('\n');
+        }
+        text
     };
     output::to(options.output_file.as_deref(), &text)?;
     for fault in compared.faults.iter().flatten() {

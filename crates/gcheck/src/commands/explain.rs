@@ -5,7 +5,9 @@
 use std::fmt::Write as _;
 use std::sync::Arc;
 
-use gcheck_controls::{Code, CodeNumber, Confidence, Control, Letter, WordEntry};
+use gcheck_controls::{
+    Access, Code, CodeNumber, Confidence, Control, Letter, Variable, VariableEntry, WordEntry,
+};
 use gcheck_diagnostics::RuleMeta;
 
 use super::{chosen_control, columns};
@@ -27,6 +29,17 @@ pub(crate) fn run(global: &Global, options: &ExplainOptions) -> Result<u8, Probl
     if let Some(letter) = Letter::parse(&subject.to_ascii_uppercase()) {
         return explain_address(global, letter);
     }
+    if let Some(variable) = subject.strip_prefix('#') {
+        return explain_variable(global, variable.trim());
+    }
+    if KEYWORDS.iter().any(|keyword| keyword.eq_ignore_ascii_case(code)) {
+        let message = format!(
+            "`{}` is a word of macro statements, which has no page: it is neither a rule nor a code",
+            code.to_ascii_uppercase()
+        );
+        return Err(Problem::new(message)
+            .help("`gcheck rules` lists the rules of the group `flow`, which are about jumps and loops"));
+    }
     if subject.starts_with(|c: char| c.is_ascii_digit()) {
         return Err(without_letter(subject));
     }
@@ -39,6 +52,61 @@ pub(crate) fn run(global: &Global, options: &ExplainOptions) -> Result<u8, Probl
 /// All controls, by name.
 fn all_controls() -> impl Iterator<Item = Arc<Control>> {
     gcheck_controls::names().iter().filter_map(|name| gcheck_controls::load(name).ok())
+}
+
+/// Words of macro statements.
+const KEYWORDS: [&str; 12] =
+    ["GOTO", "IF", "THEN", "ELSE", "ENDIF", "WHILE", "DO", "END", "WH", "SUB", "CALL", "RETURN"];
+
+/// What a variable holds on the controls: `4003`, `<_feed>`.
+fn explain_variable(global: &Global, written: &str) -> Result<u8, Problem> {
+    let shown = format!("#{written}");
+    let name = written.strip_prefix('<').and_then(|rest| rest.strip_suffix('>'));
+    let number = written.parse::<u32>().ok();
+    if name.is_none() && number.is_none() {
+        return Err(Problem::new(format!("`{shown}` is not a variable"))
+            .help("write `#4003`, or `#<_feed>` for a parameter with a name"));
+    }
+    fn entry<'c>(control: &'c Control, number: Option<u32>, name: Option<&str>) -> Option<&'c VariableEntry> {
+        match (number.map(|number| control.variable(number)), name) {
+            (Some(Variable::Known(entry)), _) => Some(entry),
+            (Some(Variable::Unlisted), _) | (None, None) => None,
+            (None, Some(name)) => control.named_parameter(name),
+        }
+    }
+    let chosen = chosen_control(global)?;
+    let all: Vec<Arc<Control>> = all_controls().collect();
+    let named =
+        all.iter().filter_map(|control| Some((entry(control, number, name)?.title.as_str(), control.name())));
+    let meanings = by_meaning(named);
+    let Some(control) = chosen else {
+        if meanings.is_empty() {
+            return Err(Problem::new(format!("no control that gcheck knows lists `{shown}`")));
+        }
+        return output::print(&format!("{shown}: a variable\n\n{meanings}"));
+    };
+    let Some(entry) = entry(&control, number, name) else {
+        let problem = Problem::new(format!("{} does not list `{shown}`", control.title()));
+        return Err(if meanings.is_empty() {
+            problem
+        } else {
+            problem.help(format!(
+                "without `--control` its meaning on other controls is shown: `gcheck explain '{shown}'`"
+            ))
+        });
+    };
+    let access = match entry.access {
+        Access::ReadWrite => "programs read and write it",
+        Access::Read => "programs read it",
+        Access::Write => "programs write it",
+    };
+    output::print(&format!(
+        "{shown}: {}\non {}\n\n{access}\n\nSource: {}{}\n",
+        entry.title,
+        control.title(),
+        entry.source,
+        entry.confidence.remark()
+    ))
 }
 
 /// A number without its letter: which codes there are of it.

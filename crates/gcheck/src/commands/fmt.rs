@@ -37,9 +37,12 @@ pub(crate) fn run(global: &Global, options: &FmtOptions) -> Result<u8, Problem> 
     let Found { files, mut problems, .. } = discovery::find(&options.paths, &mut configs);
     let mut targets = Vec::with_capacity(files.len());
     let mut seen = BTreeSet::new();
+    let real = |path: &PathBuf| fs::canonicalize(path).unwrap_or_else(|_| path.clone());
+    let is_link = |path: &PathBuf| path.symlink_metadata().is_ok_and(|data| data.is_symlink());
+    let themselves: BTreeSet<PathBuf> = files.iter().filter(|path| !is_link(path)).map(real).collect();
     for path in files {
-        // A file and a link to it are one file to write.
-        if !seen.insert(fs::canonicalize(&path).unwrap_or_else(|_| path.clone())) {
+        // A file and a link to it are one file to write, and its own name is the one that people know.
+        if is_link(&path) && themselves.contains(&real(&path)) || !seen.insert(real(&path)) {
             continue;
         }
         if let Err(problem) = discovery::refuse_to_leave(&path, &options.paths) {

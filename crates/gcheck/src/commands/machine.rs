@@ -63,7 +63,7 @@ pub(crate) fn import(global: &Global, options: &ImportOptions) -> Result<u8, Pro
     for opened in &merged.opened {
         remark(opened);
     }
-    write(global, options, &path, before.as_deref(), &merged)
+    write(global, options, &path, before.as_deref(), &merged, surroundings.has_control)
 }
 
 fn write(
@@ -72,6 +72,7 @@ fn write(
     path: &Path,
     before: Option<&str>,
     merged: &Merged,
+    has_control: bool,
 ) -> Result<u8, Problem> {
     let shown = paths::shown(path);
     if options.dry_run {
@@ -89,7 +90,11 @@ fn write(
     }
     let same = if merged.same > 0 { format!(", {} the same", merged.same) } else { String::new() };
     let kept = if merged.kept.is_empty() { String::new() } else { format!(", {} kept", merged.kept.len()) };
-    let next = "next: `gcheck check --show-settings`";
+    let next = if has_control {
+        "next: `gcheck check --show-settings`"
+    } else {
+        "next: name the control in it, `control = \"NAME\"` (`gcheck controls` lists them), then `gcheck check --show-settings`"
+    };
     output::print(&told(global, &format!("wrote {shown}: {}{same}{kept}\n{next}\n", values(merged.written))))
 }
 

@@ -22,6 +22,9 @@ struct Row {
     keys: Vec<String>,
 }
 
+/// What the unit of a table is, beside a preset.
+const UNITS: &str = "  # of the lengths below; a preset leaves the unit of the file as it is";
+
 /// Prints the list.
 pub(crate) fn list(options: &ListOptions) -> Result<u8, Problem> {
     let mut rows = Vec::new();
@@ -61,6 +64,8 @@ pub(crate) fn show(name: &str) -> Result<u8, Problem> {
     let _ = writeln!(text, "# preset = \"{name}\" gives the same, below what else is here");
     for (key, value) in table.into_iter().flat_map(toml_edit::TableLike::iter) {
         let source = preset.sources.get(key).map_or_else(String::new, |source| format!("  # {source}"));
+        // A preset has no other unit than that of its own lengths.
+        let source = if key == "units" { UNITS.to_owned() } else { source };
         match value.as_table_like() {
             // `travel.X` and the like are shown as they are written.
             Some(axes) if !value.is_inline_table() => {

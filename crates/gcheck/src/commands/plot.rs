@@ -16,7 +16,7 @@ use gcheck_toolpath::{Names, Step, WorkCoordinates};
 use crate::args::{Global, PlotOptions};
 use crate::console::say;
 use crate::execution::{self, Prepared, Session, Steps};
-use crate::{Problem, output};
+use crate::{Problem, output, paths};
 use findings::Found;
 
 /// What is written, as the output's name says.
@@ -28,6 +28,9 @@ enum Form {
 
 impl Form {
     fn of(path: &Path) -> Result<Self, Problem> {
+        if paths::is_standard_input(path) {
+            return Ok(Self::Svg);
+        }
         let extension = path.extension().map(|extension| extension.to_string_lossy().to_lowercase());
         match extension.as_deref() {
             Some("svg") => Ok(Self::Svg),
@@ -54,10 +57,15 @@ pub(crate) fn run(global: &Global, options: &PlotOptions) -> Result<u8, Problem>
         let (ran, drawing) = draw(session, MAX_POINTS)?;
         let mut notes: Vec<Note> = stopped(session, &ran).into_iter().collect();
         notes.extend(found.note().map(Note::from));
-        output::to_file(&options.output_file, |out| match form {
+        let write = |out: &mut dyn Write| match form {
             Form::Svg => svg(session, &drawing, &notes, out),
             Form::Html => page(session, &drawing, &found, &notes, out),
-        })?;
+        };
+        if paths::is_standard_input(&options.output_file) {
+            output::to_stdout(write)?;
+        } else {
+            output::to_file(&options.output_file, write)?;
+        }
         if !global.quiet {
             let words: Vec<String> = drawing.notes().into_iter().map(|note| note.words).collect();
             say(&words.join("\n"));

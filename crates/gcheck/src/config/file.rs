@@ -98,7 +98,7 @@ pub struct MachineTable {
     /// The machine's name, for people.
     pub name: Option<String>,
     /// Axes the machine has: `["X", "Y", "Z", "A"]`.
-    pub axes: Option<Vec<Placed<String>>>,
+    pub axes: Option<Placed<Vec<Placed<String>>>>,
     /// Unit of every length in this file, and the one active at power-on. No G20 or G21 reinterprets it.
     pub units: Option<Units>,
     /// Unit in which the control keeps its offsets and tools, and in which a tool table on disk is read; `units` without it.

@@ -3,8 +3,9 @@
 //! Knows: what a text says by itself. Must not know: which programs it rules over, or other layers.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
-use gcheck_controls::UserCode;
+use gcheck_controls::{Control, UserCode};
 
 use super::execution_facts::ExecutionFacts;
 use super::file::{FilesTable, OverrideTable, RulesTable};
@@ -28,6 +29,17 @@ pub struct Layer {
     pub(super) per_file_ignores: Vec<(PathPattern, Vec<String>)>,
     pub(super) include: Option<Vec<PathPattern>>,
     pub(super) exclude: Vec<PathPattern>,
+    origin: Origin,
+}
+
+/// The text that a layer was read from, for messages of what shows up later.
+#[derive(Debug)]
+struct Origin {
+    name: String,
+    text: String,
+    folder: PathBuf,
+    /// Messages may show lines of it.
+    may_be_quoted: bool,
 }
 
 /// What a layer, or an override in it, says about programs.
@@ -99,7 +111,45 @@ impl Layer {
         let FilesTable { include, exclude } = &file.files;
         let include = include.as_ref().map(|patterns| text.patterns(patterns)).transpose()?;
         let exclude = text.patterns(exclude)?;
-        Ok(Self { path, file, preset, base, overrides, per_file_ignores, include, exclude })
+        let origin = Origin {
+            name: text.name.to_owned(),
+            text: text.text.to_owned(),
+            folder: text.folder.to_owned(),
+            may_be_quoted: true,
+        };
+        Ok(Self { path, file, preset, base, overrides, per_file_ignores, include, exclude, origin })
+    }
+
+    /// The same, of a file of which messages show nothing.
+    pub(super) fn unquoted(mut self) -> Self {
+        self.origin.may_be_quoted = false;
+        self
+    }
+
+    /// Whether what it says of a program, for no control that it names itself, is right on the control that runs the program.
+    pub(super) fn hold_to(&self, path: &Path, control: &Arc<Control>) -> Result<(), Problem> {
+        if self.file.control.is_some() {
+            return Ok(());
+        }
+        let Origin { name, text, folder, may_be_quoted } = &self.origin;
+        let checked = validate::Checked::of(Text { name, text, folder }, Arc::clone(control));
+        let of_file = || {
+            let ConfigFile { machine, settings, codes, offsets, .. } = &self.file;
+            checked.on_control(machine, settings, codes, offsets)?;
+            // Both are in the order of the file.
+            for (table, (patterns, _)) in self.file.overrides.iter().zip(self.own_overrides()) {
+                if table.control.is_none() && patterns.iter().any(|pattern| pattern.fits_or_holds(path)) {
+                    checked.on_control(&table.machine, &table.settings, &table.codes, &table.offsets)?;
+                }
+            }
+            Ok(())
+        };
+        of_file().map_err(|problem: Problem| if *may_be_quoted { problem } else { problem.without_text() })
+    }
+
+    /// The overrides as they are written, without what their presets say.
+    fn own_overrides(&self) -> impl Iterator<Item = &(Vec<PathPattern>, Facts)> {
+        self.overrides.iter().filter(|(_, facts)| !facts.execution.is_preset)
     }
 
     /// What it says about some programs or all.

@@ -55,7 +55,11 @@ impl Preset {
 
 #[cfg(test)]
 mod tests {
+    use std::path::Path;
+
     use super::Preset;
+    use crate::config::text::Text;
+    use crate::config::validate::Checked;
 
     #[test]
     fn every_preset_can_be_read_and_tells_the_source_of_each_value() {
@@ -74,6 +78,9 @@ mod tests {
                 .filter(|key| *key != "extent" && !file["machine"].as_table().unwrap().contains_key(*key))
                 .collect();
             assert!(unused.is_empty(), "{}: sources of nothing: {unused:?}", model.name);
+            let text = Text { name: model.name, text: model.text, folder: Path::new("/") };
+            let checked = Checked::new(text, None).unwrap().machine(&preset.machine, true);
+            assert!(checked.is_ok(), "{}", checked.err().unwrap());
         }
     }
 }

@@ -23,8 +23,10 @@ pub(super) fn file_with_bases(path: &Path) -> Result<Vec<Arc<Layer>>, Problem> {
     let workspace = Workspace::around(path);
     let mut next = Some(path.to_owned());
     while let Some(path) = next {
-        let (layer, base) = file(&path)
-            .map_err(|problem| if workspace.may_quote(&path) { problem } else { problem.without_text() })?;
+        let may_quote = workspace.may_quote(&path);
+        let (layer, base) =
+            file(&path).map_err(|problem| if may_quote { problem } else { problem.without_text() })?;
+        let layer = if may_quote { layer } else { layer.unquoted() };
         if let Some(base) = &base
             && (layers.len() >= MAX_BASES || is_read(&layers, &layer, base))
         {
@@ -123,7 +125,7 @@ fn parse(name: &str, text: &str) -> Result<ConfigFile, Problem> {
 }
 
 /// Serde's message in our words: a suggestion for what is misspelt, no names of Rust types.
-fn in_words(message: &str) -> String {
+pub(crate) fn in_words(message: &str) -> String {
     if let Some((what, name, known)) = misspelt(message) {
         let near = did_you_mean(name, known.iter().copied());
         let list = if near.is_empty() && !known.is_empty() {
@@ -132,6 +134,9 @@ fn in_words(message: &str) -> String {
             near
         };
         return format!("unknown {what} `{name}`{list}");
+    }
+    if let Some(key) = message.strip_prefix("missing field `").and_then(|rest| rest.strip_suffix('`')) {
+        return format!("the key `{key}` is missing");
     }
     let mut words = message.lines().next().unwrap_or_default().to_owned();
     words = words.replace("invalid type: ", "wrong type: ").replace("invalid value: ", "wrong value: ");
@@ -235,7 +240,7 @@ mod tests {
         let layer = inline(&format!("control={first}")).unwrap();
         assert_eq!(layer.base.control.as_deref(), Some(first));
         let layer = inline("machine.axes=[\"X\", \"Z\"]").unwrap();
-        assert_eq!(layer.file.machine.axes.unwrap().len(), 2);
+        assert_eq!(layer.file.machine.axes.unwrap().value.len(), 2);
         let problem = inline("contrl=x").unwrap_err().to_string();
         assert!(
             problem.starts_with("--config:1:1: unknown key `contrl`; did you mean `control`?"),

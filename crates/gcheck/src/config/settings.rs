@@ -108,7 +108,8 @@ impl FileSettings {
         }
         let MachineTable { axes, .. } = &facts.machine;
         if let Some(axes) = axes {
-            let letters = axes.iter().filter_map(|axis| Letter::parse(&axis.value.to_ascii_uppercase()));
+            let letters =
+                axes.value.iter().filter_map(|axis| Letter::parse(&axis.value.to_ascii_uppercase()));
             self.machine.axes = Some(letters.collect::<LetterSet>());
         }
         self.machine.settings.extend(facts.settings.iter().cloned());

@@ -28,9 +28,9 @@ impl Text<'_> {
         Problem::at(self.name, self.text, &placed.range, message)
     }
 
-    /// A problem that has no place in the text.
-    pub(super) fn anywhere(&self, message: impl Into<String>) -> Problem {
-        Problem::with_file(Path::new(self.name), message)
+    /// A problem at some bytes of the text.
+    pub(super) fn at(&self, range: &std::ops::Range<usize>, message: impl Into<String>) -> Problem {
+        Problem::at(self.name, self.text, range, message)
     }
 
     pub(super) fn patterns(&self, patterns: &[Placed<String>]) -> Result<Vec<PathPattern>, Problem> {

@@ -3,6 +3,7 @@
 //! Knows: where to ask, and how to say what is wrong at its place. Must not know: how TOML is read.
 
 use std::collections::BTreeMap;
+use std::ops::Range;
 use std::sync::Arc;
 
 use gcheck_controls::{CodeNumber, Control, Effect, Letter, Machine, UserCode};
@@ -22,6 +23,18 @@ use crate::nearest::did_you_mean;
 /// Axis addresses of RS-274, which bound what a machine can have when its control is not known.
 const AXES: &str = "XYZABCUVW";
 
+/// No linear axis moves faster, in millimetres a minute, nor a rotary one, in degrees a minute.
+const FASTEST: f64 = 1e6;
+const FASTEST_TURN: f64 = 1e7;
+/// No spindle turns faster, 1/min.
+const FASTEST_SPINDLE: f64 = 1e6;
+/// No axis goes further, in millimetres; a rotary one may count many turns, in degrees.
+const FARTHEST: f64 = 1e6;
+const FARTHEST_ANGLE: f64 = 1e9;
+/// No tool is larger or longer, in millimetres.
+const LARGEST_TOOL: f64 = 1e4;
+/// Lengths in a configuration that are the same.
+const SAME_LENGTH: f64 = 1e-6;
 /// No control takes longer for a block, in seconds.
 const LONGEST_BLOCK: f64 = 0.2;
 /// No tool has more teeth.
@@ -75,6 +88,34 @@ impl<'t> Checked<'t> {
                 .map_err(|error| text.problem(name, unknown_control(&name.value, &error)))
         });
         Ok(Self { text, control: control.transpose()? })
+    }
+
+    /// The parts of one text on a control that it does not name.
+    pub(super) fn of(text: Text<'t>, control: Arc<Control>) -> Self {
+        Self { text, control: Some(control) }
+    }
+
+    /// What only the control that runs a program shows to be wrong. A setting, offset or code that it does not have may be meant
+    /// for other programs of the folder.
+    pub(super) fn on_control(
+        &self,
+        machine: &MachineTable,
+        settings: &BTreeMap<Placed<String>, Placed<Scalar>>,
+        codes: &BTreeMap<Placed<String>, CodeTable>,
+        offsets: &BTreeMap<Placed<String>, BTreeMap<Placed<String>, f64>>,
+    ) -> Result<(), Problem> {
+        self.overrides(machine)?;
+        for (number, value) in settings {
+            self.setting(number, value)?;
+        }
+        self.codes(codes)?;
+        let is_own = |name: &str| {
+            let code = name.split_whitespace().next().map(str::to_ascii_uppercase);
+            let number = code.and_then(|code| CodeNumber::parse(&code));
+            let control = self.control.as_ref();
+            number.is_some_and(|number| control.is_some_and(|control| control.code(number).is_some()))
+        };
+        self.named_offsets(offsets.keys().filter(|name| is_own(&name.value)))
     }
 
     /// A point has three coordinates.
@@ -148,12 +189,13 @@ impl<'t> Checked<'t> {
 
     /// `is_whole`: nothing beside the table says anything about these machines.
     pub(super) fn machine(&self, table: &MachineTable, is_whole: bool) -> Result<MachineTable, Problem> {
-        let lists = [&table.axes, &table.rotary_order, &table.rotary_shorter_way];
-        let lists = lists.into_iter().flatten().flatten();
+        let own_axes = || table.axes.iter().flat_map(|axes| &axes.value);
+        let lists = [&table.rotary_order, &table.rotary_shorter_way];
+        let lists = own_axes().chain(lists.into_iter().flatten().flatten());
         for axis in lists.chain(table.travel.keys()).chain(table.rotary_sign.keys()) {
             self.axis(axis)?;
         }
-        self.each_axis_once(table.axes.iter().flatten())?;
+        self.each_axis_once(own_axes())?;
         self.each_axis_once(table.travel.keys())?;
         self.each_axis_once(table.rotary_sign.keys())?;
         self.each_axis_once(table.rotary_shorter_way.iter().flatten())?;
@@ -165,6 +207,12 @@ impl<'t> Checked<'t> {
             let [low, high] = travel.value;
             if !(low.is_finite() && high.is_finite()) {
                 let message = format!("travel of {} must have two finite ends", axis.value);
+                return Err(self.text.problem(travel, message).help("leave out an axis without an end"));
+            }
+            let (unit, most) = of_axis(&axis.value, FARTHEST, table.units);
+            if let Some(end) = [low, high].into_iter().find(|end| end.abs() > most) {
+                let message =
+                    format!("no axis goes to {}: an end of travel is at most {most} {unit}", plain(end));
                 return Err(self.text.problem(travel, message).help("leave out an axis without an end"));
             }
             if low >= high {
@@ -223,10 +271,10 @@ impl<'t> Checked<'t> {
 
     /// Where the table lists the machine's axes, it speaks of no others.
     fn listed_axes(&self, table: &MachineTable) -> Result<(), Problem> {
-        let Some(axes) = &table.axes else { return Ok(()) };
+        let Some(listed) = &table.axes else { return Ok(()) };
+        let axes = &listed.value;
         if axes.is_empty() {
-            // An empty list has no place of its own.
-            return Err(self.text.anywhere("`axes` is empty: a machine has at least one axis"));
+            return Err(self.text.problem(listed, "`axes` is empty: a machine has at least one axis"));
         }
         let shown = || axes.iter().map(|axis| axis.value.to_ascii_uppercase()).collect::<Vec<_>>().join(", ");
         // Rates of axes that are not listed stay: an import that narrows `axes` keeps what it does not know.
@@ -332,9 +380,54 @@ impl<'t> Checked<'t> {
                 return Err(self.text.problem(seconds, message));
             }
         }
+        self.speeds(table)?;
         if let Some(pockets) = table.pockets.as_ref().filter(|pockets| pockets.value > MOST_POCKETS) {
             let message = format!("a magazine has at most {MOST_POCKETS} pockets");
             return Err(self.text.problem(pockets, message));
+        }
+        Ok(())
+    }
+
+    /// Speeds and lengths that no machine has.
+    fn speeds(&self, table: &MachineTable) -> Result<(), Problem> {
+        if let Some(speed) = table.max_rpm.as_ref().filter(|speed| speed.value > FASTEST_SPINDLE) {
+            let message = format!("no spindle turns {} times a minute", plain(speed.value));
+            return Err(self.text.problem(speed, message).help(format!("it is at most {FASTEST_SPINDLE}")));
+        }
+        let too_fast = |placed: &Range<usize>, value: f64, unit: &str, most: f64| {
+            let message = format!("no axis moves {} {unit} a minute: it is at most {most}", plain(value));
+            self.text.at(placed, message)
+        };
+        let (unit, most) = at_most(FASTEST, table.units);
+        for rate in [&table.max_feed, &table.corner_speed_change].into_iter().flatten() {
+            if rate.value > most {
+                return Err(too_fast(&rate.range, rate.value, unit, most));
+            }
+        }
+        match table.rapid.as_ref().map(|rapid| (&rapid.range, &rapid.value)) {
+            Some((range, ByAxis::All(rate))) if *rate > most => {
+                return Err(too_fast(range, *rate, unit, most));
+            }
+            Some((_, ByAxis::Each(each))) => {
+                for (axis, rate) in each {
+                    let is_rotary = rotary_axis(&axis.value).is_some();
+                    let (unit, most) = if is_rotary { ("degrees", FASTEST_TURN) } else { (unit, most) };
+                    if rate.value > most {
+                        return Err(too_fast(&rate.range, rate.value, unit, most));
+                    }
+                }
+            }
+            _ => {}
+        }
+        if let Some(rate) = table.rotary_rapid.as_ref().filter(|rate| rate.value > FASTEST_TURN) {
+            return Err(too_fast(&rate.range, rate.value, "degrees", FASTEST_TURN));
+        }
+        let (unit, most) = at_most(FARTHEST, table.units);
+        let lengths = [&table.pivot_length, &table.bar_length].into_iter().flatten();
+        let places = table.rotary_centre.values().chain(table.rotary_offset.values());
+        if let Some(length) = lengths.chain(places).find(|length| length.value.abs() > most) {
+            let message = format!("a length is at most {most} {unit}, not {}", plain(length.value));
+            return Err(self.text.problem(length, message));
         }
         Ok(())
     }
@@ -512,22 +605,29 @@ impl<'t> Checked<'t> {
         others: &[&str],
     ) -> Result<Vec<(String, String)>, Problem> {
         for (number, value) in settings {
-            let Some(entry) = self.control.as_ref().and_then(|control| control.setting(&number.value)) else {
+            if !self.setting(number, value)? {
                 self.is_of_another(number, others)?;
-                continue;
-            };
-            let listed: Vec<&str> = entry.values.iter().map(String::as_str).collect();
-            let is_open =
-                listed.iter().any(|v| KINDS_OF_VALUES.contains(v)) || listed.iter().any(|v| v.contains(' '));
-            if !is_open && !listed.contains(&value.value.0.as_str()) {
-                let near = did_you_mean(&value.value.0, listed.iter().copied());
-                return Err(self.text.problem(
-                    value,
-                    format!("setting {} ({}) is one of {}{near}", number.value, entry.title, quoted(&listed)),
-                ));
             }
         }
         Ok(settings.iter().map(|(number, value)| (number.value.clone(), value.value.0.clone())).collect())
+    }
+
+    /// Is it a setting of the control? Then its value is one that it takes.
+    fn setting(&self, number: &Placed<String>, value: &Placed<Scalar>) -> Result<bool, Problem> {
+        let Some(entry) = self.control.as_ref().and_then(|control| control.setting(&number.value)) else {
+            return Ok(false);
+        };
+        let listed: Vec<&str> = entry.values.iter().map(String::as_str).collect();
+        let is_open =
+            listed.iter().any(|v| KINDS_OF_VALUES.contains(v)) || listed.iter().any(|v| v.contains(' '));
+        if !is_open && !listed.contains(&value.value.0.as_str()) {
+            let near = did_you_mean(&value.value.0, listed.iter().copied());
+            return Err(self.text.problem(
+                value,
+                format!("setting {} ({}) is one of {}{near}", number.value, entry.title, quoted(&listed)),
+            ));
+        }
+        Ok(true)
     }
 
     /// Whether a setting that the control does not list is of one of these; of any control, where none is named.
@@ -631,14 +731,14 @@ impl<'t> Checked<'t> {
         is_whole: bool,
     ) -> Result<ExecutionFacts, Problem> {
         self.variables(variables)?;
-        self.work_offsets(offsets)?;
+        self.work_offsets(offsets, machine.units)?;
         let mut by_number = Vec::with_capacity(tools.tools.len());
         for (number, tool) in &tools.tools {
             let Ok(parsed) = number.value.parse::<u32>() else {
                 let message = format!("`{}` is not a tool number, nor `table`", number.value);
                 return Err(self.text.problem(number, message));
             };
-            self.tool(number, tool, is_whole && tools.table.is_none())?;
+            self.tool(number, tool, machine.units, is_whole && tools.table.is_none())?;
             by_number.push((parsed, tool.clone()));
         }
         Ok(ExecutionFacts {
@@ -678,36 +778,55 @@ impl<'t> Checked<'t> {
     fn work_offsets(
         &self,
         offsets: &BTreeMap<Placed<String>, BTreeMap<Placed<String>, f64>>,
+        units: Option<Units>,
     ) -> Result<(), Problem> {
+        self.named_offsets(offsets.keys())?;
+        offsets.values().try_for_each(|axes| self.by_axis(axes, FARTHEST, units))
+    }
+
+    /// Each names another work offset of the control, or of any control where none is named.
+    fn named_offsets<'a>(&self, names: impl Iterator<Item = &'a Placed<String>>) -> Result<(), Problem> {
         let mut numbers: BTreeMap<u16, &str> = BTreeMap::new();
-        for (name, axes) in offsets {
+        for name in names {
             let number = self.control.as_ref().and_then(|control| work_offset(&name.value, control));
             if let Some(other) = number.and_then(|number| numbers.insert(number, &name.value)) {
                 let message = format!("`{}` and `{other}` are one work offset", name.value);
                 return Err(self.text.problem(name, message));
             }
-            let code = name.value.split_whitespace().next().and_then(CodeNumber::parse);
-            let is_work_offset = |control: &Arc<Control>| work_offset(&name.value, control).is_some();
-            let exists = code.is_some() && self.control.as_ref().is_none_or(is_work_offset);
-            if !exists {
-                let of = self
-                    .control
-                    .as_ref()
-                    .map_or_else(String::new, |control| format!(" of {}", control.name()));
+            let is_of = |control: &Arc<Control>| work_offset(&name.value, control).is_some();
+            let is_of_any = || {
+                let mut controls = gcheck_controls::names().iter();
+                controls.any(|name| gcheck_controls::load(name).is_ok_and(|control| is_of(&control)))
+            };
+            if !self.control.as_ref().map_or_else(is_of_any, is_of) {
+                let of = self.control.as_ref().map_or_else(
+                    || " of any control".to_owned(),
+                    |control| format!(" of {}", control.name()),
+                );
                 let message =
                     format!("`{}` is not a work offset{of}; write `G54` or \"G154 P1\"", name.value);
                 return Err(self.text.problem(name, message));
             }
-            self.by_axis(axes)?;
         }
         Ok(())
     }
 
     /// The sizes of a tool; `is_whole` when nothing else can say them.
-    fn tool(&self, number: &Placed<String>, tool: &ToolTable, is_whole: bool) -> Result<(), Problem> {
+    fn tool(
+        &self,
+        number: &Placed<String>,
+        tool: &ToolTable,
+        units: Option<Units>,
+        is_whole: bool,
+    ) -> Result<(), Problem> {
         let sizes = [tool.length, tool.posted_length, tool.diameter, tool.corner_radius];
         for size in sizes.into_iter().flatten() {
             self.finite(number, size)?;
+            let (unit, most) = at_most(LARGEST_TOOL, units);
+            if size.abs() > most {
+                let message = format!("a size of a tool is at most {most} {unit}, not {}", plain(size));
+                return Err(self.text.problem(number, message));
+            }
         }
         // A diameter below zero is an offset to the other side, as controls take it.
         if tool.corner_radius.is_some_and(|radius| radius < 0.0) {
@@ -716,7 +835,17 @@ impl<'t> Checked<'t> {
         if let Some(orientation) = tool.orientation.as_ref().filter(|o| o.value > 9) {
             return Err(self.text.problem(orientation, "a tip points in one of the directions 0 to 9"));
         }
-        self.by_axis(&tool.offset)?;
+        if let (Some(radius), Some(diameter)) = (tool.corner_radius, tool.diameter)
+            && diameter != 0.0
+            && radius > diameter.abs() / 2.0 + SAME_LENGTH
+        {
+            let message = format!(
+                "the corner radius {radius} is larger than half of the diameter {}: a ball end mill has half of it",
+                diameter.abs()
+            );
+            return Err(self.text.problem(number, message));
+        }
+        self.by_axis(&tool.offset, LARGEST_TOOL, units)?;
         self.cutting(tool)?;
         if let Some(range) = &tool.surface_speed
             && self.control.as_ref().is_some_and(|control| only_mills(control))
@@ -746,11 +875,22 @@ impl<'t> Checked<'t> {
         Ok(())
     }
 
-    fn by_axis(&self, axes: &BTreeMap<Placed<String>, f64>) -> Result<(), Problem> {
+    /// Values by axis, each at most so many millimetres.
+    fn by_axis(
+        &self,
+        axes: &BTreeMap<Placed<String>, f64>,
+        most: f64,
+        units: Option<Units>,
+    ) -> Result<(), Problem> {
         self.each_axis_once(axes.keys())?;
         for (axis, value) in axes {
             self.axis(axis)?;
             self.finite(axis, *value)?;
+            let (unit, most) = of_axis(&axis.value, most, units);
+            if value.abs() > most {
+                let message = format!("{} is at most {most} {unit}, not {}", axis.value, plain(*value));
+                return Err(self.text.problem(axis, message));
+            }
         }
         Ok(())
     }
@@ -816,6 +956,22 @@ fn in_units([least, most]: [f64; 2], units: Option<Units>) -> (&'static str, [f6
         Some(Units::Inch) => ("inch", inch),
         None => ("units", [rounded(least / MM_PER_INCH), most]),
     }
+}
+
+/// A limit of millimetres in the units of a table; where it names none, the larger number.
+fn at_most(most: f64, units: Option<Units>) -> (&'static str, f64) {
+    let (unit, [_, most]) = in_units([0.0, most], units);
+    (unit, most)
+}
+
+/// The limit of a figure of an axis: so many millimetres, or what a rotary axis may count.
+fn of_axis(axis: &str, most: f64, units: Option<Units>) -> (&'static str, f64) {
+    if rotary_axis(axis).is_some() { ("degrees", FARTHEST_ANGLE) } else { at_most(most, units) }
+}
+
+/// A figure as people read it: one with many digits by its power of ten.
+fn plain(figure: f64) -> String {
+    if figure.abs() >= 1e9 { format!("{figure:e}") } else { figure.to_string() }
 }
 
 /// A figure that was converted, as people write it.

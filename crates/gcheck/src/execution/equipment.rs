@@ -100,7 +100,7 @@ impl Equipment {
         let table = &layer.machine;
         let machine = &mut self.machine;
         if let Some(axes) = &table.axes {
-            machine.axes = Some(axes.iter().filter_map(|axis| axis_of(&axis.value)).collect());
+            machine.axes = Some(axes.value.iter().filter_map(|axis| axis_of(&axis.value)).collect());
         }
         for (axis, travel) in &table.travel {
             if let Some(axis) = axis_of(&axis.value) {

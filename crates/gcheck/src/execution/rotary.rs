@@ -31,7 +31,7 @@ impl RotaryAxes {
             names.iter().filter_map(|name| rotary_axis(&name.value)).collect()
         };
         if let Some(names) = &table.axes {
-            self.named = axes(names);
+            self.named = axes(&names.value);
         }
         if let Some(names) = &table.rotary_order {
             self.order = Some(axes(names));

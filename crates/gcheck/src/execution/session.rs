@@ -63,6 +63,7 @@ pub(crate) fn prepare(
     let plain = plain.map_err(|error| Problem::new(error.to_string()))?;
     let control =
         if settings.codes.is_empty() { plain } else { Arc::new(plain.with_user_codes(&settings.codes)) };
+    config.hold_to(&path, &control)?;
     let mut equipment = Equipment::new(&settings, &Model::new(&control), start)?;
     equipment.set(&conditions.set);
     Ok(Prepared {
@@ -125,6 +126,14 @@ pub(crate) struct Session<'s> {
     pub(super) tools: &'s ToolNames<'s>,
     /// What comments of the file call the blocks after them.
     pub(crate) headings: &'s [Heading],
+}
+
+impl Session<'_> {
+    /// The axes of the machine as configured; without that, those that the program names and those that every machine has.
+    pub(crate) fn axes_of_machine(&self) -> Vec<gcheck_engine::Axis> {
+        let configured = self.prepared.equipment.machine.axes.clone();
+        configured.unwrap_or_else(|| self.axes.axes(None))
+    }
 }
 
 impl Prepared {

@@ -442,10 +442,9 @@ impl Merging<'_> {
                 if !is_inline {
                     let suffix =
                         old.and_then(|old| old.decor().suffix()?.as_str()).unwrap_or_default().trim_end();
-                    let suffix = if suffix.contains('#') {
-                        format!("{suffix}; from {}", cut(&fact.comment))
-                    } else {
-                        comment(fact)
+                    let suffix = match own_comment(suffix) {
+                        Some(own) => format!("{own}; from {}", cut(&fact.comment)),
+                        None => comment(fact),
                     };
                     let prefix = old.and_then(|old| old.decor().prefix()?.as_str()).unwrap_or(" ").to_owned();
                     value.decor_mut().set_suffix(suffix);
@@ -547,9 +546,18 @@ fn comment(fact: &Ready) -> String {
     format!("  # from {}", cut(&fact.comment))
 }
 
-/// What others wrote, on one line of a comment.
+/// The comment after a value, with the blanks before it and without what earlier imports say in it; `None` if nothing is left.
+fn own_comment(suffix: &str) -> Option<String> {
+    let (blanks, text) = suffix.split_once('#')?;
+    let of_import = |part: &&str| !part.trim_start().starts_with("from ");
+    let own: Vec<&str> = text.split("; ").filter(of_import).collect();
+    (!own.is_empty()).then(|| format!("{blanks}# {}", own.join("; ").trim_start()))
+}
+
+/// What others wrote, on one line of a comment. A semicolon in a comment ends what an import says.
 fn cut(text: &str) -> String {
-    text.chars()
+    text.replace("; ", ", ")
+        .chars()
         .map(|c| if c.is_control() { ' ' } else { c })
         .take(LONGEST_COMMENT)
         .collect::<String>()

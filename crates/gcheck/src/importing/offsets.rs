@@ -15,6 +15,7 @@ use gcheck_report::ControlSource;
 
 use super::request::Request;
 use super::sheet::{Lines, Sheet, Tells, Value, rounded};
+use super::unread::Reader;
 use crate::Problem;
 use crate::args::{BlockSkip, Conditions, ExecutionOptions, FUEL, Global, Switch, When};
 use crate::config::Units;
@@ -48,12 +49,14 @@ struct Writers<'s> {
     of_offset: BTreeMap<u16, usize>,
     of_tool: BTreeMap<(u32, usize), usize>,
     looked: usize,
+    /// What the blocks say that is not known.
+    reader: Reader<'s>,
 }
 
 impl<'s> Writers<'s> {
-    fn new(text: &'s str, numbers: Vec<u16>) -> Self {
+    fn new(text: &'s str, numbers: Vec<u16>, reader: Reader<'s>) -> Self {
         let (of_offset, of_tool) = (BTreeMap::new(), BTreeMap::new());
-        Self { text, numbers, offsets: Vec::new(), tool: None, of_offset, of_tool, looked: 0 }
+        Self { text, numbers, offsets: Vec::new(), tool: None, of_offset, of_tool, looked: 0, reader }
     }
 
     /// The block, if it is one of the file that may write an offset.
@@ -69,6 +72,7 @@ impl Observer<Concrete> for Writers<'_> {
         if let Some(block) = self.block(origin) {
             self.tool = tool_of(block).map(|number| (number, sizes(state, number).map(f64::to_bits)));
             self.offsets = self.numbers.iter().map(|number| state.tables().offset(*number)).collect();
+            self.reader.look(origin, state);
         }
     }
 
@@ -162,7 +166,7 @@ pub(super) fn read(sheet: &mut Sheet<'_>, path: &Path, request: Request<'_>) {
             fuel: FUEL,
         },
     };
-    let mut prepared = match execution::prepare(&global, &options, execution::Start::Fresh) {
+    let mut prepared = match execution::prepare(&global, &options, execution::Start::Any) {
         Ok(prepared) => prepared,
         Err(problem) => return sheet.problems.push(problem),
     };
@@ -185,7 +189,7 @@ fn execute(sheet: &mut Sheet<'_>, prepared: &Prepared, session: &Session<'_>) {
     let names: BTreeMap<u16, String> =
         (1..=WORK_OFFSETS).filter_map(|number| Some((number, name_of(session, number)?))).collect();
     let text = prepared.source.text();
-    let mut writers = Writers::new(text, names.keys().copied().collect());
+    let mut writers = Writers::new(text, names.keys().copied().collect(), Reader::new(session));
     let options = Options::NONE;
     let machine = &prepared.equipment.machine;
     let result = gcheck_engine::run(session.program, session.model, machine, options, FUEL, &mut writers);
@@ -198,6 +202,11 @@ fn execute(sheet: &mut Sheet<'_>, prepared: &Prepared, session: &Session<'_>) {
         return sheet.refuse(&(end..end), "the file begins with `%` and ends without it; is it cut short?");
     }
     let places = Places::new(sheet, text, &writers);
+    let lines = Lines::new(text);
+    for unread in &writers.reader.found {
+        let range = sheet.range_of_line(lines.line(unread.at));
+        sheet.leave(&range, unread.what.clone(), unread.why);
+    }
     if session.says_units() {
         let units = result.state.units(session.model).map(|units| match units {
             gcheck_engine::Units::Mm => Units::Mm,
@@ -242,36 +251,40 @@ fn take(
     };
     let tables = result.state.tables();
     let before = tables.offset(u16::MAX);
+    let axes = session.axes_of_machine();
     for (number, name) in names {
         let range = places.offset(*number);
         let offset = tables.offset(*number);
-        if is_same(&offset, &before) {
+        if is_same(&offset, &before) && !places.of_offset.contains_key(number) {
             continue;
         }
-        let mut unknown = Vec::new();
-        for axis in Axis::ALL {
-            match offset.origin.get(axis) {
-                Some(value) if value != 0.0 || before.origin.get(axis).is_none() => {
-                    sheet.put(
-                        &["offsets", name, &axis.name().to_string()],
-                        shown(axis, value),
-                        range,
-                        &place,
-                    );
-                }
-                Some(_) => {}
-                None => unknown.push(axis),
-            }
-        }
-        if offset.origin.get(Axis::X).is_none() && unknown.len() == Axis::ALL.len() {
-            sheet.leave(
-                range,
-                name.clone(),
-                "what the program writes to it is not known: `G90` may be missing",
+        // A key that is missing says zero, so an offset is taken whole or not at all.
+        let unknown = axes.iter().filter(|axis| offset.origin.get(**axis).is_none());
+        let unknown: Vec<String> = unknown.map(|axis| axis.name().to_string()).collect();
+        if !unknown.is_empty() {
+            let why = format!(
+                "the file does not say {}, and in `gcheck.toml` an axis that is left out is zero",
+                listed(&unknown)
             );
+            sheet.leave(range, name.clone(), why);
+            continue;
+        }
+        for axis in Axis::ALL {
+            if let Some(value) = offset.origin.get(axis) {
+                let key = ["offsets", name, &axis.name().to_string()];
+                sheet.put(&key, shown(axis, value), range, &place);
+            }
         }
         if offset.rotation != 0.0 && !offset.rotation.is_nan() {
             sheet.leave(range, format!("the rotation of {name}"), super::sheet::NO_KEY);
+        }
+    }
+    for ((number, size), range) in &places.of_tool {
+        if let Some(key) = SIZES.get(*size)
+            && !sizes(&result.state, *number).get(*size).is_some_and(|mm| mm.is_finite())
+        {
+            let what = format!("the {} of tool {number}", key.replace('_', " "));
+            sheet.leave(range, what, "it is not known at the end of the program");
         }
     }
     for number in 0..TOOLS {
@@ -290,7 +303,23 @@ fn take(
         }
     }
     if sheet.facts.is_empty() {
-        sheet.refuse(&places.first, "the program writes no offset that is known at its end");
+        let message = "the program writes no offset that is known at its end";
+        let problem = Problem::at(&sheet.shown, sheet.text, &places.first, message);
+        let reasons = super::unused(sheet);
+        sheet.problems.push(if reasons.is_empty() {
+            problem
+        } else {
+            problem.note(reasons.join("\n        "))
+        });
+    }
+}
+
+/// Names as a list in words.
+fn listed(names: &[String]) -> String {
+    match names.split_last() {
+        Some((last, [])) => last.clone(),
+        Some((last, others)) => format!("{} and {last}", others.join(", ")),
+        None => String::new(),
     }
 }
 

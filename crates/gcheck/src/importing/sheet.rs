@@ -137,6 +137,8 @@ pub(super) struct Sheet<'t> {
     pub(super) problems: Vec<Problem>,
 }
 
+/// No figure of a machine is larger, whatever it counts in.
+const MOST_FIGURE: f64 = 1e12;
 /// Problems that are kept of one file: more say nothing new.
 const MOST_PROBLEMS: usize = 20;
 /// What is kept of what is not used.
@@ -231,6 +233,10 @@ impl<'t> Sheet<'t> {
     /// The same, and greater than zero.
     pub(super) fn positive(&mut self, text: &str, range: &Range<usize>, what: &str) -> Option<f64> {
         let number = self.number(text, range, what)?;
+        if number > MOST_FIGURE {
+            self.refuse(range, format!("{what} is {}, which no machine has", text.trim()));
+            return None;
+        }
         if number > 0.0 {
             return Some(number);
         }

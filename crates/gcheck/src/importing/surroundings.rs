@@ -27,6 +27,8 @@ pub(crate) struct Surroundings {
     /// The rapid rate of all linear axes, where it is in force and another file than the one that is written has it, with that
     /// file.
     pub(super) inherited_rapid: Option<(f64, String)>,
+    /// The control is named.
+    pub(crate) has_control: bool,
 }
 
 impl Surroundings {
@@ -43,8 +45,9 @@ impl Surroundings {
             told: inline().find_map(|file| file.machine.units),
             power_on: power_on(path, config, control),
             length: files().find_map(length),
-            axes: axes.map(|axes| axes.iter().map(|axis| axis.value.to_ascii_uppercase()).collect()),
+            axes: axes.map(|axes| axes.value.iter().map(|axis| axis.value.to_ascii_uppercase()).collect()),
             inherited_rapid: inherited_rapid(path, config),
+            has_control: control.is_some() || config.settings(path).control.is_some(),
         }
     }
 }

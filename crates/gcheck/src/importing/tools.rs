@@ -95,11 +95,12 @@ impl Library {
         for (number, tools) in self.tools {
             let Some((tool, others)) = tools.split_first() else { continue };
             if let Some(other) = others.iter().find(|other| !other.is_as(tool)) {
-                let lines = (sheet.line(tool.range.start), sheet.line(other.range.start));
-                let why = format!(
-                    "lines {} and {} have it with other sizes, so neither is written",
-                    lines.0, lines.1
-                );
+                let [first, second] = [tool, other].map(|tool| sheet.line(tool.range.start));
+                let why = if first == second {
+                    format!("line {first} has it twice, with other sizes, so neither is written")
+                } else {
+                    format!("lines {first} and {second} have it with other sizes, so neither is written")
+                };
                 sheet.leave(&other.range, format!("tool {number}"), why);
                 continue;
             }

@@ -765,7 +765,7 @@ fn figures_and_axes_that_no_machine_has() {
     }
     expect![[r#"
         [machine] | axes = []
-          error: gcheck.toml: `axes` is empty: a machine has at least one axis
+          error: gcheck.toml:3:8: `axes` is empty: a machine has at least one axis
         [machine] | travel = { X = [nan, 5.0] }
           error: gcheck.toml:3:16: travel of X must have two finite ends
         [machine] | travel = { X = [0.0, inf] }
@@ -882,4 +882,172 @@ fn what_one_text_leaves_out_another_may_give() {
         exit 2
     "#]]
     .assert_eq(&shop.gcheck("check part.nc --control haas-mill --config machine.jerk=50000.0").to_string());
+}
+
+/// Each mistake is named at its place, whoever says which control it is.
+#[test]
+fn values_are_held_to_the_control_whoever_names_it() {
+    for (table, place, message) in [
+        ("[offsets]\nG53 = { X = 1.0 }", "2:1", "`G53` is not a work offset"),
+        ("[offsets]\nG999 = { X = 1.0 }", "2:1", "`G999` is not a work offset"),
+        ("[offsets]\n\"G154 P9999\" = { X = 1.0 }", "2:1", "`G154 P9999` is not a work offset"),
+        ("[settings]\n40 = \"foo\"", "2:6", "setting 40 (tool offset measure) is one of"),
+        ("[machine]\nfeed_override = 0", "2:17", "a feed override is above 0"),
+        (
+            "[[overrides]]\nfiles = [\"*.nc\"]\nsettings.40 = \"foo\"",
+            "3:15",
+            "setting 40 (tool offset measure)",
+        ),
+    ] {
+        let with = |config: &str, arguments: &str, program: &str| {
+            let shop = Shop::with(&[("part.nc", program), ("gcheck.toml", config)]);
+            ["check", "run", "stats"].map(|command| shop.gcheck(&format!("{command} part.nc {arguments}")))
+        };
+        let detected = GOOD.replace("(GOOD)", "(VF-2)");
+        let own = format!("{table}\n");
+        for run in with(&own, "--control haas-mill", GOOD).into_iter().chain(with(&own, "", &detected)) {
+            assert_eq!(run.code, 2, "{table}: {run}");
+            let told = format!("error: gcheck.toml:{place}: {message}");
+            assert!(run.stderr.contains(&told), "{table}: {run}");
+        }
+        for run in with(&format!("control = \"haas-mill\"\n{table}\n"), "", GOOD) {
+            assert!(run.code == 2 && run.stderr.contains(message), "{table}: {run}");
+        }
+    }
+}
+
+/// What one control of a folder has is not wrong for the programs of another.
+#[test]
+fn what_another_control_of_the_folder_has_is_taken() {
+    let config = "[offsets]\n\"G154 P2\" = { X = 1.0 }\n[settings]\n162 = false\n";
+    let shop = Shop::with(&[("part.ngc", "G21 G90\nG0 X1\nM2\n"), ("gcheck.toml", config)]);
+    let run = shop.gcheck("check part.ngc --control linuxcnc");
+    assert!(run.code < 2, "{run}");
+}
+
+#[test]
+fn figures_that_no_machine_has() {
+    for (table, place, message) in [
+        ("[machine]\nrapid = 1e308", "2:9", "no axis moves 1e308 units a minute"),
+        ("[machine]\nunits = \"mm\"\nrapid = { X = 1e10 }", "3:15", "no axis moves 1e10 mm a minute"),
+        ("[machine]\nmax_feed = 1e300", "2:12", "no axis moves 1e300 units a minute"),
+        ("[machine]\nmax_rpm = 1e300", "2:11", "no spindle turns 1e300 times a minute"),
+        ("[machine]\ntravel.X = [-1e300, 1e300]", "2:12", "no axis goes to -1e300"),
+        ("[machine]\nbar_length = 1e300", "2:14", "a length is at most"),
+        ("[offsets]\nG54 = { X = 1e300 }", "2:9", "X is at most 1000000 units, not 1e300"),
+        ("[tools]\n1 = { length = 1e300 }", "2:1", "a size of a tool is at most 10000 units, not 1e300"),
+        (
+            "[tools]\n1 = { diameter = 10.0, corner_radius = 6.0 }",
+            "2:1",
+            "the corner radius 6 is larger than half",
+        ),
+    ] {
+        let shop = Shop::with(&[("part.nc", GOOD), ("gcheck.toml", &format!("{table}\n"))]);
+        let run = shop.gcheck("check part.nc");
+        let told = format!("error: gcheck.toml:{place}: {message}");
+        assert!(run.code == 2 && run.stderr.contains(&told), "{table}: {run}");
+    }
+}
+
+#[test]
+fn a_list_that_is_empty_is_named_with_its_line() {
+    check_configuration(
+        "[machine]\nunits = \"mm\"\naxes = []\n",
+        &expect![[r#"
+        sound/a.nc:3:1: error[unknown-code] unknown code `G999`
+        ! error: shop/gcheck.toml:3:8: `axes` is empty: a machine has at least one axis
+        !   |
+        ! 3 | axes = []
+        !   |        ^^
+        exit 2
+    "#]],
+    );
+}
+
+#[test]
+fn an_output_format_that_is_misspelt() {
+    check_arguments(
+        "check part.nc -o sarfi=x.json",
+        &expect![[r#"
+        ! error: invalid value 'sarfi=x.json' for '--output-file <[FORMAT=]FILE>': no format is called `sarfi`; did you mean `sarif`? A file of this name is `./sarfi=x.json`
+        ! 
+        ! For more information, try '--help'.
+        exit 2
+    "#]],
+    );
+    let shop = Shop::with(&[("part.nc", GOOD)]);
+    let run = shop.gcheck("check part.nc --control haas-mill -o ./sarfi=x.json -q");
+    assert_eq!((run.code, shop.names().contains(&"sarfi=x.json".to_owned())), (0, true), "{run}");
+    let run = shop.gcheck("check part.nc --control haas-mill -o report=x.txt -q");
+    assert_eq!((run.code, shop.names().contains(&"report=x.txt".to_owned())), (0, true), "{run}");
+}
+
+#[test]
+fn numbers_of_options_in_words() {
+    check_arguments(
+        "run part.nc --control haas-mill --fuel 1.5",
+        &expect![[r#"
+        ! error: invalid value '1.5' for '--fuel <BLOCKS>': write a whole number of blocks, such as `1000000` or `1e6`
+        ! 
+        ! For more information, try '--help'.
+        exit 2
+    "#]],
+    );
+    check_arguments(
+        "check part.nc --fuel -3",
+        &expect![[r#"
+        ! error: invalid value '-3' for '--fuel <BLOCKS>': write a whole number of blocks, such as `1000000` or `1e6`
+        ! 
+        ! For more information, try '--help'.
+        exit 2
+    "#]],
+    );
+    check_arguments(
+        "check part.nc --max-warnings -1",
+        &expect![[r#"
+        ! error: invalid value '-1' for '--max-warnings <N>': write a whole number from 0
+        ! 
+        ! For more information, try '--help'.
+        exit 2
+    "#]],
+    );
+    check_arguments(
+        "diff part.nc part.nc --tolerance 1e9",
+        &expect![[r#"
+        ! error: invalid value '1e9' for '--tolerance <MM>': within 100 mm any two paths may be the same; write a smaller length
+        ! 
+        ! For more information, try '--help'.
+        exit 2
+    "#]],
+    );
+    let shop = Shop::with(&[("part.nc", GOOD)]);
+    for fuel in ["1e6", "1_000_000", "1000000"] {
+        assert_eq!(shop.gcheck(&format!("run part.nc --control haas-mill --fuel {fuel}")).code, 0, "{fuel}");
+    }
+}
+
+#[test]
+fn two_pages_at_once() {
+    let shop = Shop::with(&[("part.nc", GOOD)]);
+    let run = shop.gcheck("check --show-files --show-settings");
+    assert!(run.code == 2 && run.stderr.contains("cannot be used with"), "{run}");
+}
+
+#[test]
+fn marks_of_a_tape_alone() {
+    check_content(
+        b"%\n%\n",
+        &expect![[r#"
+        other.nc:3:1: error[unknown-code] unknown code `G999`
+        part.nc:1:1: info[empty-program] program has no block between its `%`
+        exit 1
+    "#]],
+    );
+}
+
+#[test]
+fn a_list_of_files_has_comments() {
+    let shop = Shop::with(&[("part.nc", BAD), ("list.txt", "# changed today\npart.nc\n\n#other.nc\n")]);
+    let run = shop.gcheck("check --files-from list.txt --control haas-mill --output-format concise -q");
+    assert_eq!((run.code, run.rules()), (1, vec!["unknown-code".to_owned()]), "{run}");
 }

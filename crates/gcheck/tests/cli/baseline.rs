@@ -22,6 +22,7 @@ fn what_is_known_does_not_fail() {
         ! gcheck-baseline.json: 2 findings are known from now on
         ! a.nc and 1 more file: control haas-mill, set by `--control`
         ! no findings in 2 files (10 lines); 2 in the baseline
+        ! the verdicts rest on 1 assumption about the machines; `--output-format json` lists them
         exit 0
     "#]]
     .assert_eq(&shop.gcheck(&format!("{CHECK} --update-baseline")).to_string());
@@ -38,6 +39,7 @@ fn what_is_known_does_not_fail() {
     expect![[r#"
         ! a.nc and 1 more file: control haas-mill, set by `--control`
         ! no findings in 2 files (10 lines); 2 in the baseline
+        ! the verdicts rest on 1 assumption about the machines; `--output-format json` lists them
         exit 0
     "#]]
     .assert_eq(&shop.gcheck(CHECK).to_string());
@@ -52,6 +54,7 @@ fn what_is_new_does() {
         a.nc:4:1: error[unknown-code] unknown code `G998`
         ! a.nc and 1 more file: control haas-mill, set by `--control`
         ! 1 error in 2 files (11 lines); 2 in the baseline
+        ! the verdicts rest on 1 assumption about the machines; `--output-format json` lists them
         exit 1
     "#]]
     .assert_eq(&shop.gcheck(CHECK).to_string());
@@ -67,6 +70,7 @@ fn what_was_found_many_times_in_a_file_is_named_once() {
         ! gcheck-baseline.json: 3 entries are stale, nothing is found there any more: unknown-code of a.nc; `--update-baseline` drops them
         ! a.nc and 1 more file: control haas-mill, set by `--control`
         ! no findings in 2 files (11 lines); 1 in the baseline
+        ! the verdicts rest on 1 assumption about the machines; `--output-format json` lists them
         exit 0
     "#]].assert_eq(&shop.gcheck(CHECK).to_string());
 }
@@ -231,4 +235,22 @@ fn json_counts_what_is_known() {
     let run = shop.gcheck("check --control haas-mill --output-format json --baseline gcheck-baseline.json");
     assert_eq!(run.json()["summary"]["baseline"], 2);
     assert_eq!(run.json()["findings"].as_array().unwrap().len(), 0);
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_file_whose_name_is_not_text_is_known_too() {
+    use std::os::unix::ffi::OsStrExt as _;
+
+    let shop = Shop::new();
+    let name = std::ffi::OsStr::from_bytes(b"part\xE9.nc");
+    std::fs::write(shop.path("").join(name), crate::shop::BAD).unwrap();
+    let run = shop.gcheck("check --control haas-mill --baseline known.json --update-baseline");
+    assert_eq!(run.code, 0, "{run}");
+    let run = shop.gcheck("check --control haas-mill --baseline known.json");
+    assert_eq!((run.code, run.stderr.contains("stale")), (0, false), "{run}");
+    // A run of nothing of it does not call it gone.
+    shop.file("good.nc", crate::shop::GOOD);
+    let run = shop.gcheck("check good.nc --control haas-mill --baseline known.json");
+    assert_eq!((run.code, run.stderr.contains("stale")), (0, false), "{run}");
 }

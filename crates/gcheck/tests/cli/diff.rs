@@ -539,6 +539,7 @@ fn smoothing_contour_control_and_exact_stop_of_one_block_are_compared() {
           + b.nc:4  corners blended without a tolerance, smoothing level 3, smoothing within 0.002 inch   | G1 Z-1 F100
           the paths may differ at 4 corners, the first at X0 Y0 Z-0.0001 (a.nc:5): a program gives no tolerance, so the control decides by how much
         a.nc and b.nc move along the same path, within 0.001 mm, with differences
+        taken for granted: numbers without a decimal point count as the control usually reads them (Setting 162)
         exit 1
     "#]].assert_eq(&corners("haas-mill", &inches, ["G187 P1", "G187 P3 E0.002"]));
     expect![[r#"
@@ -547,6 +548,7 @@ fn smoothing_contour_control_and_exact_stop_of_one_block_are_compared() {
           + b.nc:4  corners blended without a tolerance, smoothing within 0.002 inch   | G1 Z-1 F100
           the paths may differ at 4 corners: by up to 0.00021 inch at X0 Y0 Z-0.0001 (a.nc:5)
         a.nc and b.nc move along the same path, within 0.001 mm, with differences
+        taken for granted: numbers without a decimal point count as the control usually reads them (Setting 162)
         exit 1
     "#]]
     .assert_eq(&corners("haas-mill", &inches, ["G187 E0.01", "G187 E0.002"]));
@@ -557,6 +559,7 @@ fn smoothing_contour_control_and_exact_stop_of_one_block_are_compared() {
           + b.nc:4  corners blended without a tolerance, contour control, level 10   | G1 Z-1 F100
           the paths may differ at 4 corners, the first at X0 Y0 Z-0.001 (a.nc:5): a program gives no tolerance, so the control decides by how much
         a.nc and b.nc move along the same path, within 0.001 mm, with differences
+        taken for granted: numbers without a decimal point count as the control usually reads them (parameter 3401#0)
         exit 1
     "#]].assert_eq(&corners("fanuc-mill", &contour, ["G5.1 Q1 R1.", "G5.1 Q1 R10."]));
     let once = "G21 G90 G17 G94 G54\nG0 X0. Y0. Z5.\nG1 Z-1. F100.\n# X10. F500.\nY10.\nG0 Z5.\nM30\n";
@@ -568,4 +571,49 @@ fn smoothing_contour_control_and_exact_stop_of_one_block_are_compared() {
         a.nc and b.nc move along the same path, within 0.001 mm, with differences
         exit 1
     "#]].assert_eq(&corners("fanuc-mill", once, ["G9", ""]));
+}
+
+/// What is unknown of a coordinate is not compared, where it leads as far as the moves that it is a part of.
+#[test]
+fn a_coordinate_that_nobody_knows_does_not_part_the_paths() {
+    for (a, b) in [
+        ("G1 X#500\nG91 X10.\nG90", "G1 X5.\nG91 X10.\nG90"),
+        ("G1 X#500\nG91 X10.\nG90 Y5.", "G1 X#500\nG91 X10.\nG90 Y5."),
+        ("G1 X#500\nG91 X10.\nG90 X20.\nY5.", "G1 X15.\nG91 X10.\nG90 X20.\nY5."),
+        ("G1 X#500\nX7.\nY3.", "G1 X4.\nX7.\nY3."),
+    ] {
+        for (a, b) in [(a, b), (b, a)] {
+            let run = diff(&program(a), &program(b), "");
+            assert!(run.code == 0 && run.stdout.contains("as far as known"), "{a} / {b}: {run}");
+            assert!(run.stdout.contains("not compared: X#500"), "{run}");
+            assert_eq!(diff(&program(a), &program(b), "--strict").code, 1);
+        }
+    }
+    // What is known on both sides still is.
+    for (a, b) in [
+        ("G1 X#500\nY3.", "G1 X4.\nY4."),
+        ("G1 X#500\nX7.", "G1 X4.\nX8."),
+        ("G1 X#500\nG91 X10.\nG90 Y3.", "G0 X4.\nG91 X10.\nG90 Y3."),
+        ("G1 X#500 F100.\nG91 X10.", "G1 X5. F150.\nG91 X10."),
+    ] {
+        let run = diff(&program(a), &program(b), "");
+        assert_eq!(run.code, 1, "{a} / {b}: {run}");
+    }
+}
+
+#[test]
+fn a_setting_that_decides_how_numbers_count_is_named() {
+    let (point, none) = (program("G1 X15."), program("G1 X15000"));
+    let run = diff(&point, &none, "");
+    assert_eq!(
+        (run.code, run.stdout.as_str()),
+        (
+            0,
+            "a.nc and b.nc make the machine do the same, within 0.001 mm\n\
+             taken for granted: numbers without a decimal point count as the control usually reads them (parameter 3401#0)\n"
+        )
+    );
+    let json = diff(&point, &none, "--output-format json").json();
+    assert_eq!(json["assumptions"].as_array().unwrap().len(), 1);
+    assert!(!diff(&point, &point, "").stdout.contains("taken for granted"));
 }

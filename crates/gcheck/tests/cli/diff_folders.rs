@@ -161,7 +161,7 @@ fn an_accepted_difference_says_what_was_not_compared_after_it() {
     let run = diff(&shop, "--accepted ok.toml");
     expect![[r#"
         plate.nc  accepted: path (seen); from there to the next tool change they are not compared  [digest 40c89663]
-        1 pair of programs compared, within 0.001 mm: 0 the same, 1 accepted and not compared as a whole
+        1 pair of programs compared, within 0.001 mm: 0 the same, 1 accepted, of which a part was not compared
     "#]].assert_eq(&run.stdout);
     assert_eq!(run.code, 0);
     let changed = program(1, "X50.\nY20.5", HOLE).replace("T2 M6", "T3 M6");
@@ -251,12 +251,12 @@ fn a_digest_names_these_very_differences() {
 fn mistakes_in_the_list_are_told_with_their_place() {
     let shop = shop(&[]);
     for (text, message) in [
-        ("[[accepted]]\nfile = \"a.nc\"\n", "missing field `reason`"),
+        ("[[accepted]]\nfile = \"a.nc\"\n", "the key `reason` is missing"),
         ("[[accepted]]\nfile = \"a.nc\"\nreason = \" \"\n", "an accepted difference needs a reason"),
         ("[[accepted]]\nfile = \"[a\"\nreason = \"b\"\n", "`[a` is not a pattern"),
         ("[[accepted]]\nfile = \"a\"\ndifferences = [\"fed\"]\nreason = \"b\"\n", "unknown difference `fed`"),
         ("[[accepted]]\nfile = \"a\"\nuntil = 12:00:00\nreason = \"b\"\n", "`until` is a date"),
-        ("[[accepted]]\nfiles = \"a\"\nreason = \"b\"\n", "unknown field `files`"),
+        ("[[accepted]]\nfiles = \"a\"\nreason = \"b\"\n", "unknown key `files`; did you mean `file`?"),
     ] {
         shop.file("list.toml", text);
         let run = diff(&shop, "--accepted list.toml");
@@ -370,4 +370,46 @@ fn no_output_replaces_what_is_read() {
 fn what_is_not_there_is_not_called_a_file_of_another_kind() {
     let run = shop(&[]).gcheck("diff old nosuch");
     assert_eq!((run.code, run.stderr.as_str()), (2, "error: nosuch: no such file or folder\n"));
+}
+
+#[test]
+fn mistakes_in_accepted_differences_are_named_at_their_place() {
+    let shop = shop(&[]);
+    let with = |text: &str| {
+        shop.file("accepted.toml", text);
+        diff(&shop, "--accepted accepted.toml").to_string()
+    };
+    expect![[r#"
+        ! error: accepted.toml:4:15: `differences` is empty, so that nothing is accepted
+        !   |
+        ! 4 | differences = []
+        !   |               ^^
+        !   help: leave it out to accept all
+        exit 2
+    "#]]
+    .assert_eq(&with("[[accepted]]\nfile = \"*.nc\"\nreason = \"a\"\ndifferences = []\n"));
+    expect![[r#"
+        ! error: accepted.toml:1:1: the key `reason` is missing
+        !   |
+        ! 1 | [[accepted]]
+        !   | ^^^^^^^^^^^^
+        exit 2
+    "#]]
+    .assert_eq(&with("[[accepted]]\nfile = \"*.nc\"\n"));
+    expect![[r#"
+        ! error: accepted.toml:2:1: unknown key `fil`; did you mean `file`?
+        !   |
+        ! 2 | fil = "*.nc"
+        !   | ^^^
+        exit 2
+    "#]]
+    .assert_eq(&with("[[accepted]]\nfil = \"*.nc\"\n"));
+    expect![[r#"
+        ! error: accepted.toml:2:8: wrong type: number `5`, expected a text
+        !   |
+        ! 2 | file = 5
+        !   |        ^
+        exit 2
+    "#]]
+    .assert_eq(&with("[[accepted]]\nfile = 5\n"));
 }

@@ -30,6 +30,8 @@ fn full() {
           = help: correct the code, or declare `G999` under `[codes]` if it is a code of your shop
 
         1 error in 1 file (6 lines)
+        the verdict assumes:
+          numbers without a decimal point count as the control usually reads them (Setting 162); to settle it: [settings] 162 = false
         ! jobs/part.nc: control haas-mill, set by `--control`
         exit 1
     "#]].assert_eq(&run.to_string());
@@ -44,6 +46,7 @@ fn concise() {
         jobs/part.nc:4:1: error[unknown-code] unknown code `G999`
         ! jobs/other.nc and 1 more file: control haas-mill, set by `--control`
         ! 1 error, 2 warnings in 2 files (11 lines)
+        ! the verdicts rest on 1 assumption about the machines; `--output-format json` lists them
         exit 1
     "#]]
     .assert_eq(&run.to_string());
@@ -57,6 +60,8 @@ fn github() {
         ::error title=gcheck (unknown-code),file=jobs/part.nc,line=4,endLine=4,col=1,endColumn=5::jobs/part.nc:4:1: unknown-code unknown code `G999`%0A  note: Haas mill (classic control and NGC) has no `G999`  [HM17 p.243 to 356, Haas online manual; M codes of options may be missing]%0A  help: correct the code, or declare `G999` under `[codes]` if it is a code of your shop
         ! jobs/part.nc: control haas-mill, set by `--control`
         ! 1 error in 1 file (6 lines)
+        ! the verdict assumes:
+        !   numbers without a decimal point count as the control usually reads them (Setting 162); to settle it: [settings] 162 = false
         exit 1
     "#]].assert_eq(&run.to_string());
 }

@@ -249,7 +249,13 @@ fn a_file_and_a_link_to_it_are_one_file() {
     let shop = Shop::with(&[("real/c.nc", ROUGH)]);
     std::os::unix::fs::symlink("real/c.nc", shop.path("link.nc")).unwrap();
     expect![[r#"
-        ! link.nc: formatted for haas-mill
+        real/c.nc
+        ! 1 file would change
+        exit 1
+    "#]]
+    .assert_eq(&shop.gcheck("fmt --check --control haas-mill").to_string());
+    expect![[r#"
+        ! real/c.nc: formatted for haas-mill
         ! 1 file formatted
         exit 0
     "#]]

@@ -47,30 +47,30 @@ fn an_ini_file_gives_axes_limits_and_its_tool_table() {
         INI,
         "",
         &expect![[r#"
-        wrote gcheck.toml: 14 values
-        next: `gcheck check --show-settings`
-        ! mill.ini:20: not used: [AXIS_A] MIN_LIMIT and MAX_LIMIT: the axis has no end of travel
-        exit 0
-        # Configuration of gcheck for the programs in this folder and below.
+            wrote gcheck.toml: 14 values
+            next: name the control in it, `control = "NAME"` (`gcheck controls` lists them), then `gcheck check --show-settings`
+            ! mill.ini:20: not used: [AXIS_A] MIN_LIMIT and MAX_LIMIT: the axis has no end of travel
+            exit 0
+            # Configuration of gcheck for the programs in this folder and below.
 
-        [machine]
-        units = "mm"  # from mill.ini
-        name = "Mill"  # from mill.ini, [EMC] MACHINE
-        axes = ["X", "Z", "A"]  # from mill.ini, [TRAJ] COORDINATES
-        travel.X = [-300.0, 0.0]  # from mill.ini, [AXIS_X] MIN_LIMIT and MAX_LIMIT
-        travel.Z = [-120.0, 5.0]  # from mill.ini, [JOINT_1] MIN_LIMIT and MAX_LIMIT
-        rapid.X = 3000.0  # from mill.ini, [AXIS_X] MAX_VELOCITY * 60, held by [TRAJ] MAX_LINEAR_VELOCITY
-        rapid.Z = 3000.0  # from mill.ini, [JOINT_1] MAX_VELOCITY * 60
-        rapid.A = 3600.0  # from mill.ini, [AXIS_A] MAX_VELOCITY * 60
-        acceleration.X = 500.0  # from mill.ini, [AXIS_X] MAX_ACCELERATION
-        acceleration.Z = 400.0  # from mill.ini, [JOINT_1] MAX_ACCELERATION
-        acceleration.A = 900.0  # from mill.ini, [AXIS_A] MAX_ACCELERATION
-        max_feed = 3000.0  # from mill.ini, [TRAJ] MAX_LINEAR_VELOCITY * 60
-        max_rpm = 12000.0  # from mill.ini, [SPINDLE_0] MAX_FORWARD_VELOCITY
+            [machine]
+            units = "mm"  # from mill.ini
+            name = "Mill"  # from mill.ini, [EMC] MACHINE
+            axes = ["X", "Z", "A"]  # from mill.ini, [TRAJ] COORDINATES
+            travel.X = [-300.0, 0.0]  # from mill.ini, [AXIS_X] MIN_LIMIT and MAX_LIMIT
+            travel.Z = [-120.0, 5.0]  # from mill.ini, [JOINT_1] MIN_LIMIT and MAX_LIMIT
+            rapid.X = 3000.0  # from mill.ini, [AXIS_X] MAX_VELOCITY * 60, held by [TRAJ] MAX_LINEAR_VELOCITY
+            rapid.Z = 3000.0  # from mill.ini, [JOINT_1] MAX_VELOCITY * 60
+            rapid.A = 3600.0  # from mill.ini, [AXIS_A] MAX_VELOCITY * 60
+            acceleration.X = 500.0  # from mill.ini, [AXIS_X] MAX_ACCELERATION
+            acceleration.Z = 400.0  # from mill.ini, [JOINT_1] MAX_ACCELERATION
+            acceleration.A = 900.0  # from mill.ini, [AXIS_A] MAX_ACCELERATION
+            max_feed = 3000.0  # from mill.ini, [TRAJ] MAX_LINEAR_VELOCITY * 60
+            max_rpm = 12000.0  # from mill.ini, [SPINDLE_0] MAX_FORWARD_VELOCITY
 
-        [tools]
-        table = "tool.tbl"  # from mill.ini, [EMCIO] TOOL_TABLE: 2 tools
-    "#]],
+            [tools]
+            table = "tool.tbl"  # from mill.ini, [EMCIO] TOOL_TABLE: 2 tools
+        "#]],
     );
 }
 
@@ -87,7 +87,7 @@ fn remapped_codes_are_codes_of_the_shop() {
         "",
         &expect![[r#"
             wrote gcheck.toml: 2 values
-            next: `gcheck check --show-settings`
+            next: name the control in it, `control = "NAME"` (`gcheck controls` lists them), then `gcheck check --show-settings`
             ! mill.ini:6: not used: [RS274NGC] REMAP = M6: the procedure may do more or less than the code, and gcheck follows the code alone
             ! mill.ini:7: not used: [RS274NGC] REMAP = M401: it names no procedure (`ngc=` or `python=`)
             ! mill.ini:8: not used: [RS274NGC] REMAP = X1: it is neither a G nor an M code
@@ -121,46 +121,46 @@ fn settings_count_in_millimetres_and_homing_decides_where_travel_is() {
         SETTINGS,
         "",
         &expect![[r#"
-        wrote gcheck.toml: 9 values
-        next: `gcheck check --show-settings`
-        ! dump.txt:1: not used: $13: it is about reports only; settings count in millimetres
-        ! dump.txt:5: not used: $32: `gcheck.toml` has no key for it
-        exit 0
-        # Configuration of gcheck for the programs in this folder and below.
+            wrote gcheck.toml: 9 values
+            next: name the control in it, `control = "NAME"` (`gcheck controls` lists them), then `gcheck check --show-settings`
+            ! dump.txt:1: not used: $13: it is about reports only; settings count in millimetres
+            ! dump.txt:5: not used: $32: `gcheck.toml` has no key for it
+            exit 0
+            # Configuration of gcheck for the programs in this folder and below.
 
-        [machine]
-        units = "mm"  # from dump.txt
-        axes = ["X", "Y"]  # from dump.txt, $100 to $101
-        rapid.X = 5000.0  # from dump.txt, $110
-        rapid.Y = 4000.0  # from dump.txt, $111
-        acceleration.X = 200.0  # from dump.txt, $120
-        acceleration.Y = 150.0  # from dump.txt, $121
-        travel.X = [-400.0, 0.0]  # from dump.txt, $130; machine coordinates are negative
-        travel.Y = [-300.0, 0.0]  # from dump.txt, $131; machine coordinates are negative
-        max_rpm = 10000.0  # from dump.txt, $30
-    "#]],
+            [machine]
+            units = "mm"  # from dump.txt
+            axes = ["X", "Y"]  # from dump.txt, $100 to $101
+            rapid.X = 5000.0  # from dump.txt, $110
+            rapid.Y = 4000.0  # from dump.txt, $111
+            acceleration.X = 200.0  # from dump.txt, $120
+            acceleration.Y = 150.0  # from dump.txt, $121
+            travel.X = [-400.0, 0.0]  # from dump.txt, $130, machine coordinates are negative
+            travel.Y = [-300.0, 0.0]  # from dump.txt, $131, machine coordinates are negative
+            max_rpm = 10000.0  # from dump.txt, $30
+        "#]],
     );
     check(
         "dump.txt",
         &SETTINGS.replace("[OPT:V", "[OPT:VZ"),
         "--dry-run",
         &expect![[r##"
-        # Configuration of gcheck for the programs in this folder and below.
+            # Configuration of gcheck for the programs in this folder and below.
 
-        [machine]
-        units = "mm"  # from dump.txt
-        axes = ["X", "Y"]  # from dump.txt, $100 to $101
-        rapid.X = 5000.0  # from dump.txt, $110
-        rapid.Y = 4000.0  # from dump.txt, $111
-        acceleration.X = 200.0  # from dump.txt, $120
-        acceleration.Y = 150.0  # from dump.txt, $121
-        travel.X = [0.0, 400.0]  # from dump.txt, $130; $23 homes X to its negative end, and that is zero
-        travel.Y = [-300.0, 0.0]  # from dump.txt, $131; machine coordinates are negative
-        max_rpm = 10000.0  # from dump.txt, $30
-        ! dump.txt:1: not used: $13: it is about reports only; settings count in millimetres
-        ! dump.txt:5: not used: $32: `gcheck.toml` has no key for it
-        exit 0
-    "##]],
+            [machine]
+            units = "mm"  # from dump.txt
+            axes = ["X", "Y"]  # from dump.txt, $100 to $101
+            rapid.X = 5000.0  # from dump.txt, $110
+            rapid.Y = 4000.0  # from dump.txt, $111
+            acceleration.X = 200.0  # from dump.txt, $120
+            acceleration.Y = 150.0  # from dump.txt, $121
+            travel.X = [0.0, 400.0]  # from dump.txt, $130, $23 homes X to its negative end, and that is zero
+            travel.Y = [-300.0, 0.0]  # from dump.txt, $131, machine coordinates are negative
+            max_rpm = 10000.0  # from dump.txt, $30
+            ! dump.txt:1: not used: $13: it is about reports only; settings count in millimetres
+            ! dump.txt:5: not used: $32: `gcheck.toml` has no key for it
+            exit 0
+        "##]],
     );
     check(
         "dump.txt",
@@ -199,7 +199,7 @@ fn a_tool_library_gives_what_is_clear() {
         "--config machine.units=mm",
         &expect![[r#"
             wrote gcheck.toml: 6 values
-            next: `gcheck check --show-settings`
+            next: name the control in it, `control = "NAME"` (`gcheck controls` lists them), then `gcheck check --show-settings`
             ! tools.json:2: not used: `LB` of 1 tool: it is the length below the holder, not the length offset
             ! tools.json:5: not used: tool 3: lines 4 and 5 have it with other sizes, so neither is written
             exit 0
@@ -255,7 +255,7 @@ fn a_probe_document_gives_limits_in_their_units() {
         "--config machine.units=mm",
         &expect![[r#"
             wrote gcheck.toml: 6 values
-            next: `gcheck check --show-settings`
+            next: name the control in it, `control = "NAME"` (`gcheck controls` lists them), then `gcheck check --show-settings`
             exit 0
             # Configuration of gcheck for the programs in this folder and below.
 
@@ -329,7 +329,7 @@ fn what_is_in_the_file_stays_and_its_unit_counts() {
     ]);
     expect![[r#"
         wrote gcheck.toml: 11 values, 1 kept
-        next: `gcheck check --show-settings`
+        next: name the control in it, `control = "NAME"` (`gcheck controls` lists them), then `gcheck check --show-settings`
         ! mill.ini:20: not used: [AXIS_A] MIN_LIMIT and MAX_LIMIT: the axis has no end of travel
         ! mill.ini:27: not used: [EMCIO] TOOL_TABLE: the file tool.tbl does not exist
         ! kept: machine.max_rpm is 9000 in gcheck.toml, and mill.ini:25 says 12000.0 (`--overwrite` takes the imported one)
@@ -632,17 +632,17 @@ fn the_unit_of_a_library_is_not_that_of_the_machine() {
         &[("tools.json", LIBRARY)],
         "tools.json --config machine.units=inch",
         &expect![[r#"
-        wrote gcheck.toml: 2 values
-        next: `gcheck check --show-settings`
-        exit 0
-        # Configuration of gcheck for the programs in this folder and below.
+            wrote gcheck.toml: 2 values
+            next: name the control in it, `control = "NAME"` (`gcheck controls` lists them), then `gcheck check --show-settings`
+            exit 0
+            # Configuration of gcheck for the programs in this folder and below.
 
-        [machine]
-        units = "inch"  # from --config
+            [machine]
+            units = "inch"  # from --config
 
-        [tools]
-        1 = { diameter = 1.0 }  # from tools.json, drill
-    "#]],
+            [tools]
+            1 = { diameter = 1.0 }  # from tools.json, drill
+        "#]],
     );
     check_in(
         &[("tools.json", LIBRARY)],
@@ -696,7 +696,7 @@ fn the_unit_of_a_library_is_not_that_of_the_machine() {
         "tools.json",
         &expect![[r#"
             wrote gcheck.toml: 1 value
-            next: `gcheck check --show-settings`
+            next: name the control in it, `control = "NAME"` (`gcheck controls` lists them), then `gcheck check --show-settings`
             exit 0
             extend = "base.toml"
 
@@ -729,7 +729,7 @@ fn a_tool_table_that_is_configured_stays_in_its_unit() {
         "tools.json --config machine.units=mm",
         &expect![[r#"
             wrote gcheck.toml: 2 values
-            next: `gcheck check --show-settings`
+            next: name the control in it, `control = "NAME"` (`gcheck controls` lists them), then `gcheck check --show-settings`
             exit 0
             [machine]
             table_units = "inch"
@@ -757,25 +757,25 @@ fn a_tool_table_is_named_and_its_duplicates_are_listed() {
         &[("tool.tbl", table)],
         "tool.tbl --units inch",
         &expect![[r#"
-        wrote gcheck.toml: 2 values
-        next: `gcheck check --show-settings`
-        ! tool.tbl:1: not used: tool 1: line 3 has the tool again, and the later line counts
-        exit 0
-        # Configuration of gcheck for the programs in this folder and below.
+            wrote gcheck.toml: 2 values
+            next: name the control in it, `control = "NAME"` (`gcheck controls` lists them), then `gcheck check --show-settings`
+            ! tool.tbl:1: not used: tool 1: line 3 has the tool again, and the later line counts
+            exit 0
+            # Configuration of gcheck for the programs in this folder and below.
 
-        [machine]
-        table_units = "inch"  # from --units
+            [machine]
+            table_units = "inch"  # from --units
 
-        [tools]
-        table = "tool.tbl"  # from tool.tbl, 3 tools
-    "#]],
+            [tools]
+            table = "tool.tbl"  # from tool.tbl, 3 tools
+        "#]],
     );
     check_in(
         &[("tool.tbl", table), ("gcheck.toml", "[machine]\nunits = \"mm\"\n")],
         "tool.tbl --units mm",
         &expect![[r#"
             wrote gcheck.toml: 1 value
-            next: `gcheck check --show-settings`
+            next: name the control in it, `control = "NAME"` (`gcheck controls` lists them), then `gcheck check --show-settings`
             ! tool.tbl:1: not used: tool 1: line 3 has the tool again, and the later line counts
             exit 0
             [machine]
@@ -801,7 +801,7 @@ fn a_tool_table_is_named_and_its_duplicates_are_listed() {
         "tools.csv --units inch",
         &expect![[r#"
             wrote gcheck.toml: 2 values
-            next: `gcheck check --show-settings`
+            next: name the control in it, `control = "NAME"` (`gcheck controls` lists them), then `gcheck check --show-settings`
             ! tools.csv:2: not used: tool 3: line 3 has the tool again, and the later line counts
             exit 0
             # Configuration of gcheck for the programs in this folder and below.
@@ -851,7 +851,7 @@ fn overwriting_keeps_comments_order_and_the_axes_that_are_not_imported() {
         "probe.xml",
         &expect![[r#"
             wrote gcheck.toml: 1 value, 2 kept
-            next: `gcheck check --show-settings`
+            next: name the control in it, `control = "NAME"` (`gcheck controls` lists them), then `gcheck check --show-settings`
             ! kept: machine.axes is ["X", "Y", "Z"] in gcheck.toml, and probe.xml:2 says ["X"] (`--overwrite` takes the imported one)
             ! kept: machine.rapid is 5000 in gcheck.toml, and probe.xml:3 gives it by axis (`--overwrite` takes the imported one)
             exit 0
@@ -872,23 +872,23 @@ fn overwriting_keeps_comments_order_and_the_axes_that_are_not_imported() {
         &[("probe.xml", PROBE_OF_X), ("gcheck.toml", before)],
         "probe.xml --overwrite",
         &expect![[r#"
-        wrote gcheck.toml: 3 values
-        next: `gcheck check --show-settings`
-        ! machine.rapid was 5000 for every linear axis and is by axis; Y, Z keep it
-        exit 0
-        [machine]
-        units = "mm"
-        axes = [
-          "X", # the long one
-           # down
-        ]  # from probe.xml, its axes
-        # From the door.
-        rapid.Y = 5000 # measured
-        rapid.Z = 5000 # measured
-        rapid.X = 24000.0  # from probe.xml, X AXIS_FEEDRATE Maximum * 60
-        max_rpm   =   9000 # plate
-        name = "VMC"  # from probe.xml, the name of the device
-    "#]],
+            wrote gcheck.toml: 3 values
+            next: name the control in it, `control = "NAME"` (`gcheck controls` lists them), then `gcheck check --show-settings`
+            ! machine.rapid was 5000 for every linear axis and is by axis; Y, Z keep it
+            exit 0
+            [machine]
+            units = "mm"
+            axes = [
+              "X", # the long one
+               # down
+            ]  # from probe.xml, its axes
+            # From the door.
+            rapid.Y = 5000 # measured
+            rapid.Z = 5000 # measured
+            rapid.X = 24000.0  # from probe.xml, X AXIS_FEEDRATE Maximum * 60
+            max_rpm   =   9000 # plate
+            name = "VMC"  # from probe.xml, the name of the device
+        "#]],
     );
     check_in(
         &[("mill.ini", INI), ("gcheck.toml", before)],
@@ -955,8 +955,8 @@ fn a_value_for_all_axes_gives_way_in_its_place() {
             axes = ["X", "Y"]  # from dump.txt, $100 to $101
             acceleration.X = 200.0  # from dump.txt, $120
             acceleration.Y = 150.0  # from dump.txt, $121
-            travel.X = [-400.0, 0.0]  # from dump.txt, $130; machine coordinates are negative
-            travel.Y = [-300.0, 0.0]  # from dump.txt, $131; machine coordinates are negative
+            travel.X = [-400.0, 0.0]  # from dump.txt, $130, machine coordinates are negative
+            travel.Y = [-300.0, 0.0]  # from dump.txt, $131, machine coordinates are negative
         "#]],
     );
     let all = "[machine]\nunits = \"mm\"\naxes = [\"X\", \"Y\"]\n# Door.\nrapid = 5000 # measured\n# Next.\nmax_rpm = 1\n";
@@ -964,25 +964,25 @@ fn a_value_for_all_axes_gives_way_in_its_place() {
         &[("dump.txt", SETTINGS), ("gcheck.toml", all)],
         "dump.txt --overwrite",
         &expect![[r#"
-        wrote gcheck.toml: 7 values, 1 the same
-        next: `gcheck check --show-settings`
-        ! dump.txt:1: not used: $13: it is about reports only; settings count in millimetres
-        ! dump.txt:5: not used: $32: `gcheck.toml` has no key for it
-        ! machine.rapid was 5000 for every linear axis and is by axis
-        exit 0
-        [machine]
-        units = "mm"
-        axes = ["X", "Y"]
-        # Door.
-        rapid.X = 5000.0 # measured; from dump.txt, $110
-        rapid.Y = 4000.0  # from dump.txt, $111
-        # Next.
-        max_rpm = 10000.0  # from dump.txt, $30
-        acceleration.X = 200.0  # from dump.txt, $120
-        acceleration.Y = 150.0  # from dump.txt, $121
-        travel.X = [-400.0, 0.0]  # from dump.txt, $130; machine coordinates are negative
-        travel.Y = [-300.0, 0.0]  # from dump.txt, $131; machine coordinates are negative
-    "#]],
+            wrote gcheck.toml: 7 values, 1 the same
+            next: name the control in it, `control = "NAME"` (`gcheck controls` lists them), then `gcheck check --show-settings`
+            ! dump.txt:1: not used: $13: it is about reports only; settings count in millimetres
+            ! dump.txt:5: not used: $32: `gcheck.toml` has no key for it
+            ! machine.rapid was 5000 for every linear axis and is by axis
+            exit 0
+            [machine]
+            units = "mm"
+            axes = ["X", "Y"]
+            # Door.
+            rapid.X = 5000.0 # measured; from dump.txt, $110
+            rapid.Y = 4000.0  # from dump.txt, $111
+            # Next.
+            max_rpm = 10000.0  # from dump.txt, $30
+            acceleration.X = 200.0  # from dump.txt, $120
+            acceleration.Y = 150.0  # from dump.txt, $121
+            travel.X = [-400.0, 0.0]  # from dump.txt, $130, machine coordinates are negative
+            travel.Y = [-300.0, 0.0]  # from dump.txt, $131, machine coordinates are negative
+        "#]],
     );
 }
 
@@ -997,7 +997,7 @@ fn a_rapid_rate_that_is_inherited_for_all_axes_is_listed() {
         "probe.xml",
         &expect![[r#"
             wrote gcheck.toml: 3 values
-            next: `gcheck check --show-settings`
+            next: name the control in it, `control = "NAME"` (`gcheck controls` lists them), then `gcheck check --show-settings`
             ! machine.rapid is 5000 in base.toml for every linear axis, and by axis in gcheck.toml: axes without one are as fast as the fastest
             exit 0
             extend = "base.toml"
@@ -1045,37 +1045,37 @@ fn units_of_bits_without_one_are_asked_for() {
         &files,
         "Mill.fctl",
         &expect![[r#"
-        wrote gcheck.toml: 2 values
-        next: `gcheck check --show-settings`
-        ! Mill.fctl:1: not used: `Diameter` of `b.fctb`: it has no unit: name it with `--units mm` or `--units inch`
-        ! Mill.fctl:1: not used: `Diameter` of `c.fctb`: `1,250 mm` may be 1.250 or 1250: write it without the comma
-        ! Mill.fctl:1: not used: `Length` of 2 tools: it is the length of the whole tool, not the length offset
-        exit 0
-        [machine]
-        units = "mm"
+            wrote gcheck.toml: 2 values
+            next: name the control in it, `control = "NAME"` (`gcheck controls` lists them), then `gcheck check --show-settings`
+            ! Mill.fctl:1: not used: `Diameter` of `b.fctb`: it has no unit: name it with `--units mm` or `--units inch`
+            ! Mill.fctl:1: not used: `Diameter` of `c.fctb`: `1,250 mm` may be 1.250 or 1250: write it without the comma
+            ! Mill.fctl:1: not used: `Length` of 2 tools: it is the length of the whole tool, not the length offset
+            exit 0
+            [machine]
+            units = "mm"
 
-        [tools]
-        1 = { diameter = 5.0 }  # from Mill.fctl, A
-        4 = { diameter = 6.35 }  # from Mill.fctl, D
-    "#]],
+            [tools]
+            1 = { diameter = 5.0 }  # from Mill.fctl, A
+            4 = { diameter = 6.35 }  # from Mill.fctl, D
+        "#]],
     );
     check_in(
         &files,
         "Mill.fctl --units inch",
         &expect![[r#"
-        wrote gcheck.toml: 3 values
-        next: `gcheck check --show-settings`
-        ! Mill.fctl:1: not used: `Diameter` of `c.fctb`: `1,250 mm` may be 1.250 or 1250: write it without the comma
-        ! Mill.fctl:1: not used: `Length` of 2 tools: it is the length of the whole tool, not the length offset
-        exit 0
-        [machine]
-        units = "mm"
+            wrote gcheck.toml: 3 values
+            next: name the control in it, `control = "NAME"` (`gcheck controls` lists them), then `gcheck check --show-settings`
+            ! Mill.fctl:1: not used: `Diameter` of `c.fctb`: `1,250 mm` may be 1.250 or 1250: write it without the comma
+            ! Mill.fctl:1: not used: `Length` of 2 tools: it is the length of the whole tool, not the length offset
+            exit 0
+            [machine]
+            units = "mm"
 
-        [tools]
-        1 = { diameter = 5.0 }  # from Mill.fctl, A
-        2 = { diameter = 12.7 }  # from Mill.fctl, B
-        4 = { diameter = 6.35 }  # from Mill.fctl, D
-    "#]],
+            [tools]
+            1 = { diameter = 5.0 }  # from Mill.fctl, A
+            2 = { diameter = 12.7 }  # from Mill.fctl, B
+            4 = { diameter = 6.35 }  # from Mill.fctl, D
+        "#]],
     );
     check_in(
         &files,
@@ -1105,33 +1105,33 @@ fn the_unit_of_a_library_is_that_of_its_first_tool_that_has_one() {
         &[("tools.json", library), here],
         "tools.json",
         &expect![[r#"
-        wrote gcheck.toml: 2 values
-        next: `gcheck check --show-settings`
-        ! tools.json:2: not used: `drill`: the tool has no `unit`, and others of the library do: name it with `--units`
-        exit 0
-        [machine]
-        units = "inch"
+            wrote gcheck.toml: 2 values
+            next: name the control in it, `control = "NAME"` (`gcheck controls` lists them), then `gcheck check --show-settings`
+            ! tools.json:2: not used: `drill`: the tool has no `unit`, and others of the library do: name it with `--units`
+            exit 0
+            [machine]
+            units = "inch"
 
-        [tools]
-        2 = { diameter = 0.5 }  # from tools.json, drill
-        3 = { diameter = 1.0 }  # from tools.json, drill
-    "#]],
+            [tools]
+            2 = { diameter = 0.5 }  # from tools.json, drill
+            3 = { diameter = 1.0 }  # from tools.json, drill
+        "#]],
     );
     check_in(
         &[("tools.json", library), here],
         "tools.json --units mm",
         &expect![[r#"
-        wrote gcheck.toml: 3 values
-        next: `gcheck check --show-settings`
-        exit 0
-        [machine]
-        units = "inch"
+            wrote gcheck.toml: 3 values
+            next: name the control in it, `control = "NAME"` (`gcheck controls` lists them), then `gcheck check --show-settings`
+            exit 0
+            [machine]
+            units = "inch"
 
-        [tools]
-        1 = { diameter = 0.19685 }  # from tools.json, drill
-        2 = { diameter = 0.5 }  # from tools.json, drill
-        3 = { diameter = 1.0 }  # from tools.json, drill
-    "#]],
+            [tools]
+            1 = { diameter = 0.19685 }  # from tools.json, drill
+            2 = { diameter = 0.5 }  # from tools.json, drill
+            3 = { diameter = 1.0 }  # from tools.json, drill
+        "#]],
     );
     let none = library.replace("\"unit\": \"inches\", ", "").replace("\"unit\": \"millimeters\", ", "");
     check_in(
@@ -1229,15 +1229,15 @@ fn an_ini_file_without_limits_is_not_cut_short() {
         bare,
         "",
         &expect![[r#"
-        wrote gcheck.toml: 1 value
-        next: `gcheck check --show-settings`
-        ! mill.ini:7: not used: [JOINT_0] TYPE, [JOINT_1] TYPE (line 9): `gcheck.toml` has no key for it
-        exit 0
-        # Configuration of gcheck for the programs in this folder and below.
+            wrote gcheck.toml: 1 value
+            next: name the control in it, `control = "NAME"` (`gcheck controls` lists them), then `gcheck check --show-settings`
+            ! mill.ini:7: not used: [JOINT_0] TYPE, [JOINT_1] TYPE (line 9): `gcheck.toml` has no key for it
+            exit 0
+            # Configuration of gcheck for the programs in this folder and below.
 
-        [machine]
-        axes = ["X", "Z"]  # from mill.ini, [TRAJ] COORDINATES
-    "#]],
+            [machine]
+            axes = ["X", "Z"]  # from mill.ini, [TRAJ] COORDINATES
+        "#]],
     );
     // An axis in the middle is left out on purpose.
     let limits = "MIN_LIMIT = 0\nMAX_LIMIT = 100\nMAX_VELOCITY = 50\nMAX_ACCELERATION = 400\n";
@@ -1249,22 +1249,22 @@ fn an_ini_file_without_limits_is_not_cut_short() {
         &without,
         "",
         &expect![[r#"
-        wrote gcheck.toml: 8 values
-        next: `gcheck check --show-settings`
-        ! lathe.ini:2: not used: axis Y: the axis has no section with limits
-        exit 0
-        # Configuration of gcheck for the programs in this folder and below.
+            wrote gcheck.toml: 8 values
+            next: name the control in it, `control = "NAME"` (`gcheck controls` lists them), then `gcheck check --show-settings`
+            ! lathe.ini:2: not used: axis Y: the axis has no section with limits
+            exit 0
+            # Configuration of gcheck for the programs in this folder and below.
 
-        [machine]
-        units = "mm"  # from lathe.ini
-        axes = ["X", "Y", "Z"]  # from lathe.ini, [TRAJ] COORDINATES
-        travel.X = [0.0, 100.0]  # from lathe.ini, [AXIS_X] MIN_LIMIT and MAX_LIMIT
-        travel.Z = [0.0, 100.0]  # from lathe.ini, [AXIS_Z] MIN_LIMIT and MAX_LIMIT
-        rapid.X = 3000.0  # from lathe.ini, [AXIS_X] MAX_VELOCITY * 60
-        rapid.Z = 3000.0  # from lathe.ini, [AXIS_Z] MAX_VELOCITY * 60
-        acceleration.X = 400.0  # from lathe.ini, [AXIS_X] MAX_ACCELERATION
-        acceleration.Z = 400.0  # from lathe.ini, [AXIS_Z] MAX_ACCELERATION
-    "#]],
+            [machine]
+            units = "mm"  # from lathe.ini
+            axes = ["X", "Y", "Z"]  # from lathe.ini, [TRAJ] COORDINATES
+            travel.X = [0.0, 100.0]  # from lathe.ini, [AXIS_X] MIN_LIMIT and MAX_LIMIT
+            travel.Z = [0.0, 100.0]  # from lathe.ini, [AXIS_Z] MIN_LIMIT and MAX_LIMIT
+            rapid.X = 3000.0  # from lathe.ini, [AXIS_X] MAX_VELOCITY * 60
+            rapid.Z = 3000.0  # from lathe.ini, [AXIS_Z] MAX_VELOCITY * 60
+            acceleration.X = 400.0  # from lathe.ini, [AXIS_X] MAX_ACCELERATION
+            acceleration.Z = 400.0  # from lathe.ini, [AXIS_Z] MAX_ACCELERATION
+        "#]],
     );
 }
 
@@ -1375,23 +1375,23 @@ fn what_a_terminal_echoes_is_listed() {
         &format!("$$\n$N0=G21\n$I+\n{SETTINGS}"),
         "--dry-run",
         &expect![[r##"
-        # Configuration of gcheck for the programs in this folder and below.
+            # Configuration of gcheck for the programs in this folder and below.
 
-        [machine]
-        units = "mm"  # from dump.txt
-        axes = ["X", "Y"]  # from dump.txt, $100 to $101
-        rapid.X = 5000.0  # from dump.txt, $110
-        rapid.Y = 4000.0  # from dump.txt, $111
-        acceleration.X = 200.0  # from dump.txt, $120
-        acceleration.Y = 150.0  # from dump.txt, $121
-        travel.X = [-400.0, 0.0]  # from dump.txt, $130; machine coordinates are negative
-        travel.Y = [-300.0, 0.0]  # from dump.txt, $131; machine coordinates are negative
-        max_rpm = 10000.0  # from dump.txt, $30
-        ! dump.txt:2: not used: `$N0=G21`, `$I+` (line 3): it is not a numbered setting
-        ! dump.txt:4: not used: $13: it is about reports only; settings count in millimetres
-        ! dump.txt:8: not used: $32: `gcheck.toml` has no key for it
-        exit 0
-    "##]],
+            [machine]
+            units = "mm"  # from dump.txt
+            axes = ["X", "Y"]  # from dump.txt, $100 to $101
+            rapid.X = 5000.0  # from dump.txt, $110
+            rapid.Y = 4000.0  # from dump.txt, $111
+            acceleration.X = 200.0  # from dump.txt, $120
+            acceleration.Y = 150.0  # from dump.txt, $121
+            travel.X = [-400.0, 0.0]  # from dump.txt, $130, machine coordinates are negative
+            travel.Y = [-300.0, 0.0]  # from dump.txt, $131, machine coordinates are negative
+            max_rpm = 10000.0  # from dump.txt, $30
+            ! dump.txt:2: not used: `$N0=G21`, `$I+` (line 3): it is not a numbered setting
+            ! dump.txt:4: not used: $13: it is about reports only; settings count in millimetres
+            ! dump.txt:8: not used: $32: `gcheck.toml` has no key for it
+            exit 0
+        "##]],
     );
 }
 
@@ -1446,23 +1446,23 @@ fn homing_that_is_not_told_is_not_guessed() {
         &SETTINGS.replace("$23=1", "$23=x"),
         "--dry-run",
         &expect![[r##"
-        # Configuration of gcheck for the programs in this folder and below.
+            # Configuration of gcheck for the programs in this folder and below.
 
-        [machine]
-        units = "mm"  # from dump.txt
-        axes = ["X", "Y"]  # from dump.txt, $100 to $101
-        rapid.X = 5000.0  # from dump.txt, $110
-        rapid.Y = 4000.0  # from dump.txt, $111
-        acceleration.X = 200.0  # from dump.txt, $120
-        acceleration.Y = 150.0  # from dump.txt, $121
-        travel.X = [-400.0, 0.0]  # from dump.txt, $130; machine coordinates are negative
-        travel.Y = [-300.0, 0.0]  # from dump.txt, $131; machine coordinates are negative
-        max_rpm = 10000.0  # from dump.txt, $30
-        ! dump.txt:1: not used: $13: it is about reports only; settings count in millimetres
-        ! dump.txt:3: not used: $23: it is `x`, which is not a whole number
-        ! dump.txt:5: not used: $32: `gcheck.toml` has no key for it
-        exit 0
-    "##]],
+            [machine]
+            units = "mm"  # from dump.txt
+            axes = ["X", "Y"]  # from dump.txt, $100 to $101
+            rapid.X = 5000.0  # from dump.txt, $110
+            rapid.Y = 4000.0  # from dump.txt, $111
+            acceleration.X = 200.0  # from dump.txt, $120
+            acceleration.Y = 150.0  # from dump.txt, $121
+            travel.X = [-400.0, 0.0]  # from dump.txt, $130, machine coordinates are negative
+            travel.Y = [-300.0, 0.0]  # from dump.txt, $131, machine coordinates are negative
+            max_rpm = 10000.0  # from dump.txt, $30
+            ! dump.txt:1: not used: $13: it is about reports only; settings count in millimetres
+            ! dump.txt:3: not used: $23: it is `x`, which is not a whole number
+            ! dump.txt:5: not used: $32: `gcheck.toml` has no key for it
+            exit 0
+        "##]],
     );
 }
 
@@ -1749,23 +1749,23 @@ fn files_that_contradict_each_other_write_nothing() {
         &[("dump.txt", SETTINGS), ("tools.json", LIBRARY)],
         "dump.txt tools.json --quiet",
         &expect![[r#"
-        exit 0
-        # Configuration of gcheck for the programs in this folder and below.
+            exit 0
+            # Configuration of gcheck for the programs in this folder and below.
 
-        [machine]
-        units = "mm"  # from dump.txt
-        axes = ["X", "Y"]  # from dump.txt, $100 to $101
-        rapid.X = 5000.0  # from dump.txt, $110
-        rapid.Y = 4000.0  # from dump.txt, $111
-        acceleration.X = 200.0  # from dump.txt, $120
-        acceleration.Y = 150.0  # from dump.txt, $121
-        travel.X = [-400.0, 0.0]  # from dump.txt, $130; machine coordinates are negative
-        travel.Y = [-300.0, 0.0]  # from dump.txt, $131; machine coordinates are negative
-        max_rpm = 10000.0  # from dump.txt, $30
+            [machine]
+            units = "mm"  # from dump.txt
+            axes = ["X", "Y"]  # from dump.txt, $100 to $101
+            rapid.X = 5000.0  # from dump.txt, $110
+            rapid.Y = 4000.0  # from dump.txt, $111
+            acceleration.X = 200.0  # from dump.txt, $120
+            acceleration.Y = 150.0  # from dump.txt, $121
+            travel.X = [-400.0, 0.0]  # from dump.txt, $130, machine coordinates are negative
+            travel.Y = [-300.0, 0.0]  # from dump.txt, $131, machine coordinates are negative
+            max_rpm = 10000.0  # from dump.txt, $30
 
-        [tools]
-        1 = { diameter = 25.4 }  # from tools.json, drill
-    "#]],
+            [tools]
+            1 = { diameter = 25.4 }  # from tools.json, drill
+        "#]],
     );
     check_in(
         &[("dump.txt", SETTINGS), ("other.txt", &SETTINGS.replace("$110=5000", "$110=6000"))],
@@ -1847,4 +1847,157 @@ fn a_pipe_is_refused_before_it_is_opened() {
         exit 2
     "#]]
     .assert_eq(&shop.gcheck("machine import dump.txt -o pipe.ini").to_string());
+}
+
+#[test]
+fn an_offset_that_is_not_known_as_a_whole_is_listed_and_not_written() {
+    let dump = "%\nO9999\nG90 G21\nG10 L2 P1 X#501 Y-200. Z0.\nG10 L2 P2 Y-1. Z-2.\nG10 L2 P3 X1. Y2. Z3.\n\
+        G10 L10 P1 R120.5\nG10 L10 P2 R#500\nG10 L14 P3 R1.\nG10 L10 P4\nM30\n%\n";
+    check(
+        "offsets.nc",
+        dump,
+        "--control haas-mill",
+        &expect![[r#"
+        wrote gcheck.toml: 6 values
+        next: `gcheck check --show-settings`
+        ! offsets.nc:4: not used: X#501, R#500 (line 8): its value is not known when the program starts
+        ! offsets.nc:4: not used: G54, G55 (line 5): the file does not say X, and in `gcheck.toml` an axis that is left out is zero
+        ! offsets.nc:9: not used: G10 L14: gcheck does not read this kind of `G10`
+        ! offsets.nc:10: not used: G10 L10: the block names no value that gcheck reads (`R`)
+        ! offsets.nc: taken for granted: setting 40 (tool offset measure) is `diameter`, as usual; `[settings] 40 = "diameter"` can say otherwise
+        exit 0
+        # Configuration of gcheck for the programs in this folder and below.
+        control = "haas-mill"  # from --control
+
+        [machine]
+        units = "mm"  # from offsets.nc
+
+        [offsets]
+        G56 = { X = 1.0, Y = 2.0, Z = 3.0 }  # from offsets.nc, run as a program of haas-mill
+
+        [tools]
+        1 = { length = 120.5 }  # from offsets.nc, run as a program of haas-mill
+    "#]],
+    );
+}
+
+#[test]
+fn what_an_unknown_number_of_an_offset_overwrites_is_listed() {
+    let dump = "%\nO9999\nG90 G21\nG10 L2 P1 X1. Y2. Z3.\nG10 L10 P1 R1.\nG10 L2 P#500 X1. Y1. Z1.\n\
+        G10 L10 P#501 R1.\nG10 L2 P2 X1. Y2. Z3.\nM30\n%\n";
+    check(
+        "offsets.nc",
+        dump,
+        "--control haas-mill",
+        &expect![[r#"
+        wrote gcheck.toml: 5 values
+        next: `gcheck check --show-settings`
+        ! offsets.nc:5: not used: the length of tool 1: it is not known at the end of the program
+        ! offsets.nc:6: not used: P#500, P#501 (line 7): its value is not known when the program starts
+        ! offsets.nc:6: not used: G54: the file does not say X, Y and Z, and in `gcheck.toml` an axis that is left out is zero
+        ! offsets.nc: taken for granted: setting 40 (tool offset measure) is `diameter`, as usual; `[settings] 40 = "diameter"` can say otherwise
+        exit 0
+        # Configuration of gcheck for the programs in this folder and below.
+        control = "haas-mill"  # from --control
+
+        [machine]
+        units = "mm"  # from offsets.nc
+
+        [offsets]
+        G55 = { X = 1.0, Y = 2.0, Z = 3.0 }  # from offsets.nc, run as a program of haas-mill
+    "#]],
+    );
+}
+
+#[test]
+fn offsets_that_are_added_to_what_the_control_has_are_not_known() {
+    let dump = "%\nO9999\nG91 G21\nG10 L2 P1 X1. Y2. Z3.\nM30\n%\n";
+    check(
+        "offsets.nc",
+        dump,
+        "--control haas-mill",
+        &expect![[r#"
+        ! error: offsets.nc:1:1: the program writes no offset that is known at its end
+        !   |
+        ! 1 | %
+        !   | ^
+        !   note: offsets.nc:4: not used: X1., Y2., Z3.: `G91` adds it to what the control has, which the file does not say
+        exit 2
+    "#]],
+    );
+}
+
+#[test]
+fn a_variable_that_nobody_set_is_no_zero_in_an_offset() {
+    let dump = "G90 G21\nG10 L2 P1 X-400. Y-1. Z#501\nG10 L1 P1 Z#500\nG10 L2 P2 X0. Y-1. Z-2.\nM2\n";
+    check(
+        "offsets.ngc",
+        dump,
+        "--control linuxcnc",
+        &expect![[r#"
+        wrote gcheck.toml: 5 values
+        next: `gcheck check --show-settings`
+        ! offsets.ngc:2: not used: Z#501, Z#500 (line 3): its value is not known when the program starts
+        ! offsets.ngc:2: not used: G54: the file does not say Z, and in `gcheck.toml` an axis that is left out is zero
+        exit 0
+        # Configuration of gcheck for the programs in this folder and below.
+        control = "linuxcnc"  # from --control
+
+        [machine]
+        units = "mm"  # from linuxcnc, its unit at power-on
+
+        [offsets]
+        G55 = { X = 0.0, Y = -1.0, Z = -2.0 }  # from offsets.ngc, run as a program of linuxcnc
+    "#]],
+    );
+}
+
+#[test]
+fn the_axes_of_the_machine_decide_what_a_whole_offset_is() {
+    let dump = "%\nO9999\nG90 G21\nG10 L2 P1 X1. Y2. Z3.\nM30\n%\n";
+    let configured = |axes: &str| {
+        let shop = Shop::with(&[
+            ("offsets.nc", dump),
+            ("gcheck.toml", &format!("control = \"haas-mill\"\n[machine]\nunits = \"mm\"\naxes = {axes}\n")),
+        ]);
+        shop.gcheck("machine import offsets.nc").code
+    };
+    assert_eq!(configured("[\"X\", \"Y\", \"Z\"]"), 0);
+    assert_eq!(configured("[\"X\", \"Y\", \"Z\", \"A\"]"), 2);
+}
+
+#[test]
+fn a_comment_says_once_where_an_imported_value_is_from() {
+    let shop = Shop::with(&[("gcheck.toml", "[machine]\nunits = \"mm\"\nmax_rpm = 9000.0  # measured\n")]);
+    for (round, speed) in [12_000, 13_000, 14_000].into_iter().enumerate() {
+        shop.file(
+            "mill.ini",
+            INI.replace("MAX_FORWARD_VELOCITY = 12000", &format!("MAX_FORWARD_VELOCITY = {speed}")),
+        );
+        shop.file("tool.tbl", "T1 P1 Z10 D6\n");
+        let run = shop.gcheck("machine import mill.ini --overwrite");
+        assert_eq!(run.code, 0, "{round}: {run}");
+        let text = shop.read("gcheck.toml");
+        let line = text.lines().find(|line| line.starts_with("max_rpm")).unwrap();
+        assert_eq!(
+            line,
+            format!("max_rpm = {speed}.0  # measured; from mill.ini, [SPINDLE_0] MAX_FORWARD_VELOCITY")
+        );
+    }
+}
+
+#[test]
+fn figures_that_no_machine_has_are_refused_at_their_place() {
+    check(
+        "settings.txt",
+        &SETTINGS.replace("$110=5000", "$110=1e99"),
+        "--units mm",
+        &expect![[r#"
+        ! error: settings.txt:8:1: $110 (rapid of X) is 1e99, which no machine has
+        !   |
+        ! 8 | $110=1e99
+        !   | ^^^^^^^^^
+        exit 2
+    "#]],
+    );
 }

@@ -33,7 +33,7 @@ fn an_ini_file_is_read_with_the_files_that_it_includes() {
         "mill.ini",
         &expect![[r#"
             wrote gcheck.toml: 8 values
-            next: `gcheck check --show-settings`
+            next: name the control in it, `control = "NAME"` (`gcheck controls` lists them), then `gcheck check --show-settings`
             ! mill.ini:2: not used: [TRAJ] MAX_LINEAR_VELOCITY of traj.inc: it allows 3000 mm/min, more than the slowest axis reaches (2400 mm/min), so `max_feed` is not written
             exit 0
             # Configuration of gcheck for the programs in this folder and below.
@@ -59,7 +59,7 @@ fn files_that_cannot_be_included_are_listed() {
         "mill.ini",
         &expect![[r#"
             wrote gcheck.toml: 9 values
-            next: `gcheck check --show-settings`
+            next: name the control in it, `control = "NAME"` (`gcheck controls` lists them), then `gcheck check --show-settings`
             ! mill.ini:1: not used: `#INCLUDE`: it names no file
             ! mill.ini:2: not used: `#INCLUDE nosuchfile`: the file nosuchfile does not exist
             ! mill.ini:3: not used: `#INCLUDE ~/mine.inc`: files of a home folder are not read; name it by its path
@@ -117,7 +117,7 @@ fn limits_that_a_hal_file_sets_count_over_those_of_the_ini_file() {
         "mill.ini",
         &expect![[r#"
             wrote gcheck.toml: 9 values
-            next: `gcheck check --show-settings`
+            next: name the control in it, `control = "NAME"` (`gcheck controls` lists them), then `gcheck check --show-settings`
             ! mill.ini:4: not used: [TRAJ] MAX_LINEAR_VELOCITY: the value as POSTGUI_HALCMD sets it (ini.traj_max_velocity) counts
             ! mill.ini:8: not used: [AXIS_X] MIN_LIMIT: the value as post.hal sets it (ini.x.min_limit) counts
             ! mill.ini:10: not used: [AXIS_X] MAX_VELOCITY: the value as post.hal sets it (ini.x.max_velocity) counts
@@ -180,24 +180,24 @@ fn a_machine_of_a_cam_program_gives_what_is_not_its_default() {
         &[("mill.fcm", CAM_MACHINE)],
         "mill.fcm",
         &expect![[r#"
-        wrote gcheck.toml: 8 values
-        next: `gcheck check --show-settings`
-        ! mill.fcm:6: not used: limits of X, max_velocity of X: it is what FreeCAD gives a new machine, and says nothing of this one
-        ! mill.fcm:7: not used: role of A: which rotary axis carries which is not read: write `rotary` and `rotary_order`
-        ! mill.fcm:13: not used: `output`: `gcheck.toml` has no key for it
-        exit 0
-        # Configuration of gcheck for the programs in this folder and below.
+            wrote gcheck.toml: 8 values
+            next: name the control in it, `control = "NAME"` (`gcheck controls` lists them), then `gcheck check --show-settings`
+            ! mill.fcm:6: not used: limits of X, max_velocity of X: it is what FreeCAD gives a new machine, and says nothing of this one
+            ! mill.fcm:7: not used: role of A: which rotary axis carries which is not read: write `rotary` and `rotary_order`
+            ! mill.fcm:13: not used: `output`: `gcheck.toml` has no key for it
+            exit 0
+            # Configuration of gcheck for the programs in this folder and below.
 
-        [machine]
-        units = "mm"  # from mill.fcm
-        name = "Shop mill"  # from mill.fcm, name
-        axes = ["X", "Z", "A"]  # from mill.fcm, axes
-        travel.Z = [-420.0, 0.0]  # from mill.fcm, limits of Z
-        travel.A = [-120.0, 30.0]  # from mill.fcm, limits of A
-        rapid.Z = 15000.0  # from mill.fcm, max_velocity of Z
-        rapid.A = 9000.0  # from mill.fcm, max_velocity of A
-        max_rpm = 12000.0  # from mill.fcm, max_rpm
-    "#]],
+            [machine]
+            units = "mm"  # from mill.fcm
+            name = "Shop mill"  # from mill.fcm, name
+            axes = ["X", "Z", "A"]  # from mill.fcm, axes
+            travel.Z = [-420.0, 0.0]  # from mill.fcm, limits of Z
+            travel.A = [-120.0, 30.0]  # from mill.fcm, limits of A
+            rapid.Z = 15000.0  # from mill.fcm, max_velocity of Z
+            rapid.A = 9000.0  # from mill.fcm, max_velocity of A
+            max_rpm = 12000.0  # from mill.fcm, max_rpm
+        "#]],
     );
 }
 
@@ -263,25 +263,25 @@ fn a_yaml_configuration_gives_rates_and_travels_from_where_axes_home() {
         &[("config.yaml", yaml)],
         "config.yaml",
         &expect![[r#"
-        wrote gcheck.toml: 11 values
-        next: `gcheck check --show-settings`
-        ! config.yaml:30: not used: max_travel_mm of A: the axis does not home, so that nothing tells where its travel ends
-        exit 0
-        # Configuration of gcheck for the programs in this folder and below.
+            wrote gcheck.toml: 11 values
+            next: name the control in it, `control = "NAME"` (`gcheck controls` lists them), then `gcheck check --show-settings`
+            ! config.yaml:30: not used: max_travel_mm of A: the axis does not home, so that nothing tells where its travel ends
+            exit 0
+            # Configuration of gcheck for the programs in this folder and below.
 
-        [machine]
-        units = "mm"  # from config.yaml
-        name = "Desk router"  # from config.yaml, name
-        axes = ["X", "Z", "A"]  # from config.yaml, axes
-        rapid.X = 5000.0  # from config.yaml, axes.x.max_rate_mm_per_min
-        rapid.Z = 900.0  # from config.yaml, axes.z.max_rate_mm_per_min
-        rapid.A = 3600.0  # from config.yaml, axes.a.max_rate_mm_per_min
-        acceleration.X = 250.0  # from config.yaml, axes.x.acceleration_mm_per_sec2
-        acceleration.Z = 80.0  # from config.yaml, axes.z.acceleration_mm_per_sec2
-        acceleration.A = 500.0  # from config.yaml, axes.a.acceleration_mm_per_sec2
-        travel.X = [0.0, 400.0]  # from config.yaml, axes.x.max_travel_mm from where it homes
-        travel.Z = [-85.0, 5.0]  # from config.yaml, axes.z.max_travel_mm from where it homes
-    "#]],
+            [machine]
+            units = "mm"  # from config.yaml
+            name = "Desk router"  # from config.yaml, name
+            axes = ["X", "Z", "A"]  # from config.yaml, axes
+            rapid.X = 5000.0  # from config.yaml, axes.x.max_rate_mm_per_min
+            rapid.Z = 900.0  # from config.yaml, axes.z.max_rate_mm_per_min
+            rapid.A = 3600.0  # from config.yaml, axes.a.max_rate_mm_per_min
+            acceleration.X = 250.0  # from config.yaml, axes.x.acceleration_mm_per_sec2
+            acceleration.Z = 80.0  # from config.yaml, axes.z.acceleration_mm_per_sec2
+            acceleration.A = 500.0  # from config.yaml, axes.a.acceleration_mm_per_sec2
+            travel.X = [0.0, 400.0]  # from config.yaml, axes.x.max_travel_mm from where it homes
+            travel.Z = [-85.0, 5.0]  # from config.yaml, axes.z.max_travel_mm from where it homes
+        "#]],
     );
     check(
         &[("config.yaml", &yaml.replace("5000.000", "0"))],

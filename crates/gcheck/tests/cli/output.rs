@@ -165,6 +165,7 @@ fn statistics_are_counts_alone() {
                2      2           error     unknown-code           code that the control does not have
                1      1           warning   missing-decimal-point  no decimal point where the control counts least increments
         2 errors, 1 warning in 3 files (15 lines)
+        the verdicts rest on 1 assumption about the machines; `--output-format json` lists them
         ! a.nc and 2 more files: control haas-mill, set by `--control`
         exit 1
     "#]]
@@ -183,6 +184,7 @@ fn a_summary_has_the_worst_file_first() {
              1         0      0      0  c.nc
              0         1      0      0  a.nc
         1 error, 1 warning in 3 files (16 lines)
+        the verdicts rest on 1 assumption about the machines; `--output-format json` lists them
         ! a.nc and 2 more files: control haas-mill, set by `--control`
         exit 1
     "#]]
@@ -265,7 +267,7 @@ fn a_check_ends_with_what_to_do_next() {
     ]
     .map(last);
     expect![[r#"
-        1 warning in 1 file (5 lines)
+          numbers without a decimal point count as the control usually reads them (Setting 162); to settle it: [settings] 162 = false
         nothing shows which control runs a program: name it with `--control` (`gcheck controls` lists them) or in a `gcheck.toml` (`gcheck init`)
         1 finding has a fix that changes no move: `--diff` shows, `--fix` applies
         old programs: `--baseline gcheck-baseline.json --update-baseline` accepts what is found today, and later checks with that baseline show only what is new

@@ -112,7 +112,7 @@ fn models_are_listed_and_shown_with_their_sources() {
         [machine]
         # preset = "pocket-nc-v2" gives the same, below what else is here
         axes = ["X", "Y", "Z", "A", "B"]  # github.com/PocketNC/Settings, versions/v2revP/PocketNC.ini, [TRAJ] COORDINATES
-        units = "inch"
+        units = "inch"  # of the lengths below; a preset leaves the unit of the file as it is
         travel.A = [-25.0, 135.0]  # the same file, [AXIS_A]
         rapid = { X = 60.0, Y = 60.0, Z = 60.0, A = 2250.0, B = 2250.0 }  # the same file, [AXIS_*] MAX_VELOCITY * 60
         acceleration = { X = 10.0, Y = 10.0, Z = 10.0, A = 300.0, B = 300.0 }  # the same file, [AXIS_*] MAX_ACCELERATION
@@ -124,7 +124,7 @@ fn models_are_listed_and_shown_with_their_sources() {
         [machine]
         # preset = "bobscnc-e3" gives the same, below what else is here
         axes = ["X", "Y", "Z"]  # Grbl 1.1, grbl/defaults.h (github.com/gnea/grbl), DEFAULTS_BOBSCNC_E3
-        units = "mm"
+        units = "mm"  # of the lengths below; a preset leaves the unit of the file as it is
         travel.Z = [-85.0, 0.0]  # Grbl 1.1, grbl/defaults.h (github.com/gnea/grbl), DEFAULTS_BOBSCNC_E3, Z_MAX_TRAVEL and HOMING_DIR_MASK: Z homes to its upper end, and machine coordinates are negative
         rapid = { X = 10000.0, Y = 10000.0, Z = 500.0 }  # Grbl 1.1, grbl/defaults.h (github.com/gnea/grbl), DEFAULTS_BOBSCNC_E3, MAX_RATE
         acceleration = { X = 500.0, Y = 500.0, Z = 300.0 }  # Grbl 1.1, grbl/defaults.h (github.com/gnea/grbl), DEFAULTS_BOBSCNC_E3, ACCELERATION

@@ -636,3 +636,34 @@ fn what_a_run_cannot_read_a_check_reports() {
         assert!(check.contains("part.ngc:"), "{block}: {check}");
     }
 }
+
+/// What a setting decides that nobody told is listed where a program needs it.
+#[test]
+fn a_setting_that_counts_is_taken_for_granted_where_it_is_used() {
+    let told = |blocks: &str, arguments: &str| {
+        let program =
+            format!("%\nO1\nG21 G90 G54\nT1 M6\nS1000 M3\nG0 X0 Y0\nG43 H1 Z5.\n{blocks}\nM30\n%\n");
+        let shop = Shop::with(&[("part.nc", &program)]);
+        let run = shop.gcheck(&format!("run part.nc --control haas-mill {arguments}"));
+        assert_eq!(run.code, 0, "{run}");
+        let line = |part: &str| run.stderr.lines().find(|line| line.contains(part)).map(str::to_owned);
+        (line("without a decimal point"), line("setting 22"))
+    };
+    let point =
+        "  numbers without a decimal point count as the control usually reads them (Setting 162)".to_owned();
+    let delta = "  setting 22 (canned cycle delta Z) is 0.1 inch, as usual".to_owned();
+    assert_eq!(told("G0 X15000", ""), (Some(point.clone()), None));
+    assert_eq!(told("G0 X15.", ""), (None, None));
+    assert_eq!(told("G0 X15000", "--config settings.162=false"), (None, None));
+    assert_eq!(told("G98 G83 Z-9. R2. Q3. F100.\nG80", ""), (None, Some(delta.clone())));
+    assert_eq!(told("G98 G73 Z-9. R2. Q3. F100.\nG80", "").1, Some(delta));
+    assert_eq!(told("G98 G83 Z-9. R2. Q3. F100.\nG80", "--config settings.22=2.0"), (None, None));
+    assert_eq!(told("G98 G81 Z-9. R2. F100.\nG80", ""), (None, None));
+}
+
+#[test]
+fn a_number_of_hundreds_of_digits_is_shown_by_its_power_of_ten() {
+    let shop = Shop::with(&[("part.ngc", "G21 G90\nG0 X#100\nM2\n")]);
+    let run = shop.gcheck("run part.ngc --control linuxcnc --set 100=1e300");
+    assert!(run.stdout.contains(" 1.0000e300 "), "{run}");
+}

@@ -484,3 +484,19 @@ fn a_folder_without_programs_has_no_figures() {
     let run = Shop::with(&[("a/note.txt", "x")]).gcheck("stats a");
     assert!(run.code == 2 && run.stderr.contains("no programs in a"), "{}", run.stderr);
 }
+
+#[test]
+fn a_program_without_figures_ends_in_a_word_too() {
+    let shop = Shop::with(&[("part.nc", PART), ("broken.nc", "G28 U1 L2\n(gcheck: control=nonsense)\n")]);
+    let run = shop.gcheck("stats part.nc broken.nc --output-format json --control haas-mill");
+    let whole = run.json();
+    let ended: Vec<&str> =
+        whole["programs"].as_array().unwrap().iter().map(|one| one["ended"].as_str().unwrap()).collect();
+    assert_eq!(ended[0], "program-end");
+    let run = shop.gcheck("stats part.nc missing.nc --output-format csv --control haas-mill -q");
+    assert_eq!(run.code, 2, "{run}");
+    let run = shop.gcheck("stats part.nc broken.nc --output-format json");
+    let whole = run.json();
+    let broken = whole["programs"].as_array().unwrap().iter().find(|one| one["file"] == "broken.nc").unwrap();
+    assert_eq!(broken["ended"], "not-run", "{run}");
+}

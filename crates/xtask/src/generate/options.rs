@@ -102,6 +102,10 @@ fn default(argument: &Arg) -> String {
     if !matches!(argument.get_action(), ArgAction::Set | ArgAction::Append) {
         return String::new();
     }
+    if argument.is_hide_default_value_set() {
+        // The help says it in words.
+        return String::new();
+    }
     codes(argument.get_default_values().iter().map(|value| value.to_string_lossy().into_owned()))
 }
 

@@ -508,9 +508,13 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     }
 
     /// What settings say of pecks: how far they back off, where that is told, and how far above `R` they come out.
-    fn settings_of_pecks(&self, effect: Effect, state: &State<D>) -> (Option<Mm>, Mm) {
+    fn settings_of_pecks(&mut self, effect: Effect, state: &State<D>) -> (Option<Mm>, Mm) {
         if !matches!(effect, Effect::CyclePeck | Effect::CycleChipBreak) {
             return (None, Mm::ZERO);
+        }
+        if let Some(number) = &self.model.semantics().cycles.clearance_setting {
+            // Nobody told it where it is assumed: then it is how far pecks back off.
+            self.setting(number);
         }
         self.machine.settings_of_pecks(&self.model.semantics().cycles, self.unit(state))
     }

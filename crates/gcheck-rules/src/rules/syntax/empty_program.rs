@@ -4,7 +4,7 @@ use crate::declare::declare_rule;
 use crate::{FileCx, Finding, Report, Run, Severity};
 
 declare_rule! {
-    /// A file has no block with a word or statement: it is empty, or has only comments.
+    /// A file has no block with a word or statement: it is empty, or has only comments or `%`.
     ///
     /// ## Why it matters
     /// The transfer or the post-processor lost the program; some controls refuse to load such a file.
@@ -47,6 +47,9 @@ fn finding(cx: &FileCx<'_>) -> Finding {
     // The file may be meant as notes.
     let (message, severity) = match text.trim() {
         "" => ("file is empty", Severity::Warning),
+        marks if marks.chars().all(|c| c == '%' || c.is_whitespace()) => {
+            ("program has no block between its `%`", Severity::Info)
+        }
         _ => ("program has comments only", Severity::Info),
     };
     Finding::new(&META, start as u32..end.max(start) as u32, message)

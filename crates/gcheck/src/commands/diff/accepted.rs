@@ -8,7 +8,7 @@ use std::time::{SystemTime, UNIX_EPOCH};
 use serde::Deserialize;
 use toml::value::Date;
 
-use crate::config::{PathPattern, Placed};
+use crate::config::{PathPattern, Placed, in_words};
 use crate::{Problem, paths, reading};
 
 /// A larger file is not a list of accepted differences.
@@ -29,7 +29,7 @@ struct Text {
 #[serde(deny_unknown_fields)]
 struct EntryText {
     file: Placed<String>,
-    differences: Option<Vec<Placed<String>>>,
+    differences: Option<Placed<Vec<Placed<String>>>>,
     digest: Option<Placed<String>>,
     reason: Placed<String>,
     until: Option<Placed<toml::value::Datetime>>,
@@ -80,7 +80,7 @@ impl Accepted {
             Problem::with_file(path, "is not a list of accepted differences: it is not UTF-8")
         })?;
         let read: Text = toml::from_str(&text).map_err(|error| {
-            Problem::at(&name, &text, &error.span().unwrap_or(0..0), error.message().to_owned())
+            Problem::at(&name, &text, &error.span().unwrap_or(0..0), in_words(error.message()))
         })?;
         let entries = read.accepted.into_iter().map(|entry| Entry::new(entry, &name, &text, kinds));
         Ok(Self { entries: entries.collect::<Result<_, _>>()?, name })
@@ -136,9 +136,9 @@ impl Entry {
         if reason.value.trim().is_empty() {
             return Err(problem(&reason.range, "an accepted difference needs a reason".to_owned()));
         }
-        if differences.as_ref().is_some_and(Vec::is_empty) {
+        if let Some(empty) = differences.as_ref().filter(|all| all.value.is_empty()) {
             let message = "`differences` is empty, so that nothing is accepted".to_owned();
-            return Err(problem(&file.range, message).help("leave it out to accept all"));
+            return Err(problem(&empty.range, message).help("leave it out to accept all"));
         }
         let is_digest = |of: &str| {
             of.len() == DIGEST && of.bytes().all(|b| b.is_ascii_digit() || (b'a'..=b'f').contains(&b))
@@ -147,7 +147,7 @@ impl Entry {
             let message = format!("`{}` is not a digest: it has {DIGEST} digits, `0` to `f`", of.value);
             return Err(problem(&of.range, message).help("take it from what `gcheck diff` prints"));
         }
-        for difference in differences.iter().flatten() {
+        for difference in differences.iter().flat_map(|all| &all.value) {
             if !kinds.contains(&difference.value.as_str()) {
                 let message = format!("unknown difference `{}`", difference.value);
                 return Err(problem(&difference.range, message).help(format!("one of {}", kinds.join(", "))));
@@ -167,7 +167,7 @@ impl Entry {
             pattern,
             shown: file.value,
             line,
-            differences: differences.map(|all| all.into_iter().map(|one| one.value).collect()),
+            differences: differences.map(|all| all.value.into_iter().map(|one| one.value).collect()),
             digest: digest.map(|of| of.value),
             reason: reason.value,
             until,

@@ -153,7 +153,7 @@ impl Outcomes {
         let accepted = self.pairs.iter().filter(|outcome| outcome.verdict == Verdict::Accepted);
         let (whole, partly): (Vec<_>, Vec<_>) = accepted.partition(|outcome| outcome.limits.is_empty());
         part(whole.len(), "accepted");
-        part(partly.len(), "accepted and not compared as a whole");
+        part(partly.len(), "accepted, of which a part was not compared");
         part(self.count(|verdict| matches!(verdict, Verdict::None(_))), "without a verdict");
         for (side, title) in self.titles.iter().enumerate() {
             for (is_open, accepted) in [(true, ""), (false, ", accepted")] {

@@ -9,7 +9,7 @@ use std::sync::Arc;
 use std::sync::mpsc::{IntoIter, Receiver, SyncSender, sync_channel};
 use std::{mem, thread};
 
-use gcheck_engine::{Concrete, Origin, State, Units};
+use gcheck_engine::{Assumption, Concrete, Origin, State, Units};
 use gcheck_report::LineIndex;
 use gcheck_toolpath::{
     Act, Differences, Marks, Outline, Place, Rest, Sections, Step, Title, Trail, WorkCoordinates, compare,
@@ -38,6 +38,8 @@ pub(super) struct Compared {
     pub(super) faults: [Option<Stopped>; 2],
     /// Which control reads each, in words.
     pub(super) controls: [String; 2],
+    /// How numbers count that say it themselves in no program: what the verdict rests on.
+    pub(super) taken_for_granted: Vec<String>,
     units: Units,
     /// Millimetres.
     tolerance: f64,
@@ -114,6 +116,11 @@ pub(super) fn both(
     Ok(Compared {
         left_out: if is_whole { left_out::not_compared(&left_out) } else { Vec::new() },
         faults,
+        taken_for_granted: {
+            let mut all: Vec<String> = [ran_a.rests, ran_b.rests].into_iter().flatten().collect();
+            all.dedup();
+            all
+        },
         controls: [ran_a.control, ran_b.control],
         units: ran_a.units,
         tolerance,
@@ -211,6 +218,8 @@ struct Ran {
     /// Units of most moves.
     units: Units,
     left_out: LeftOut,
+    /// How numbers without decimal point count, where nobody told and the run has some.
+    rests: Option<String>,
 }
 
 /// Runs both; `with` gets their acts.
@@ -272,9 +281,14 @@ fn run_one(prepared: &Prepared, to: SyncSender<Vec<Act>>) -> Ran {
                     let problem = execution::problem_of(&fault);
                     Stopped { message: fault.words.message, problem }
                 });
-                Ran { control, fault, units, left_out: sender.executions.left_out() }
+                let unpointed = Assumption::UnpointedNumbers;
+                let rests = ran
+                    .assumptions
+                    .contains(&unpointed)
+                    .then(|| gcheck_lint::describe(&unpointed, session.model).text);
+                Ran { control, fault, units, left_out: sender.executions.left_out(), rests }
             }
-            Err(_) => Ran { control, fault: None, units, left_out: LeftOut::default() },
+            Err(_) => Ran { control, fault: None, units, left_out: LeftOut::default(), rests: None },
         }
     })
 }

@@ -23,6 +23,8 @@ use crate::{Problem, discovery, output, paths, threads};
 
 /// Version of the JSON's shape.
 const VERSION: u32 = 1;
+/// How a program ended that could not be run.
+const NOT_RUN: &str = "not-run";
 /// Axes whose extents have columns.
 const AXES: [&str; 3] = ["X", "Y", "Z"];
 
@@ -192,7 +194,7 @@ fn csv(rows: &[Row]) -> String {
         let mut cells = vec![
             row.file.clone(),
             row.word("/control/name").to_owned(),
-            row.word("/ended").to_owned(),
+            if row.figures.is_err() { NOT_RUN } else { row.word("/ended") }.to_owned(),
             number(row.seconds()),
             row.word("/times").to_owned(),
             number(row.number(&["total", "seconds", "cutting"])),
@@ -222,7 +224,7 @@ fn as_json(rows: &[Row]) -> Value {
         .iter()
         .map(|row| match &row.figures {
             Ok(figures) => figures.clone(),
-            Err(problem) => json!({ "file": row.file, "problem": problem.message() }),
+            Err(problem) => json!({ "file": row.file, "ended": NOT_RUN, "problem": problem.message() }),
         })
         .collect();
     let total: f64 = rows.iter().filter_map(Row::seconds).sum();
