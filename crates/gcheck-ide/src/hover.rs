@@ -9,7 +9,9 @@ use std::ops::Range;
 
 use gcheck_controls::{Code, CodeIx, Control, Effect, Letter, Motion, Need, Variable, WordEntry, WordKind};
 use gcheck_db::{BlockPlace, Cancelled, Database, DocumentId, Snapshot, StateAt};
-use gcheck_engine::{Abstract, AbstractValue, At, Axis, Domain as _, Look, Position, Role, State, Truth};
+use gcheck_engine::{
+    Abstract, AbstractValue, At, Axis, Domain as _, Look, Position, Role, State, Truth, Units,
+};
 use gcheck_geometry::Plane;
 use gcheck_program::{ExprIx, StatementKind, Value, Word};
 use gcheck_syntax::SyntaxKind;
