@@ -329,24 +329,32 @@ impl<'f, A: Iterator<Item = Placed>, B: Iterator<Item = Placed>> Comparison<'f, 
         lengths_count
     }
 
+    /// Passes over two moves of which one only goes along axes whose values are not known, and the other one along these.
+    fn goes_unseen(&mut self, lengths_count: bool) -> bool {
+        let (Some(a), Some(b)) = (self.a.piece.as_mut(), self.b.piece.as_mut()) else { return false };
+        let may_be_one = (a.curve.is_nothing() && a.curve.may_go_as(&b.curve, self.tolerance))
+            || (b.curve.is_nothing() && b.curve.may_go_as(&a.curve, self.tolerance));
+        if !may_be_one || a.done > 0.0 || b.done > 0.0 {
+            return false;
+        }
+        self.found.moves += 1;
+        self.found.unknown = true;
+        settings(self.found, a, b, self.tolerance, lengths_count);
+        self.leaving = None;
+        self.a.finish();
+        self.b.finish();
+        true
+    }
+
     /// Goes on along both moves by the shorter one of them; tells when they part.
     fn pieces(&mut self) -> Option<Parting> {
         let lengths_count = self.approach();
+        if self.goes_unseen(lengths_count) {
+            return None;
+        }
         let (Some(a), Some(b)) = (self.a.piece.as_mut(), self.b.piece.as_mut()) else { return None };
         // A move that goes nowhere is passed over, unless it is the other side's way there from an unknown place.
         let (a_is_nothing, b_is_nothing) = (a.curve.is_nothing(), b.curve.is_nothing());
-        let may_be_one = (a_is_nothing && a.curve.may_go_as(&b.curve, self.tolerance))
-            || (b_is_nothing && b.curve.may_go_as(&a.curve, self.tolerance));
-        if may_be_one && a.done <= 0.0 && b.done <= 0.0 {
-            // The one goes along an axis whose value is not known, where the other one goes: that is not compared.
-            self.found.moves += 1;
-            self.found.unknown = true;
-            settings(self.found, a, b, self.tolerance, lengths_count);
-            self.leaving = None;
-            self.a.finish();
-            self.b.finish();
-            return None;
-        }
         if (a_is_nothing && !b.curve.is_open()) || (b_is_nothing && !a.curve.is_open()) {
             if a_is_nothing {
                 self.a.finish();

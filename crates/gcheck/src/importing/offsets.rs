@@ -305,7 +305,7 @@ fn take(
     if sheet.facts.is_empty() {
         let message = "the program writes no offset that is known at its end";
         let problem = Problem::at(&sheet.shown, sheet.text, &places.first, message);
-        let reasons = super::unused(sheet);
+        let reasons = super::unused::unused(sheet);
         sheet.problems.push(if reasons.is_empty() {
             problem
         } else {
