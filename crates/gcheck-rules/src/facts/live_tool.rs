@@ -81,7 +81,7 @@ pub(crate) fn may_be_live(cx: &PathCx<'_>) -> bool {
     })
 }
 
-/// May the part stand still although the spindle was started: does a block from this one of the main file on engage the C axis or move
+/// May the part be at rest although the spindle was started: does a block from this one of the main file on engage the C axis or move
 /// it, hold the spindle at an angle, stop the program, or have an M code of the machine builder?
 pub(crate) fn may_hold_part_since(cx: &PathCx<'_>, first: u32) -> bool {
     first > cx.origin().at.block

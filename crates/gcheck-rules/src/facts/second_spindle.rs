@@ -2,7 +2,8 @@
 //!
 //! Knows: the codes that controls have for it. Must not know: any rule, where the part is.
 
-use gcheck_controls::Code;
+use gcheck_controls::{Code, Control};
+use gcheck_program::FileIndex;
 
 use crate::facts::workholding::Moved;
 use crate::{PathCx, Uses};
@@ -21,9 +22,17 @@ pub(crate) fn swaps(cx: &PathCx<'_>) -> bool {
 /// Does the file have a code for a second spindle? The code that only gives the work back to the first one is in the safe line of
 /// many programs, and does not count.
 pub(crate) fn has_second_spindle(program: &Uses<'_>) -> bool {
-    let control = program.environment.control();
+    names_second(program.file_index, program.environment.control())
+}
+
+/// The same, of the program that is executed.
+pub(crate) fn works_on_second(cx: &PathCx<'_>) -> bool {
+    names_second(cx.file_index, cx.control())
+}
+
+fn names_second(file_index: &FileIndex, control: &Control) -> bool {
     let mut codes =
-        program.file_index.codes.iter().filter_map(|(number, _)| control.code_at(control.code_ix(*number)));
+        file_index.codes.iter().filter_map(|(number, _)| control.code_at(control.code_ix(*number)));
     codes.any(|code| is_second(code) && !gives_back(code))
 }
 

@@ -480,7 +480,7 @@ impl Turned {
         (is_into && !is_open && !self.has_hole(z1)).then_some(face)
     }
 
-    /// The face behind which a pass of a cycle begins: across at rapid, toward the centre, where nothing was cut.
+    /// The face below which a pass of a cycle begins: across at rapid, toward the centre, where nothing was cut.
     pub(crate) fn face_passed(&self, from: Spot, to: Spot) -> Option<&Cut> {
         let face = self.face()?;
         let [radius, level] = [face.radius(), face.ends[0][1]];

@@ -59,10 +59,12 @@ struct CompensationOnWrongSide {
     /// Where the last move ends as it is programmed, if that is known.
     at: Option<Vector>,
     contour: Option<Contour>,
+    /// A contour that is done, whose way out comes next.
+    done: Option<Contour>,
     told: Option<At>,
 }
 
-remembers!(CompensationOnWrongSide: contour, told);
+remembers!(CompensationOnWrongSide: contour, done, told);
 
 /// A point in the XY plane: millimetres.
 type Vector = [f64; 2];
@@ -130,18 +132,22 @@ impl PathRule for CompensationOnWrongSide {
         self.at = end(event);
         let side = is_left(cx);
         let on = cx.definitions().set_by(Fact::Mode(Role::Compensation));
+        let is_way_out = cx.has_effect(|effect| effect == Effect::CompensationOff);
+        if let Some(contour) = self.done.take().filter(|_| is_way_out && side.is_none()) {
+            self.judge(cx, &contour, way.as_ref().filter(|way| !way.is_arc), report);
+        }
         let is_same = |contour: &Contour| Some(contour.on) == on && side == Some(contour.is_left);
         if !self.contour.as_ref().is_some_and(is_same)
             && let Some(mut contour) = self.contour.take()
         {
             // Beside a cutter of a known size a move is made when the next block is read: the last one comes after
             // compensation is off.
-            let is_way_out = cx.has_effect(|effect| effect == Effect::CompensationOff);
             if !is_way_out && contour.loop_of().is_none() {
                 contour.goes(way.as_ref());
             }
             let way_out = way.as_ref().filter(|_| is_way_out).filter(|way| !way.is_arc);
             self.judge(cx, &contour, way_out, report);
+            self.done = Some(contour).filter(|_| !is_way_out);
         }
         let (Some(is_left), Some(on)) = (side, on) else { return };
         let contour = self.contour.get_or_insert_with(|| Contour {
@@ -445,6 +451,19 @@ mod tests {
                   | ^^^^^^^^^^^^^ warning[compensation-on-wrong-side] the way out leads over the finished contour, to its inside
             "#]],
         );
+        let sized = |out: &str| outline(out).replacen('\n', "\nT1 M6\n", 1);
+        let world = World::of_group("machine");
+        check_rule_in(
+            &RULE,
+            "fanuc-mill",
+            &sized("G40 X20. Y20."),
+            &world,
+            &expect![[r#"
+                9 | G40 X20. Y20.
+                  | ^^^^^^^^^^^^^ warning[compensation-on-wrong-side] the way out leads over the finished contour, to its inside
+            "#]],
+        );
+        check_rule_in(&RULE, "fanuc-mill", &sized("G40 X-40. Y20."), &world, &expect![[""]]);
         for out in ["G40 Y-20.", "G40 X-40. Y20.", "G0 Z5.\nG40 X20. Y20.", "G40 G0 X20. Y20. Z5."] {
             check_rule(&RULE, "fanuc-mill", &outline(out), &expect![[""]]);
         }

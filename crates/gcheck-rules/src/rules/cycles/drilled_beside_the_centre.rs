@@ -7,7 +7,7 @@ use gcheck_geometry::Mm;
 use crate::declare::declare_rule;
 use crate::facts::cycles::{cycle_name, is_drilling};
 use crate::facts::live_tool::{may_be_live, may_hold_part_since};
-use crate::facts::second_spindle::has_second_spindle;
+use crate::facts::second_spindle::works_on_second;
 use crate::facts::tool_words::ToolWords;
 use crate::facts::turned::{Turned, UNDER};
 use crate::facts::turning::turns_the_part;
@@ -59,7 +59,7 @@ const OFF_CENTRE: f64 = 1.0;
 
 impl PathRule for DrilledBesideTheCentre {
     fn concerns(&self, program: &Uses<'_>) -> bool {
-        program.environment.control().machine() == Machine::Lathe && !has_second_spindle(program)
+        program.environment.control().machine() == Machine::Lathe
     }
 
     fn shares(&self) -> Option<MakeShared> {
@@ -116,6 +116,7 @@ fn with_live_tool(cx: &PathCx<'_>, report: &mut Report<'_>) {
     // Without a code for it, the machine builder's codes make the spindle an axis.
     if !cx.control_has(|effect| effect == Effect::LiveToolOn)
         || !cx.is_certain()
+        || works_on_second(cx)
         || may_hold_part_since(cx, started.block)
     {
         return;
@@ -150,7 +151,11 @@ fn by_feed(cx: &PathCx<'_>, travel: &Travel, report: &mut Report<'_>) {
         return;
     }
     // A drill may widen the hole that another one made.
-    if cx.shared::<Turned>().is_none_or(|turned| turned.depth_at_centre(None) < -UNDER || !turned.knows(cx)) {
+    if works_on_second(cx)
+        || cx
+            .shared::<Turned>()
+            .is_none_or(|turned| turned.depth_at_centre(None) < -UNDER || !turned.knows(cx))
+    {
         return;
     }
     let away = cx.shown(Mm(radius.abs()));

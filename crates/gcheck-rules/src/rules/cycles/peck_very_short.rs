@@ -115,7 +115,8 @@ impl PathRule for PeckVeryShort {
 impl PeckVeryShort {
     /// A plunge of a grooving cycle, which steps along Z.
     fn plunge(&mut self, cx: &PathCx<'_>, travel: &Travel, report: &mut Report<'_>) {
-        let (z, at) = (travel.to.raw(Axis::Z), cx.origin().at);
+        let Some(z) = travel.to.get(Axis::Z) else { return };
+        let at = cx.origin().at;
         let (count, step) = match self.plunges {
             Some((before, count, last)) if before == at && z.to_bits() == last.to_bits() => (count, 0.0),
             Some((before, count, last)) if before == at => (count + 1, (z - last).abs()),

@@ -24,7 +24,7 @@ declare_rule! {
     /// leaves as little.
     ///
     /// So is one that goes on at rapid where a cut along Z has ended, at the same diameter, while the part is wider there; and a turning
-    /// cycle whose first pass goes at rapid into a faced part, behind its face.
+    /// cycle whose first pass goes at rapid into a faced part, below its face.
     ///
     /// A part that was faced to its centre is solid, as far as no hole was made. A retract that goes out of the part and inwards at
     /// once is reported too where it ends under an outside surface that it passes: axes that leave together need not arrive
@@ -95,7 +95,7 @@ declare_rule! {
 struct RapidIntoTurnedPart {
     /// The move that was reported.
     told: Option<At>,
-    /// The face that the reported move goes through, or begins behind.
+    /// The face that the reported move goes through, or begins below.
     face: Option<Range<u32>>,
 }
 
@@ -211,14 +211,14 @@ impl RapidIntoTurnedPart {
         self.told = Some(cx.origin().at);
         self.face = Some(face.bytes.clone());
         report.add(
-            cx.finding(&META, cx.range(), "the turning cycle begins behind the face of the part")
+            cx.finding(&META, cx.range(), "the turning cycle begins below the face of the part")
                 .label(format!(
                     "goes at rapid to X {} at Z {}, where nothing was cut",
                     shown_radius(cx, to[0]),
                     cx.shown(Mm(to[1]))
                 ))
                 .also(face.bytes.clone(), "the part is faced here")
-                .assuming("the part is as wide behind its face as it was faced")
+                .assuming("the part is as wide below its face as it was faced")
                 .help("start the cycle in front of the face: check the sign of Z"),
         );
     }
@@ -437,7 +437,7 @@ mod tests {
         check_rule(&RULE, "fanuc-lathe", &program("(ID BAR)", &stepped("G0 Z-40.")), &expect![[""]]);
         let drilled = format!("G0 X0 Z2.\nG1 Z-60. F.1\nG0 Z2.\n{}", stepped("G0 Z-40."));
         check_rule(&RULE, "fanuc-lathe", &program("", &drilled), &expect![[""]]);
-        // Behind a neck that was cut before, the way is free.
+        // Beyond a neck that was cut before, the way is free.
         let neck = stepped("G0 Z-40.")
             .replace("X30.\nG1 Z-20.", "Z-45.\nG1 X30.\nZ-18.\nX52.\nG0 Z2.\nX30.\nG1 Z-20.");
         check_rule(&RULE, "fanuc-lathe", &program("", &neck), &expect![[""]]);
@@ -482,7 +482,7 @@ mod tests {
             &program("", &profile("-2.")),
             &expect![[r#"
             9 | G71 P10 Q20 U.5 W.1 F.3
-              | ^^^^^^^^^^^^^^^^^^^^^^^ warning[rapid-into-turned-part] the turning cycle begins behind the face of the part
+              | ^^^^^^^^^^^^^^^^^^^^^^^ warning[rapid-into-turned-part] the turning cycle begins below the face of the part
         "#]],
         );
         check_rule(&RULE, "fanuc-lathe", &program("", &profile("2.")), &expect![[""]]);
