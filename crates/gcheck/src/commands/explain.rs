@@ -67,17 +67,11 @@ fn explain_variable(global: &Global, written: &str) -> Result<u8, Problem> {
         return Err(Problem::new(format!("`{shown}` is not a variable"))
             .help("write `#4003`, or `#<_feed>` for a parameter with a name"));
     }
-    fn entry<'c>(control: &'c Control, number: Option<u32>, name: Option<&str>) -> Option<&'c VariableEntry> {
-        match (number.map(|number| control.variable(number)), name) {
-            (Some(Variable::Known(entry)), _) => Some(entry),
-            (Some(Variable::Unlisted), _) | (None, None) => None,
-            (None, Some(name)) => control.named_parameter(name),
-        }
-    }
     let chosen = chosen_control(global)?;
     let all: Vec<Arc<Control>> = all_controls().collect();
-    let named =
-        all.iter().filter_map(|control| Some((entry(control, number, name)?.title.as_str(), control.name())));
+    let named = all
+        .iter()
+        .filter_map(|control| Some((variable(control, number, name)?.title.as_str(), control.name())));
     let meanings = by_meaning(named);
     let Some(control) = chosen else {
         if meanings.is_empty() {
@@ -85,7 +79,7 @@ fn explain_variable(global: &Global, written: &str) -> Result<u8, Problem> {
         }
         return output::print(&format!("{shown}: a variable\n\n{meanings}"));
     };
-    let Some(entry) = entry(&control, number, name) else {
+    let Some(entry) = variable(&control, number, name) else {
         let problem = Problem::new(format!("{} does not list `{shown}`", control.title()));
         return Err(if meanings.is_empty() {
             problem
@@ -107,6 +101,15 @@ fn explain_variable(global: &Global, written: &str) -> Result<u8, Problem> {
         entry.source,
         entry.confidence.remark()
     ))
+}
+
+/// The entry of a variable by its number, or else of a parameter by its name.
+fn variable<'c>(control: &'c Control, number: Option<u32>, name: Option<&str>) -> Option<&'c VariableEntry> {
+    match (number.map(|number| control.variable(number)), name) {
+        (Some(Variable::Known(entry)), _) => Some(entry),
+        (Some(Variable::Unlisted), _) | (None, None) => None,
+        (None, Some(name)) => control.named_parameter(name),
+    }
 }
 
 /// A number without its letter: which codes there are of it.
