@@ -492,15 +492,13 @@ impl Cx<'_> {
         let kind = reader.as_ref().map(|(_, entry)| entry.kind).or(general.map(|entry| entry.kind));
         let or_label = reader.as_ref().is_some_and(|(_, entry)| entry.or_label);
         let moved = self.moved(word, reader);
-        let is_packed =
-            reader.as_ref().is_some_and(|(_, entry)| entry.is_packed_beside(self.place.block().letters));
+        let letters = self.place.block().letters;
+        let is_packed = reader.as_ref().is_some_and(|(_, entry)| entry.is_packed_beside(letters));
         // What an argument counts is for the macro to say, and digits that are packed count nothing together.
-        let counted = if calls.is_some() || is_packed {
-            None
-        } else {
-            self.counted(word, kind, &moved, look.as_deref_mut())
-        };
-        if let Some(counted) = counted {
+        if calls.is_none()
+            && !is_packed
+            && let Some(counted) = self.counted(word, kind, &moved, look.as_deref_mut())
+        {
             let _ = write!(text, "\n\n{counted}");
         }
         let target = match kind {
@@ -1289,9 +1287,27 @@ mod tests {
 
     #[test]
     fn a_length_in_least_increments() {
-        let program =
-            "O1\nG21 G18 G54\nG0 X22. Z4.\nG76 P010060 Q$050 R0.02\nG76 X18. Z-20. P$1920 Q300 F1.5\nM30\n";
-        check("fanuc-lathe", program, &expect![[""]]);
+        let head = "O1\nG21 G18 G54\nG0 X22. Z4.\nG76 P$0010060 Q50 R0.02\n";
+        // The digits of the first `P` are three numbers, and no length.
+        check(
+            "fanuc-lathe",
+            head,
+            &expect![[r#"
+            [P010060]
+            **P** six digits for spring passes, pull-out and angle (`G76`), in the second block, length in least increments, a whole number
+        "#]],
+        );
+        let program = format!("{}G76 X18. Z-20. P$0920 Q300 F1.5\nM30\n", head.replace("$0", ""));
+        check(
+            "fanuc-lathe",
+            &program,
+            &expect![[r#"
+            [P920]
+            **P** thread height (`G76`), in the second block, length in least increments, a whole number
+
+            `P920` is 0.92 mm: without a decimal point it counts least increments
+        "#]],
+        );
     }
 
     #[test]

@@ -1533,7 +1533,26 @@ fn loops_whose_turns_are_not_certain_stay() {
     );
     // A program that the loop calls reads what the loop counts.
     let program = format!("{head}M98 P50\n{tail}").replace("M30\n", "M30\nO50\nG0 X[#1*5.]\nM99\n");
-    changes(&program, "fanuc-mill", "unroll-loop", &expect![[""]]);
+    changes(
+        &program,
+        "fanuc-mill",
+        "unroll-loop",
+        &expect![[r#"
+         6 M98 P50
+         7 #1=#1+1
+         8 M98 P50
+         9 #1=#1+1
+        10 M98 P50
+        11 #1=#1+1
+        12 M30
+        13 O50
+        14 G0 X[#1*5.]
+        15 M99
+        16 %
+        ! part.nc: changed for fanuc-mill: every move is as before, within 0.001 mm (3 moves compared)
+        exit 0
+    "#]],
+    );
 }
 
 const WAYS: &str = "%\nO1\nG21 G17 G90 G94 G54 G40 G80\nG0 X0. Y0. Z5.\nG1 Z-1. F100.\nX10. Y5.\nG2 X20. Y15. I10. (ARC)\nG0 Z5.\nG99 G81 X5. Y5. Z-6. R2. F80.\nX8.\nG80\nG53 Z0.\nG0 X1. Y1.\nM30\n%\n";
@@ -2238,7 +2257,29 @@ fn values_that_a_loop_leaves_to_later_programs_stay() {
         exit 0
     "#]],
     );
-    // Assignments that act by themselves, or that a called program may read, stay in each turn.
+    // What no turn sets is not written.
+    let never = format!("{head}IF [#1 EQ 7] THEN #502=1\n{tail}");
+    changes(
+        &never,
+        "fanuc-mill",
+        "unroll-loop",
+        &expect![[r#"
+         7 G0 X0.
+         8 G0 X10.
+         9 M30
+        10 %
+        ! part.nc: changed for fanuc-mill: every move is as before, within 0.001 mm (2 moves compared)
+        exit 0
+    "#]],
+    );
+}
+
+// Assignments act by themselves, or a called program may read them.
+#[test]
+fn assignments_of_a_loop_that_do_more_than_count_stay_in_each_turn() {
+    let head =
+        "%\nO1\nG21 G17 G90 G54 G40 G80\n#1=0\n#501=0\nG0 X0. Y0. Z5.\nWHILE [#1 LT 2] DO1\nG0 X[#1*10.]\n";
+    let tail = "#1=#1+1\nEND1\nM30\n%\n";
     changes(
         &format!("{head}#5221=#1\n{tail}"),
         "fanuc-mill",
@@ -2309,21 +2350,6 @@ fn values_that_a_loop_leaves_to_later_programs_stay() {
             ! part.nc: changed for linuxcnc: every move is as before, within 0.001 mm (2 moves compared)
             exit 0
         "#]],
-    );
-    // What no turn sets is not written.
-    let never = format!("{head}IF [#1 EQ 7] THEN #502=1\n{tail}");
-    changes(
-        &never,
-        "fanuc-mill",
-        "unroll-loop",
-        &expect![[r#"
-         7 G0 X0.
-         8 G0 X10.
-         9 M30
-        10 %
-        ! part.nc: changed for fanuc-mill: every move is as before, within 0.001 mm (2 moves compared)
-        exit 0
-    "#]],
     );
     refuses(
         &format!("{head}IF [#1 EQ 1] THEN #502=1\nM98 P50\n{tail}").replace("M30\n", "M30\nO50\nM99\n"),
