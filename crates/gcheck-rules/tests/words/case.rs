@@ -188,7 +188,7 @@ impl Maker<'_, '_> {
             (None, Some(g)) => (g.kind, g.min, g.max, None),
             (None, None) => return Vec::new(),
         };
-        let is_count = matches!(kind, WordKind::Integer | WordKind::Program | WordKind::Label);
+        let is_count = kind.is_whole();
         let show = |value: f64| {
             if is_count {
                 format!("{value}")
@@ -337,8 +337,7 @@ impl Maker<'_, '_> {
                 continue;
             }
             let general = self.control.letter(letter);
-            let is_whole = general
-                .is_some_and(|g| matches!(g.kind, WordKind::Integer | WordKind::Program | WordKind::Label));
+            let is_whole = general.is_some_and(|g| g.kind.is_whole());
             let block = self.subject.with_word(&format!("{letter}{}", if is_whole { "1" } else { "1.5" }));
             cases.push(self.case(Kind::Extra, letter, self.with_extra(letter), &[], &block));
         }

@@ -73,7 +73,7 @@ pub(crate) fn rotary_axis(name: &str) -> Option<RotaryAxis> {
 }
 
 /// Values that stand for a kind of value in the list of a setting's values.
-const KINDS_OF_VALUES: [&str; 3] = ["length", "number", "on/off"];
+const KINDS_OF_VALUES: [&str; 4] = ["length", "number", "on/off", "text"];
 
 /// Checks the parts of one text against the control that it names, if it names one.
 pub(super) struct Checked<'t> {

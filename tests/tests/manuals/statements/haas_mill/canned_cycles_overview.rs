@@ -158,10 +158,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 &["rapid", "rapid X1.", "rapid Z.1", "feed Z-.2", "rapid Z-.1", "feed Z-.5", "rapid Z.1"],
             )],
         ),
-        gap(
+        held(
             "p. 146",
             "Setting 22 is the distance by which G73 backs off.",
-            "without `settings.22` the value taken for granted is stated as an assumption; a run with it told backs off by it already",
+            "`settings.22`, and the assumption of a program that rests on it",
             &[
                 Proof::Moves {
                     program: set(

@@ -9,6 +9,8 @@ use crate::statements::statement::{Chapter, prove};
 
 const ALIAS_G: &[&str] = &["codes.G6={alias=\"O9010\"}"];
 const ALIAS_M: &[&str] = &["codes.M15={alias=\"O9000\"}"];
+/// A program that calls nothing.
+const PLAIN: &str = "O1\nG20 G54 G0 G90\nM30\n";
 
 pub(crate) const CHAPTER: Chapter = Chapter {
     title: "Macros: G65 and aliases",
@@ -179,15 +181,28 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 are: &["rapid X3. Y0.", "rapid Y3."],
             }],
         ),
-        gap(
+        held(
             "p. 234",
             "G0, G65, G66 and G67 cannot be aliased; other codes from 1 to 255 can, to O9010 to O9019 for G and O9000 to O9009 for M codes.",
-            "a configuration that aliases G0, G65, G66 or G67, or a code above 255, is refused with its place; now it is taken and G65 calls the alias",
-            &[Proof::Moves {
-                program: mill("O1\nG20 G54 G0 G90\nG65 P2\nM30\nO2\nX2.\nM99\nO9010\nX9.\nM99\n")
-                    .with(&["codes.G65={alias=\"O9010\"}"]),
-                are: &["rapid X2."],
-            }],
+            "the configuration: `alias` of a code",
+            &[
+                Proof::Refuses {
+                    program: mill(PLAIN).with(&["codes.G65={alias=\"O9010\"}"]),
+                    says: "haas-mill does not let `G65` call a program of your own",
+                },
+                Proof::Refuses {
+                    program: mill(PLAIN).with(&["codes.G256={alias=\"O9010\"}"]),
+                    says: "haas-mill lets codes up to 255 call programs, not `G256`",
+                },
+                Proof::Accepts { program: mill(PLAIN).with(ALIAS_G) },
+                Proof::Open {
+                    says: "an alias of a G code to another program than O9010 to O9019 is refused",
+                    demand: &Proof::Refuses {
+                        program: mill(PLAIN).with(&["codes.G6={alias=\"O9020\"}"]),
+                        says: "O9020",
+                    },
+                },
+            ],
         ),
         gap(
             "p. 234",
