@@ -58,7 +58,8 @@ impl ToolComment {
         });
         let given = || {
             let radius = tokens.iter().find_map(|token| token.strip_prefix('R')?.parse::<f64>().ok())?;
-            Some(Mm(radius * units?.in_mm()))
+            // A larger one is of the part, not of an insert.
+            Some(Mm(radius * units?.in_mm())).filter(|radius| radius.0 <= LARGEST_NOSE)
         };
         of_insert.or_else(given).filter(|radius| radius.0 > 0.0 && radius.0.is_finite())
     }
@@ -100,6 +101,8 @@ fn round_insert(word: &str) -> Option<&str> {
     (is_code && size.bytes().all(|byte| byte.is_ascii_digit())).then_some(size)
 }
 
+/// The largest nose radius that a comment gives as `R`: millimetres.
+const LARGEST_NOSE: f64 = 8.0;
 /// Words beside which a size is not a diameter.
 const OTHER_SIZES: [&str; 32] = [
     "ALLOW",

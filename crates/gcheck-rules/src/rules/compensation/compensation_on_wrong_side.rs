@@ -1,7 +1,7 @@
 //! A cutter that is compensated to the other side of a closed contour than the one from which it comes.
 
 use gcheck_controls::{Effect, Machine};
-use gcheck_engine::{ArcMove, At, Axis, Event, Fact, Position, Role, TravelKind};
+use gcheck_engine::{ArcMove, At, Axis, Event, Fact, Position, Role, Spindle, TravelKind};
 use gcheck_geometry::{Arc, ArcDirection, ArcTolerance, Mm, Plane};
 
 use crate::declare::declare_rule;
@@ -183,7 +183,10 @@ impl CompensationOnWrongSide {
         let to_inside = contour.is_left == (area(&around) > 0.0);
         let is_inside = goes_around(&around, beside);
         if to_inside == is_inside {
-            if let Some(way) = way_out.filter(|way| crosses(contour, &around, to_inside, way)) {
+            // A beam is off on its way out; what cuts turns, and is below the zero of the part.
+            let cuts = contour.height < -NEAR && cx.state().spindle().is_some_and(Spindle::turns);
+            let over = way_out.filter(|way| cuts && crosses(contour, &around, to_inside, way));
+            if let Some(way) = over {
                 self.told = Some(contour.on);
                 over_contour(cx, contour, to_inside, way, report);
             }
@@ -451,7 +454,7 @@ mod tests {
                   | ^^^^^^^^^^^^^ warning[compensation-on-wrong-side] the way out leads over the finished contour, to its inside
             "#]],
         );
-        let sized = |out: &str| outline(out).replacen('\n', "\nT1 M6\n", 1);
+        let sized = |out: &str| outline(out).replacen("G21", "T1 M6\nG21", 1);
         let world = World::of_group("machine");
         check_rule_in(
             &RULE,
@@ -464,6 +467,10 @@ mod tests {
             "#]],
         );
         check_rule_in(&RULE, "fanuc-mill", &sized("G40 X-40. Y20."), &world, &expect![[""]]);
+        // A beam that is off, and one that works at the zero of the sheet.
+        for beam in [outline("M5\nG40 X20. Y20."), outline("G40 X20. Y20.").replace("Z-5.", "Z0.")] {
+            check_rule(&RULE, "fanuc-mill", &beam, &expect![[""]]);
+        }
         for out in ["G40 Y-20.", "G40 X-40. Y20.", "G0 Z5.\nG40 X20. Y20.", "G40 G0 X20. Y20. Z5."] {
             check_rule(&RULE, "fanuc-mill", &outline(out), &expect![[""]]);
         }

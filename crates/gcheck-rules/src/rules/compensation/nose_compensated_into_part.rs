@@ -70,6 +70,9 @@ remembers!(NoseCompensatedIntoPart: told, waiting);
 struct Waiting {
     on: At,
     side: Side,
+    /// The largest radius of the cut, in millimetres, and whether a later one was fed out past it: then it was not in the air.
+    radius: f64,
+    goes_past: bool,
     finding: Finding,
 }
 
@@ -107,6 +110,9 @@ impl PathRule for NoseCompensatedIntoPart {
             self.leave(turned.leaves(out), is_clear, report);
             return;
         }
+        if let Some(waiting) = &mut self.waiting {
+            waiting.goes_past |= end(cx, travel)[0] > waiting.radius + UNDER;
+        }
         let Some(is_left) = is_left(cx) else { return };
         let Some(on) = set_on(cx) else { return };
         let is_new = self.told != Some(on) && self.waiting.is_none();
@@ -132,7 +138,7 @@ impl PathRule for NoseCompensatedIntoPart {
             self.told = Some(on);
             report.add(finding);
         } else {
-            self.waiting = Some(Waiting { on, side, finding });
+            self.waiting = Some(Waiting { on, side, radius: from[0].max(to[0]), goes_past: false, finding });
         }
     }
 }
@@ -148,7 +154,7 @@ impl NoseCompensatedIntoPart {
         let Some(waiting) = self.waiting.take() else { return };
         let is_sure = match waiting.side {
             Side::Inside => leaves != Side::Outside,
-            Side::Unknown => leaves == Side::Outside && is_clear,
+            Side::Unknown => leaves == Side::Outside && is_clear && waiting.goes_past,
             Side::Outside => leaves == Side::Outside,
         };
         if is_sure {
@@ -279,6 +285,8 @@ mod tests {
             far("G41", "X24.\nG0 Z5."),
             far("G41", "X50.").replace("T0101", "T0101 (BORING BAR)"),
             far("G41", "G0 Z5."),
+            // Along Z in the air to a groove, whose wall is cut then.
+            far("G41", "X60.").replace("X30.\nG1 Z-20. F.2\nX40. Z-25.", "G1 Z-20. F1.\nX40. F.1"),
         ] {
             check_rule(&RULE, "fanuc-lathe", &program, &expect![[""]]);
         }

@@ -142,7 +142,9 @@ fn by_feed(cx: &PathCx<'_>, travel: &Travel, report: &mut Report<'_>) {
         return;
     }
     let turns = cx.state().spindle().is_some_and(Spindle::turns);
+    // A called program may engage the C axis.
     if !turns
+        || !cx.file_index.calls.is_empty()
         || cx.is_called_only()
         || !cx.is_certain()
         || !ToolWords::of(cx).only_drills()
@@ -220,6 +222,8 @@ mod tests {
             ("U DRILL 25", "", "X27."),
             ("SPOT DRILL", "", "X27."),
             ("BORE AFTER DRILL", "", "X27."),
+            ("CBORE 24 AT DRILL HOLE", "", "X24."),
+            ("10 MM DRILL", "M98 P8000\n", "X40."),
             ("10 MM DRILL", "T0202\nG97 S900 M3\nG0 X0 Z5.\nG1 Z-50. F.1\nG0 Z5.\n", "X10."),
             ("10 MM DRILL", "M45\n", "C90. X10."),
         ] {

@@ -65,9 +65,12 @@ struct ThreadHeightOffPitch {
     passes: ThreadPasses,
     /// The tool whose passes were reported.
     told: Option<At>,
+    /// The tool whose passes come now, and where those of its first thread end: whole micrometres.
+    first: Option<At>,
+    first_end: i64,
 }
 
-remembers!(ThreadHeightOffPitch: found, passes, told);
+remembers!(ThreadHeightOffPitch: found, passes, told, first);
 
 /// A cycle of another height.
 #[derive(Clone, PartialEq)]
@@ -151,6 +154,15 @@ impl ThreadHeightOffPitch {
         let is_straight = (start - end).abs() < STRAIGHT;
         let goes_in = end < before.x[1] - STRAIGHT && end > 0.0;
         let tool = cx.definitions().set_by(Fact::Tool);
+        #[expect(clippy::cast_possible_truncation, reason = "a length of a machine in micrometres")]
+        let along = (pass.z[1] * 1_000.0).round() as i64;
+        if self.first != tool {
+            (self.first, self.first_end) = (tool, along);
+        }
+        // The comment names one thread, and this may be another.
+        if self.first_end != along {
+            return;
+        }
         if !is_straight || !goes_in || tool.is_none() || self.told == tool || cx.depth() > 1 {
             return;
         }
@@ -236,6 +248,8 @@ mod tests {
             // A thread in a bore, and one of two starts.
             ("M20X1.5", "X19.8"),
             ("M20X0.75", "X17.2"),
+            // A smaller thread in front of it.
+            ("M20X1.5", "X18.16\nG0 X20. Z5.\nG92 X17.4 Z-8. F1.5\nX16.8"),
         ] {
             check_rule(&RULE, "fanuc-lathe", &program(comment, last), &expect![[""]]);
         }

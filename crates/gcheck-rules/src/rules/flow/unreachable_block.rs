@@ -47,7 +47,7 @@ declare_rule! {
     /// at most: the operator may start there.
     ///
     /// Blocks that a condition skips because of values that the program itself sets are a *hint* at most: such a
-    /// program has its settings at its top. Blocks that do nothing but assign are not reported there: they keep a value within its
+    /// program has its settings at its top. A block that does nothing but assign is not reported there: it keeps a value within its
     /// limits (`IF [#1 GT 5] THEN #1=5`). If the program does not set the variable that decides, both ways are taken.
     /// ```nc,quiet,fanuc-mill
     /// O0001
@@ -130,7 +130,7 @@ struct Group {
 impl Group {
     /// Does it keep a value within its limits, where the values of the program are within them?
     fn is_guard(&self) -> bool {
-        self.assigns && matches!(self.cause, Cause::Decided(_))
+        self.assigns && self.blocks == 1 && matches!(self.cause, Cause::Decided(_))
     }
 }
 

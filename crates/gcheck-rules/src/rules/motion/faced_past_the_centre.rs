@@ -126,9 +126,12 @@ mod tests {
         for comment in ["RCMT 12 BUTTON", "RCMT1204", "GROOVE R6", "ROUND INSERT", "RNMG 120400"] {
             check_rule(&RULE, "fanuc-lathe", &program(comment, "X-12."), &expect![[""]]);
         }
-        for (comment, x) in
-            [("RCMT 12 BUTTON", "X-16."), ("CNMG 120408 R0.8", "X-12."), ("ROUGH 80 DEG", "X-12.")]
-        {
+        for (comment, x) in [
+            ("RCMT 12 BUTTON", "X-16."),
+            ("CNMG 120408 R0.8", "X-12."),
+            ("ROUGH R25 SHOULDER", "X-40."),
+            ("ROUGH 80 DEG", "X-12."),
+        ] {
             let found = crate::testing::findings(
                 &crate::testing::only(&RULE),
                 "fanuc-lathe",

@@ -83,6 +83,8 @@ remembers!(Close: at, finding);
 
 /// So close above a face its edges meet the tool when the part turns: millimetres.
 const CLOSE: f64 = 5.0;
+/// Places that are nearer than this are one: millimetres.
+const NEAR: f64 = 0.01;
 /// An axis that turns by less than this corrects a part, or follows a contour: degrees.
 const TURN: f64 = 20.0;
 
@@ -129,6 +131,11 @@ impl PathRule for IndexBeforeRetract {
 
     fn rapid(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
         let Event::Travel(travel) = event else { return };
+        // Beside the place of its last cut the tool is out of the way.
+        let goes = |axis: &Axis| (travel.to.raw(*axis) - travel.from.raw(*axis)).abs() > NEAR;
+        if !travel.expanded && [Axis::X, Axis::Y].iter().any(goes) {
+            self.cut_in = None;
+        }
         if !cx.origin().letters.intersects(ROTARY) || !turns_in_place(cx, travel) || !cx.is_on_every_path() {
             return;
         }
@@ -164,6 +171,14 @@ impl IndexBeforeRetract {
             let way = (travel.from.raw(axis) - travel.to.raw(axis)).abs();
             cx.origin().letters.contains(axis.letter()) && (way.is_nan() || way > TURN)
         });
+        // On the centre line of a bar every side is as near.
+        let across = [(Axis::A, Axis::Y), (Axis::B, Axis::X)];
+        let is_central = across.into_iter().any(|(rotary, axis)| {
+            cx.origin().letters.contains(rotary.letter()) && travel.from.raw(axis).abs() < NEAR
+        });
+        if is_central {
+            return;
+        }
         let Some(work) = cx.state().work().filter(|work| self.cut_in == Some(*work)) else { return };
         let at = cx.origin().at;
         if !(0.0..=CLOSE).contains(&z) || !by_much || self.told == Some(at) {
@@ -233,6 +248,8 @@ mod tests {
             // One zero for all sides: that of the axis, around which a bar may turn.
             "B90.\nG54 X0. Y0.\n",
             "B2.\nG55 X0. Y0.\n",
+            // Beside the part.
+            "G0 X12.\nB90.\nG55 X0. Y0.\n",
         ] {
             check_rule(&RULE, "haas-mill", &tombstone(between), &expect![[""]]);
         }

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use gcheck_controls::{Letter, LetterSet};
-use gcheck_engine::{Axis, Event, Position, TravelKind};
+use gcheck_engine::{Axis, Event, Position, Travel, TravelKind};
 use gcheck_geometry::{Mm, Plane};
 
 use crate::declare::declare_rule;
@@ -100,6 +100,8 @@ struct Before {
     z: f64,
     /// The block of the rapid move.
     bytes: Range<u32>,
+    /// A cut went along X and Y at once: not to the next row of a surface.
+    is_slanting: bool,
 }
 
 remembers!(Before: bytes);
@@ -157,7 +159,7 @@ impl PathRule for PlungeGoesNowhere {
             }
             Event::Travel(travel) if travel.kind == TravelKind::Feed => {
                 let z = z_of(&travel.programmed);
-                self.before = z.filter(|z| *z < SURFACE).map(|z| cut(cx, z));
+                self.before = z.filter(|z| *z < SURFACE).map(|z| cut(cx, z, is_slanting(travel)));
                 let letters = cx.origin().letters;
                 let is_straight =
                     letters.contains(Letter::of('Z')) && !letters.intersects(LetterSet::of("XYUVABC"));
@@ -169,7 +171,7 @@ impl PathRule for PlungeGoesNowhere {
                 }
             }
             Event::Arc(arc) if !arc.expanded => {
-                self.before = z_of(&arc.programmed).filter(|z| *z < SURFACE).map(|z| cut(cx, z));
+                self.before = z_of(&arc.programmed).filter(|z| *z < SURFACE).map(|z| cut(cx, z, false));
             }
             _ => {}
         }
@@ -183,7 +185,8 @@ impl PathRule for PlungeGoesNowhere {
             }
         }
         let across = std::mem::take(&mut self.across);
-        for (level, finding) in across.into_iter().take(MOST) {
+        let is_habit = across.len() > MOST;
+        for (level, finding) in across.into_iter().filter(|_| !is_habit) {
             let others = self.plunges.iter().filter(|[_, _, z]| (z - level).abs() < LEVEL).count();
             if others >= HABIT && self.plunges.len() < PLACES {
                 report.add(finding);
@@ -192,8 +195,13 @@ impl PathRule for PlungeGoesNowhere {
     }
 }
 
-fn cut(cx: &PathCx<'_>, z: f64) -> Before {
-    Before { way: Way::Cut, z, bytes: cx.range() }
+fn cut(cx: &PathCx<'_>, z: f64, is_slanting: bool) -> Before {
+    Before { way: Way::Cut, z, bytes: cx.range(), is_slanting }
+}
+
+/// Does a move go along X and along Y?
+fn is_slanting(travel: &Travel) -> bool {
+    [Axis::X, Axis::Y].into_iter().all(|axis| (travel.to.raw(axis) - travel.from.raw(axis)).abs() > NEAR)
 }
 
 /// What a rapid move is for the feed move after it.
@@ -202,14 +210,14 @@ fn rapid(cx: &PathCx<'_>, before: Option<Before>, from: Option<f64>, to: Option<
     let is_level = before.as_ref().is_some_and(|before| (before.z - to).abs() < LEVEL);
     match before {
         Some(before) if is_level && before.way == Way::Cut => {
-            Some(Before { way: Way::Along, z: to, bytes: cx.range() })
+            Some(Before { way: Way::Along, z: to, bytes: cx.range(), is_slanting: false })
         }
         Some(before) if is_level && before.way != Way::Up => Some(before),
         // From an unknown height, a tool comes from above.
         _ => {
             let is_down =
                 cx.origin().letters.contains(Letter::of('Z')) && from.is_none_or(|from| from >= 0.0);
-            is_down.then(|| Before { way: Way::Down, z: to, bytes: cx.range() })
+            is_down.then(|| Before { way: Way::Down, z: to, bytes: cx.range(), is_slanting: false })
         }
     }
 }
@@ -227,7 +235,8 @@ impl PlungeGoesNowhere {
             return;
         }
         let is_new = self.plunges.iter().all(|[own_x, own_y, _]| distance([x, y], [*own_x, *own_y]) > NEAR);
-        let came_across = before.filter(|before| before.way == Way::Cut && (before.z - z).abs() < LEVEL);
+        let came_across = before
+            .filter(|before| before.way == Way::Cut && before.is_slanting && (before.z - z).abs() < LEVEL);
         let is_here = |before: &&Before| {
             before.bytes != cx.range() && from.is_some_and(|from| (from - z).abs() < LEVEL)
         };
@@ -314,6 +323,8 @@ mod tests {
                | ^^^^^^^^^^^^^ warning[plunge-goes-nowhere] feed move down to where the tool already is, at a new place
         "#]],
         );
+        // The next row of a surface, with its depth again.
+        check_rule(&RULE, "fanuc-mill", &slots("Y60.\n"), &expect![[""]]);
         // Again from the place where it was fed down, deeper, and after a retract.
         for third in ["X20. Y40.\n", "G0 Z2.\nX20. Y60.\n", ""] {
             let text = slots(third).replace("X60. F300.\nG1 Z-5.", "X60. F300.\nG1 Z-6.");

@@ -1,6 +1,6 @@
 //! A drill that turns counter-clockwise.
 
-use gcheck_controls::LetterSet;
+use gcheck_controls::{Effect, Letter, LetterSet};
 use gcheck_engine::{At, Axis, Event, Travel, TravelKind};
 
 use crate::declare::declare_rule;
@@ -94,17 +94,22 @@ fn drills(cx: &PathCx<'_>, travel: &Travel) -> bool {
 /// Blocks after the move in which the spindle starts forward before the tool moves on.
 const SOON: u32 = 4;
 
+fn goes_out(effect: Effect) -> bool {
+    matches!(effect, Effect::Rapid | Effect::MachineCoordinates | Effect::ReturnReference(_))
+}
+
 /// Does the spindle start forward before the tool moves again? A deep drill goes into its pilot hole backwards, so that its lips do
 /// not catch.
 fn turns_forward_next(cx: &PathCx<'_>) -> bool {
     let here = cx.origin().at;
+    let mut is_forward = false;
     let shows = |block: u32| {
         let place = cx.place_of(At { block, ..here })?;
-        let mut effects = place.table.words(place.block()).iter().map(|word| cx.model.effect(word.code));
-        if effects.any(|effect| effect.starts_spindle() && !turns_backwards(effect)) {
-            return Some(true);
-        }
-        place.block().letters.intersects(LetterSet::of("XYZT")).then_some(false)
+        let effects = || place.table.words(place.block()).iter().map(|word| cx.model.effect(word.code));
+        is_forward |= effects().any(|effect| effect.starts_spindle() && !turns_backwards(effect));
+        // Then it drills on; a tool that goes out has made its hole.
+        let drills_on = place.block().letters.contains(Letter::of('Z')) && !effects().any(goes_out);
+        place.block().letters.intersects(LetterSet::of("XYZT")).then_some(is_forward && drills_on)
     };
     (here.block + 1..=here.block.saturating_add(SOON)).find_map(shows) == Some(true)
 }
@@ -146,6 +151,18 @@ mod tests {
         check_rule(&RULE, "haas-mill", &program("5.1 deep drill", "M4", entry), &expect![[""]]);
         let entry = "G1 Z-9. F300.\n(IN THE PILOT HOLE)\nM3 S2500 M8\nZ-80. F90.";
         check_rule(&RULE, "fanuc-mill", &program("5.1 deep drill", "M4", entry), &expect![[""]]);
+        // The hole is made when the spindle turns forward.
+        let out = program("5.1 drill", "M4", "G1 Z-19. F90.\nM3\nG0 Z5.");
+        assert_eq!(
+            crate::testing::findings(
+                &crate::testing::only(&RULE),
+                "haas-mill",
+                &out,
+                &crate::testing::World::default()
+            )
+            .len(),
+            1
+        );
         check_rule(
             &RULE,
             "haas-mill",

@@ -107,7 +107,7 @@ impl PathRule for ToolLengthMissing {
                 self.measured = Abstract::known(cx.state().tool()).and_then(whole);
             }
             // The operator may put a tool in by hand and zero it.
-            Event::Stop(Stop::Program | Stop::Message(_)) => {
+            Event::Stop(Stop::Program | Stop::Optional | Stop::Message(_)) => {
                 if let Some(first) = &mut self.uncompensated {
                     first.is_one_zero = false;
                 }
@@ -195,7 +195,7 @@ impl ToolLengthMissing {
                 )),
                 tool: Abstract::known(cx.state().tool()).and_then(whole),
                 zero: zero(cx),
-                is_one_zero: has_changer(cx),
+                is_one_zero: has_changer(cx) && !cx.file_uses(writes_zero),
                 has_other: false,
             });
         }
@@ -214,6 +214,11 @@ impl ToolLengthMissing {
 /// What Z counts from: the work offset, and the shift as bits.
 fn zero(cx: &PathCx<'_>) -> Option<(u16, u64)> {
     Some((cx.state().work()?, cx.state().shift().raw(Axis::Z).to_bits()))
+}
+
+/// May the program give each tool a zero of its own?
+fn writes_zero(effect: Effect) -> bool {
+    matches!(effect, Effect::WriteOffsets | Effect::SetPosition | Effect::SpeedLimitOrSetPosition)
 }
 
 /// Does the machine change tools by itself? A strict control is one of machines that people build themselves, whose tools are mostly
@@ -360,7 +365,8 @@ mod tests {
                   | ^^^ warning[tool-length-missing] the tool moves without its length (no `G43` since the tool change)
             "#]],
         );
-        for second in ["", "T1 M6\n", "M0\nT2 M6\n"] {
+        // One tool, tools that an operator may zero, and tools that get a zero of their own.
+        for second in ["", "T1 M6\n", "M0\nT2 M6\n", "T2 M6\nM1\n", "T2 M6\nG10 L2 P1 Z-287.1\n"] {
             check_rule(
                 &RULE,
                 "fanuc-mill",
