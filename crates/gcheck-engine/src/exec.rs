@@ -27,7 +27,7 @@ use self::context::{Cursor, Ending, Executor, Options, Outcome, Step};
 use self::order::{Action, Parts};
 use crate::assumption::{Assumption, Assumptions};
 
-use crate::eval::numbers::{is_open, settle_unpointed};
+use crate::eval::numbers::{is_unpointed_open, settle_unpointed};
 use crate::eval::value::{Domain, Truth};
 use crate::eval::words::BlockWords;
 use crate::event::Event;
@@ -59,7 +59,7 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
             observer,
             assumptions,
             unpointed,
-            unpointed_is_open: is_open(model, machine),
+            unpointed_is_open: is_unpointed_open(model, machine),
             stack: Vec::with_capacity(16),
             words: BlockWords::new(),
             cursor: None,

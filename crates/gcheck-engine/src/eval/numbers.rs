@@ -339,10 +339,9 @@ pub(crate) fn settle_unpointed(
     machine: &Machine,
     assumptions: &mut Assumptions,
 ) -> Unpointed {
-    let numbers = model.control().numbers();
-    let Some(setting) = &numbers.unpointed_setting else { return model.unpointed() };
-    let number = setting.rsplit(' ').next().unwrap_or_default();
-    let Some(entry) = model.control().setting(number) else { return model.unpointed() };
+    let number = setting_of_unpointed(model);
+    let setting = number.and_then(|number| Some((number, model.control().setting(number)?)));
+    let Some((number, entry)) = setting else { return model.unpointed() };
     match machine.settings.get(number) {
         None => {
             if model.unpointed() == Unpointed::ByParameter {
@@ -355,11 +354,14 @@ pub(crate) fn settle_unpointed(
     }
 }
 
-/// Does a setting decide how numbers without decimal point count, whose value nobody told?
-pub(crate) fn is_open(model: &Model<'_>, machine: &Machine) -> bool {
-    let setting = model.control().numbers().unpointed_setting.as_deref();
-    let number = setting.and_then(|setting| setting.rsplit(' ').next());
-    number.is_some_and(|number| !machine.settings.contains_key(number))
+/// Does a setting decide how numbers without decimal point count, and its value is not given?
+pub(crate) fn is_unpointed_open(model: &Model<'_>, machine: &Machine) -> bool {
+    setting_of_unpointed(model).is_some_and(|number| !machine.settings.contains_key(number))
+}
+
+/// The number of the setting that decides how numbers without decimal point count: `162` of "Setting 162".
+fn setting_of_unpointed<'m>(model: &'m Model<'_>) -> Option<&'m str> {
+    model.control().numbers().unpointed_setting.as_deref()?.rsplit(' ').next()
 }
 
 /// So many steps, as a number. Divided by a power of ten rather than multiplied: `X1500` is 1.5, not 1.5000000000000002.

@@ -100,7 +100,7 @@ pub(crate) struct Executor<'a, 'p, D: Domain, O: Observer<D>> {
     pub(crate) assumptions: Assumptions,
     /// How a number without decimal point counts: settled once.
     pub(crate) unpointed: Unpointed,
-    /// A setting that nobody told decides that.
+    /// A setting decides that, and its value is not given.
     pub(crate) unpointed_is_open: bool,
     pub(crate) stack: Vec<D::Value>,
     pub(crate) words: BlockWords<D>,

@@ -141,7 +141,7 @@ impl CodeContract {
             counts: entry
                 .words
                 .iter()
-                .filter(|word| is_count(word))
+                .filter(|word| word.kind.is_whole())
                 .filter_map(|word| Letter::parse(&word.letter))
                 .collect(),
             reads_all,
@@ -197,10 +197,6 @@ impl CodeContract {
         });
         contract
     }
-}
-
-fn is_count(word: &WordEntry) -> bool {
-    word.kind.is_whole()
 }
 
 impl BlockContract {

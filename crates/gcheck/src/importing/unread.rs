@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 
 use gcheck_controls::{Effect, Letter};
 use gcheck_engine::{Abstract, AbstractValue, Axis, Concrete, Domain as _, Look, Origin, Position, State};
-use gcheck_program::{BlockFlags, BlockTable, Value, Word};
+use gcheck_program::{BlockFlags, Loaded, Place, Value, Word};
 
 use crate::execution::Session;
 
@@ -50,19 +50,13 @@ impl<'s> Reader<'s> {
         let session = self.session;
         let Some(file) = session.program.file(origin.at.file) else { return };
         let Some(place) = file.loaded.place(origin.at.block, session.program.dialect()) else { return };
-        let words = place.table.words(place.block());
         let values = if origin.flags.contains(BlockFlags::EXPRESSION) {
             self.look.words(&place, origin.at, &state.as_abstract())
         } else {
             Vec::new()
         };
-        let block = Block {
-            words,
-            values,
-            table: &place.table,
-            text: file.loaded.text().into_owned(),
-            base: place.base,
-        };
+        let block =
+            Block { words: place.table.words(place.block()), values, place: &place, loaded: &file.loaded };
         let at = origin.start as usize;
         for (what, why) in block.unread(session, state) {
             self.found.insert(Unread { at, what, why });
@@ -74,9 +68,8 @@ impl<'s> Reader<'s> {
 struct Block<'b> {
     words: &'b [Word],
     values: Vec<(Word, AbstractValue)>,
-    table: &'b BlockTable,
-    text: String,
-    base: u32,
+    place: &'b Place,
+    loaded: &'b Loaded<'b>,
 }
 
 impl Block<'_> {
@@ -162,18 +155,17 @@ impl Block<'_> {
             return Some(0.0);
         }
         let (_, value) = self.values.iter().find(|(computed, _)| computed == word)?;
-        // An empty variable is no value either: the control then writes nothing.
+        // An empty variable is not a value either: the control then writes nothing.
         Abstract::known(value)
     }
 
     /// As it is written, without blanks.
     fn shown(&self, word: &Word) -> String {
         let range = match word.value {
-            Value::Expr(expr) => self.table.expr(expr).range.clone(),
+            Value::Expr(expr) => self.place.table.expr(expr).range.clone(),
             _ => word.range(),
         };
-        let bytes = (self.base + range.start) as usize..(self.base + range.end) as usize;
-        let written = self.text.get(bytes).unwrap_or_default();
+        let written = self.loaded.slice(self.place.base + range.start..self.place.base + range.end);
         let written: String = written.chars().filter(|c| !c.is_whitespace()).collect();
         if matches!(word.value, Value::Expr(_)) { format!("{}{written}", word.letter) } else { written }
     }

@@ -2238,11 +2238,15 @@ fn a_cycle_that_taps_stays_beside_others() {
     );
 }
 
+/// A loop of two turns, but for what else it sets or calls.
+const LOOP: [&str; 2] = [
+    "%\nO1\nG21 G17 G90 G54 G40 G80\n#1=0\n#501=0\nG0 X0. Y0. Z5.\nWHILE [#1 LT 2] DO1\nG0 X[#1*10.]\n",
+    "#1=#1+1\nEND1\nM30\n%\n",
+];
+
 #[test]
 fn values_that_a_loop_leaves_to_later_programs_stay() {
-    let head =
-        "%\nO1\nG21 G17 G90 G54 G40 G80\n#1=0\n#501=0\nG0 X0. Y0. Z5.\nWHILE [#1 LT 2] DO1\nG0 X[#1*10.]\n";
-    let tail = "#1=#1+1\nEND1\nM30\n%\n";
+    let [head, tail] = LOOP;
     changes(
         &format!("{head}#501=#501+1\n{tail}"),
         "fanuc-mill",
@@ -2277,9 +2281,7 @@ fn values_that_a_loop_leaves_to_later_programs_stay() {
 // Assignments act by themselves, or a called program may read them.
 #[test]
 fn assignments_of_a_loop_that_do_more_than_count_stay_in_each_turn() {
-    let head =
-        "%\nO1\nG21 G17 G90 G54 G40 G80\n#1=0\n#501=0\nG0 X0. Y0. Z5.\nWHILE [#1 LT 2] DO1\nG0 X[#1*10.]\n";
-    let tail = "#1=#1+1\nEND1\nM30\n%\n";
+    let [head, tail] = LOOP;
     changes(
         &format!("{head}#5221=#1\n{tail}"),
         "fanuc-mill",

@@ -637,7 +637,7 @@ fn what_a_run_cannot_read_a_check_reports() {
     }
 }
 
-/// What a setting decides that nobody told is listed where a program needs it.
+/// A setting that decides what a program means is listed where the program needs it and its value is not given.
 #[test]
 fn a_setting_that_counts_is_taken_for_granted_where_it_is_used() {
     let told = |blocks: &str, arguments: &str| {

@@ -154,23 +154,13 @@ impl RapidIntoTurnedPart {
         } else if let Some(cut) = turned.shoulder_crossed(from, to) {
             self.told = Some(cx.origin().at);
             let message = "rapid move along Z into the part, through a shoulder";
-            let label = format!(
-                "at X {} to Z {}, where nothing was cut",
-                shown_radius(cx, to[0]),
-                cx.shown(Mm(to[1]))
-            );
             let help = "check X and Z of the move, or make it at feed (`G1`)";
-            report.add(into_part(cx, cut, message, label, help));
+            report.add(along_z(cx, cut, to, message, help));
         } else if let Some(cut) = turned.outside_ahead(from, to).filter(|_| !ToolWords::of(cx).may_bore()) {
             self.told = Some(cx.origin().at);
             let message = "rapid move along Z goes on into the part, where the cut ended";
-            let label = format!(
-                "at X {} to Z {}, where nothing was cut",
-                shown_radius(cx, to[0]),
-                cx.shown(Mm(to[1]))
-            );
             let help = "draw the tool out in X before this move, or make it at feed (`G1`)";
-            report.add(into_part(cx, cut, message, label, help));
+            report.add(along_z(cx, cut, to, message, help));
         } else if let Some(cut) = turned.outside_beside(from, to) {
             self.told = Some(cx.origin().at);
             let radius = cut.radius();
@@ -240,6 +230,13 @@ fn through_outside(cx: &PathCx<'_>, cut: &Cut, from: Spot, to: Spot) -> Finding 
     };
     let label =
         format!("to X {} at Z {}, where nothing was cut", shown_radius(cx, to[0]), cx.shown(Mm(to[1])));
+    into_part(cx, cut, message, label, help)
+}
+
+/// A move along Z through what a cut has turned.
+fn along_z(cx: &PathCx<'_>, cut: &Cut, to: Spot, message: &str, help: &str) -> Finding {
+    let label =
+        format!("at X {} to Z {}, where nothing was cut", shown_radius(cx, to[0]), cx.shown(Mm(to[1])));
     into_part(cx, cut, message, label, help)
 }
 
