@@ -33,6 +33,21 @@ pub enum Change {
     SafeStart,
     /// The program in these units.
     Convert(Units),
+    /// The section of a tool at another place among those of the others.
+    MoveSection(Destination),
+}
+
+/// Where the section of a tool goes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Destination {
+    /// In front of the section above it.
+    Up,
+    /// After the section below it.
+    Down,
+    /// In front of the first section of this tool.
+    Before(u32),
+    /// After the last section of this tool.
+    After(u32),
 }
 
 /// A length as somebody gives it for a program.
@@ -92,6 +107,7 @@ impl Change {
             Self::SafeStart => "safe-start",
             Self::Convert(Units::Inch) => "inch",
             Self::Convert(Units::Mm) => "mm",
+            Self::MoveSection(_) => "move-section",
         }
     }
 
@@ -105,6 +121,11 @@ impl Change {
                 | Self::Mirror(..)
                 | Self::Rotate(..)
         )
+    }
+
+    /// Do the sections of tools come in another order after it?
+    pub const fn moves_sections(&self) -> bool {
+        matches!(self, Self::MoveSection(_))
     }
 
     /// How close moves stay to what it claims unless somebody asks for something else: millimetres. Words in inches are rounded
@@ -130,6 +151,7 @@ impl Change {
             Self::SafeStart => "insert safe start lines",
             Self::Convert(Units::Inch) => "write the program in inches",
             Self::Convert(Units::Mm) => "write the program in millimetres",
+            Self::MoveSection(_) => "move the section of a tool",
         }
     }
 
@@ -152,6 +174,9 @@ impl Change {
             | Self::Incremental
             | Self::SafeStart
             | Self::Convert(_) => "every move is as before".to_owned(),
+            Self::MoveSection(_) => {
+                "the tools come in another order, and every move of each section is as before".to_owned()
+            }
             Self::ScaleFeeds(factor) => format!("every feed is {} times what it was", plain(*factor)),
             Self::ScaleSpeeds(factor) => {
                 format!("every spindle speed is {} times what it was", plain(*factor))

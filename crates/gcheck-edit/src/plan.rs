@@ -56,6 +56,12 @@ pub fn plan(
         rows.check(&edits)?;
         return Ok(Plan { edits, notes });
     }
+    if let Tracker::Sections(sections) = &witness.following.tracker {
+        let notes = sections.write(&mut sheet, program, &file.loaded)?;
+        let edits = sheet.into_edits();
+        rows.check(&edits)?;
+        return Ok(Plan { edits, notes });
+    }
     let mut planner = Planner { change, scope, witness, model, cuts: false };
     for number in 0..file.loaded.flow_graph().blocks() {
         let Some(place) = file.loaded.place(number, program.dialect()) else { continue };
@@ -247,7 +253,8 @@ impl Planner<'_> {
             | Change::ExpandCycle
             | Change::FoldCycle
             | Change::UnrollLoop
-            | Change::SafeStart => false,
+            | Change::SafeStart
+            | Change::MoveSection(_) => false,
             Change::Convert(_) => !matches!(word.letter.ascii(), b'G' | b'M' | b'N' | b'O' | b'T'),
             Change::ScaleFeeds(_) => word.letter.ascii() == b'F',
             Change::ScaleSpeeds(_) => word.letter.ascii() == b'S',

@@ -47,6 +47,11 @@ impl<'a, 'p> Sheet<'a, 'p> {
         }
     }
 
+    /// Takes out bytes that may be of many blocks.
+    pub(crate) fn remove(&mut self, range: Range<u32>) {
+        self.edits.push(Edit { range, text: String::new() });
+    }
+
     /// The line end of the program.
     pub(crate) fn line_end(&self) -> &'static str {
         if self.loaded.chunk_text(0).contains("\r\n") { "\r\n" } else { "\n" }

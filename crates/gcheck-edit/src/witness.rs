@@ -21,6 +21,7 @@ use crate::refusal::Refusal;
 use crate::run::{Executed, Visitor, run};
 use crate::safe_start::Starts;
 use crate::scope::Scope;
+use crate::tool_sections::ToolSections;
 use crate::units::Conversion;
 use crate::unroll::Loops;
 
@@ -54,6 +55,7 @@ pub(crate) enum Tracker<'c> {
     Loops(Box<Loops<'c>>),
     Distance(Box<Distance<'c>>),
     Starts(Box<Starts<'c>>),
+    Sections(Box<ToolSections<'c>>),
     Units(Box<Conversion<'c>>),
     /// Every act is as before.
     Same,
@@ -73,6 +75,9 @@ impl<'c> Tracker<'c> {
             Change::FoldCycle => Self::Folds(Box::new(Folds::new(model))),
             Change::UnrollLoop => Self::Loops(Box::new(Loops::new(scope, model))),
             Change::SafeStart => Self::Starts(Box::new(Starts::new(scope, model))),
+            Change::MoveSection(destination) => {
+                Self::Sections(Box::new(ToolSections::new(*destination, scope, model)))
+            }
             Change::Absolute => Self::Distance(Box::new(Distance::new(false, model))),
             Change::Incremental => Self::Distance(Box::new(Distance::new(true, model))),
             Change::Convert(to) => Self::Units(Box::new(Conversion::new(*to, model))),
@@ -86,6 +91,7 @@ impl<'c> Tracker<'c> {
             Self::Rates(rates) => rates.begin(),
             Self::Distance(distance) => distance.begin(),
             Self::Units(units) => units.begin(),
+            Self::Sections(sections) => sections.begin(),
             Self::Cycles(_) | Self::Folds(_) | Self::Loops(_) | Self::Starts(_) | Self::Same => {}
         }
     }
@@ -101,7 +107,7 @@ impl<'c> Tracker<'c> {
             }
             Self::Distance(distance) => distance.executed(block),
             Self::Units(units) => units.executed(block),
-            Self::Loops(_) | Self::Starts(_) | Self::Same => Ok(()),
+            Self::Loops(_) | Self::Starts(_) | Self::Sections(_) | Self::Same => Ok(()),
         }
     }
 
@@ -114,6 +120,7 @@ impl<'c> Tracker<'c> {
             | Self::Loops(_)
             | Self::Distance(_)
             | Self::Starts(_)
+            | Self::Sections(_)
             | Self::Units(_)
             | Self::Same => Ok(act),
         }
@@ -237,6 +244,10 @@ impl Visitor for Watching<'_, '_, '_> {
                 starts.before(at, place, state);
                 Ok(())
             }
+            Tracker::Sections(sections) => {
+                sections.before(at, place);
+                Ok(())
+            }
             _ => Ok(()),
         });
     }
@@ -252,6 +263,7 @@ impl Visitor for Watching<'_, '_, '_> {
                 Ok(())
             }
             Tracker::Starts(starts) => starts.event(event),
+            Tracker::Sections(sections) => sections.event(event),
             _ => Ok(()),
         });
     }

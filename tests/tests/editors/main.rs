@@ -54,14 +54,21 @@ fn check_editor(command: &mut Command) {
     let output = command.output().unwrap_or_else(|error| panic!("{command:?} does not start: {error}"));
     let text =
         format!("{}{}", String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
-    print!("{text}");
+    let has_ended = output.status.success() && text.contains("tests passed");
     assert!(
-        output.status.success(),
-        "{} ended with {}\n{text}",
+        has_ended,
+        "{} ended with {}; all but the tests that passed at once:\n{}",
         command.get_program().display(),
-        output.status
+        output.status,
+        all_but_passed(&text)
     );
-    assert!(text.contains("tests passed"), "the tests did not run to their end\n{text}");
+    print!("{text}");
+}
+
+/// What an editor says, without the tests that passed at once: a log of CI is cut, and the failure is to be in what is left.
+fn all_but_passed(text: &str) -> String {
+    let is_passed = |line: &&str| line.starts_with("ok ") && !line.starts_with("ok at the second try");
+    text.lines().filter(|line| !is_passed(line)).map(|line| line.to_owned() + "\n").collect()
 }
 
 /// Neovim with a script of its tests.

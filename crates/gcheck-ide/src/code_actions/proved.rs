@@ -6,20 +6,22 @@
 //! A proof takes runs of the program, so that a list names the changes only, and the one that a person chooses is proved then.
 
 use std::collections::BTreeSet;
+use std::convert::Infallible;
 use std::ops::Range;
 
 use gcheck_controls::{Effect, Machine as MachineKind};
 use gcheck_db::{Cancelled, Snapshot};
 use gcheck_diagnostics::{Edit, apply};
 use gcheck_edit::{
-    Amount, Change, Refusal, Scope, Witness, assume_cutters, assume_places, expected, gaps,
-    is_moves_and_dwells, plainly, plan, witness,
+    Acts, Amount, Change, Destination, Refusal, Scope, Witness, assume_cutters, assume_places, expected,
+    gaps, hold, is_as_claimed, is_moves_and_dwells, plainly, plan, witness,
 };
 use gcheck_engine::{Assumption, Axis, Ending, Machine, Options, Role, RunResult, Stopped, Units};
 use gcheck_format::{Numbering, renumber};
-use gcheck_toolpath::{Act, Aspect, Differences, Rest, compare};
+use gcheck_toolpath::{Act, Aspect, Differences};
 
 use super::cycles::cycle_at;
+use crate::sections::sections;
 
 /// Acts of a run that are kept; of longer programs the command line proves changes.
 const MOST_ACTS: usize = 200_000;
@@ -27,7 +29,7 @@ const MOST_ACTS: usize = 200_000;
 const MOST_BYTES: u32 = 4 << 20;
 
 /// The changes that need no figures: their names and titles.
-pub const PROVED: [(&str, &str); 17] = [
+pub const PROVED: [(&str, &str); 19] = [
     ("expand-cycle", "Write canned cycles as plain moves"),
     ("fold-cycle", "Write drilled holes as canned cycles"),
     ("unroll-loop", "Write loops turn by turn"),
@@ -36,6 +38,8 @@ pub const PROVED: [(&str, &str); 17] = [
     ("mm", "Write the program in millimetres"),
     ("inch", "Write the program in inches"),
     ("safe-start", "Insert safe start lines in front of tool changes"),
+    ("section-up", "Move this tool section up"),
+    ("section-down", "Move this tool section down"),
     ("feeds-90", "Scale the feeds to 90 %"),
     ("feeds-110", "Scale the feeds to 110 %"),
     ("speeds-90", "Scale the spindle speeds to 90 %"),
@@ -101,6 +105,7 @@ pub fn proved_changes(snapshot: &Snapshot, selected: &Range<u32>) -> Vec<ProvedC
     let has_drilling = control.codes().any(|code| is_moves_and_dwells(code.effect()));
     let has_loop = !snapshot.file_index().loops.is_empty() || !snapshot.file_index().o_words.is_empty();
     let is_whole = range.is_none();
+    let (is_below_another, is_above_another) = neighbours(snapshot, selected.start);
     let fits = |name: &str| match name {
         "expand-cycle" => has_cycle,
         "fold-cycle" => has_drilling && is(Effect::Rapid) && is(Effect::Linear),
@@ -110,17 +115,30 @@ pub fn proved_changes(snapshot: &Snapshot, selected: &Range<u32>) -> Vec<ProvedC
         "mm" => is_whole && is(Effect::Inch),
         "inch" => is_whole && is(Effect::Millimetre),
         "safe-start" => is(Effect::ToolChange),
+        "section-up" => is_below_another,
+        "section-down" => is_above_another,
         "mirror-x" | "mirror-y" | "rotate-90" | "rotate-180" | "rotate-270" => is_mill,
         _ => true,
     };
     let fitting = PROVED.into_iter().filter(|(name, _)| fits(name));
     fitting
-        .map(|(name, title)| ProvedChange {
-            title: format!("{title}{part}, with proof"),
-            name,
-            range: range.clone(),
+        .map(|(name, title)| match name {
+            // The section that the selection is in moves as a whole.
+            "section-up" | "section-down" => ProvedChange {
+                title: format!("{title}, with proof"),
+                name,
+                range: Some(whole_lines(snapshot, selected)),
+            },
+            _ => ProvedChange { title: format!("{title}{part}, with proof"), name, range: range.clone() },
         })
         .collect()
+}
+
+/// Is there a tool section above the one at a place, and one below it?
+fn neighbours(snapshot: &Snapshot, offset: u32) -> (bool, bool) {
+    let tools = sections(snapshot).tools;
+    let own = tools.iter().position(|section| section.range.contains(&offset));
+    (own.is_some_and(|own| own > 0), own.is_some_and(|own| own + 1 < tools.len()))
 }
 
 /// The lines that a selection touches.
@@ -153,6 +171,8 @@ impl PathChange {
             "incremental" => Change::Incremental,
             "mm" => Change::Convert(Units::Mm),
             "inch" => Change::Convert(Units::Inch),
+            "section-up" => Change::MoveSection(Destination::Up),
+            "section-down" => Change::MoveSection(Destination::Down),
             "feeds-90" => Change::ScaleFeeds(0.9),
             "feeds-110" => Change::ScaleFeeds(1.1),
             "speeds-90" => Change::ScaleSpeeds(0.9),
@@ -328,9 +348,13 @@ impl Proving<'_> {
         if let Some(reason) = self.end(&ran.result) {
             return Ok(Err(reason));
         }
-        let differences = compare(promised.acts, made.acts, self.change.tolerance(), Rest::Leave);
-        if let Some(reason) = different(&differences) {
-            return Ok(Err(reason));
+        let mut both = |with: &mut dyn FnMut(Acts<'_>, Acts<'_>)| {
+            with(&mut promised.acts.iter().cloned(), &mut made.acts.iter().cloned());
+            Ok::<_, Infallible>(())
+        };
+        let Ok(differences) = hold(self.change, self.change.tolerance(), &mut both);
+        if !is_as_claimed(self.change, &differences) {
+            return Ok(Err(different(&differences)));
         }
         if !ended.stopped.is_program_end() {
             return Ok(Err("the changed program does not run to its end".to_owned()));
@@ -374,16 +398,15 @@ impl Proving<'_> {
     }
 }
 
-/// The first difference in a few words; `None` when there is none.
-fn different(differences: &Differences) -> Option<String> {
-    if differences.is_same() {
-        return None;
-    }
+/// The first difference in a few words.
+fn different(differences: &Differences) -> String {
     if let Some(parting) = &differences.parting {
         let line = parting.a.as_ref().or(parting.b.as_ref()).map_or(0, |place| place.line);
-        return Some(format!("the proof failed, as the path would be another one from line {line} on"));
+        return format!("the proof failed, as the path would be another one from line {line} on");
     }
-    let first = differences.kept().first()?;
+    let Some(first) = differences.kept().first() else {
+        return "the proof failed, as a tool would do its work another number of times".to_owned();
+    };
     let line = first.a.as_ref().or(first.b.as_ref()).map_or(0, |place| place.line);
     let what = match first.aspect {
         Aspect::Feed => "the feed",
@@ -392,7 +415,7 @@ fn different(differences: &Differences) -> Option<String> {
         Aspect::Dwell => "a dwell",
         _ => "what the machine does",
     };
-    Some(format!("the proof failed, as {what} would be another one in line {line}"))
+    format!("the proof failed, as {what} would be another one in line {line}")
 }
 
 /// Acts of a run.
@@ -488,6 +511,35 @@ mod tests {
         let (text, _) = answer(PROGRAM, "expand-cycle", None).unwrap();
         assert!(text.contains("G0 X5.\nG0 Z2.\nG1 Z-3. F80.\nG0 Z5.\nG80"), "{text}");
         assert_eq!(answer(PROGRAM, "unroll-loop", None).unwrap().1, "there is nothing to change");
+    }
+
+    #[test]
+    fn a_tool_section_moves_as_a_whole() {
+        let section = |tool: u32| {
+            format!(
+                "(TOOL {tool})\nT{tool} M6\nS1000 M3\nG90 G0 X{tool}. Y0.\nG43 H{tool} Z5.\nG1 Z-1. F100.\nG0 Z5.\nG91 G28 Z0. M5\n"
+            )
+        };
+        let program = |first, second| {
+            format!("O1\nG21 G17 G90 G54 G40 G80\n{}{}M30\n", section(first), section(second))
+        };
+        let text = program(1, 2);
+        let at = |word: &str| text.find(word).map(|at| at as u32..at as u32).unwrap();
+        let moves = |range| -> Vec<_> {
+            let is_move = |name: &&str| name.starts_with("section-");
+            names("haas-mill", &text, range).into_iter().filter(is_move).collect()
+        };
+        assert_eq!(moves(at("X2.")), ["section-up"]);
+        assert_eq!(moves(at("(TOOL 1)")), ["section-down"]);
+        assert!(moves(at("G21")).is_empty(), "no section is there");
+        let (after, claim) = answer(&text, "section-up", Some(at("X2."))).unwrap();
+        assert_eq!(after, program(2, 1));
+        assert!(
+            claim.starts_with("the tools come in another order, and every move of each section"),
+            "{claim}"
+        );
+        let reason = answer(&text, "section-down", Some(at("X2."))).unwrap_err();
+        assert_eq!(reason, "cannot move the section of a tool: it is the last section already");
     }
 
     /// The title of the change at the cursor, and what it makes of the program.

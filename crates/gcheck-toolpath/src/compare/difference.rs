@@ -306,6 +306,14 @@ impl Differences {
         self.parting.is_none() && self.sections.is_empty() && self.counts.iter().all(|count| *count == 0)
     }
 
+    /// Do both move the machine the same way in each section, whatever the order of the sections?
+    pub fn is_same_but_for_order(&self) -> bool {
+        let is_moved = |section: &SectionChange| section.change == Change::Moved { is_compared: true };
+        self.parting.is_none()
+            && self.sections.iter().all(is_moved)
+            && self.counts.iter().all(|count| *count == 0)
+    }
+
     /// The first places at which the paths part.
     pub fn partings(&self) -> impl Iterator<Item = &Parting> {
         self.parting.iter().chain(&self.later)

@@ -4,7 +4,7 @@
 
 use std::path::PathBuf;
 
-use clap::{Args, Subcommand, ValueEnum};
+use clap::{ArgGroup, Args, Subcommand, ValueEnum};
 use gcheck_edit::Amount;
 use gcheck_format::Numbering;
 
@@ -144,6 +144,28 @@ pub enum EditCommand {
         #[command(flatten)]
         target: EditTarget,
     },
+    /// Move the section of a tool to another place among those of the other tools
+    ///
+    /// `--tool 3` or a line of the section with `--lines` says which one. It goes with the comments above its tool change.
+    /// Where each section calls the tool of the next one early (`T4` while T3 works), these words follow the new order.
+    #[command(group = ArgGroup::new("place").required(true))]
+    MoveSection {
+        /// In front of the first section of this tool
+        #[arg(long, value_name = "N", group = "place")]
+        before: Option<u32>,
+        /// After the last section of this tool
+        #[arg(long, value_name = "N", group = "place")]
+        after: Option<u32>,
+        /// In front of the section above it
+        #[arg(long, group = "place")]
+        up: bool,
+        /// After the section below it
+        #[arg(long, group = "place")]
+        down: bool,
+        /// The program and the section that moves.
+        #[command(flatten)]
+        target: EditTarget,
+    },
     /// Number the blocks again, with every word that names one
     Renumber {
         /// The first number and the step: `10:10`
@@ -247,6 +269,7 @@ impl EditCommand {
             | Self::Absolute { target }
             | Self::Incremental { target }
             | Self::SafeStart { target }
+            | Self::MoveSection { target, .. }
             | Self::Mm { target }
             | Self::Inch { target }
             | Self::Renumber { target, .. } => target,

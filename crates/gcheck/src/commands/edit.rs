@@ -9,7 +9,7 @@ mod refusing;
 use std::collections::BTreeSet;
 
 use gcheck_diagnostics::{Edit, apply_to_bytes};
-use gcheck_edit::{Amount, Change, Refusal, Scope, Witness, assume_places, plan, witness};
+use gcheck_edit::{Amount, Change, Destination, Refusal, Scope, Witness, assume_places, plan, witness};
 use gcheck_engine::{Assumption, Axis, Nobody, Options, Units};
 use gcheck_program::BlockFlags;
 
@@ -147,6 +147,14 @@ fn change(command: &EditCommand) -> Result<Change, Problem> {
         EditCommand::SafeStart { .. } => Change::SafeStart,
         EditCommand::Mm { .. } => Change::Convert(Units::Mm),
         EditCommand::Inch { .. } => Change::Convert(Units::Inch),
+        EditCommand::MoveSection { before, after, down, .. } => {
+            Change::MoveSection(match (before, after, down) {
+                (Some(tool), _, _) => Destination::Before(*tool),
+                (_, Some(tool), _) => Destination::After(*tool),
+                (_, _, true) => Destination::Down,
+                _ => Destination::Up,
+            })
+        }
         EditCommand::Renumber { .. } => Change::Renumber,
     })
 }

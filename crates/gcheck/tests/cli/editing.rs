@@ -1863,6 +1863,171 @@ fn safe_start_lines_say_what_is_in_effect() {
     );
 }
 
+/// Three tools, each of which calls the next one early.
+const THREE_TOOLS: &str = "%\nO1 (PART)\n(T1 END MILL)\n(T2 DRILL)\nG21 G17 G90 G54 G40 G80\n\n(FACE)\nN1 T1 M6\nT02\nS1000 M3\nG90 G0 X0. Y0.\nG43 H1 Z10.\nG1 Z-1. F100.\nX50.\nG0 Z10.\nG91 G28 Z0. M5\nM01\n(DRILL)\nN2 T2 M6\nT03\nS2000 M3\nG90 G0 X10. Y10.\nG43 H2 Z10.\nG99 G81 Z-12. R2. F120.\nG80\nG91 G28 Z0. M5\nM01\n(CHAMFER)\nN3\nT3\nM6\nT01\nS900 M3\nG90 G0 X10. Y10.\nG43 H3 Z10.\nG1 Z-1.\nX20.\nG0 Z10.\nG91 G28 Z0. M5\n(END)\nM30\n%\n";
+
+#[test]
+fn the_section_of_a_tool_goes_to_another_place() {
+    let with_feed = THREE_TOOLS.replace("G1 Z-1.\nX20.", "G1 Z-1. F80.\nX20.");
+    changes(
+        &with_feed,
+        "haas-mill",
+        "move-section --tool 3 --before 2",
+        &expect![[r#"
+             9 T03
+            18 (CHAMFER)
+            19 N3
+            20 T3
+            21 M6
+            22 T02
+            23 S900 M3
+            24 G90 G0 X10. Y10.
+            25 G43 H3 Z10.
+            26 G1 Z-1. F80.
+            27 X20.
+            28 G0 Z10.
+            29 G91 G28 Z0. M5
+            30 (DRILL)
+            31 N2 T2 M6
+            33 S2000 M3
+            35 G43 H2 Z10.
+            36 G99 G81 Z-12. R2. F120.
+            37 G80
+            38 G91 G28 Z0. M5
+            39 M01
+            ! part.nc: changed for haas-mill: the tools come in another order, and every move of each section is as before, within 0.001 mm (18 moves compared)
+            ! note: the way to the first point of a section begins where the section above it ends: check that the tool clears the part there
+            exit 0
+        "#]],
+    );
+    changes(
+        &with_feed,
+        "haas-mill",
+        "move-section --lines 20 --up",
+        &expect![[r#"
+             7 (DRILL)
+             8 N2 T2 M6
+             9 T01
+            10 S2000 M3
+            11 G90 G0 X10. Y10.
+            12 G43 H2 Z10.
+            13 G99 G81 Z-12. R2. F120.
+            14 G80
+            15 G91 G28 Z0. M5
+            16 M01
+            17 (FACE)
+            18 N1 T1 M6
+            19 T03
+            20 S1000 M3
+            21 G90 G0 X0. Y0.
+            22 G43 H1 Z10.
+            23 G1 Z-1. F100.
+            24 X50.
+            25 G0 Z10.
+            32 T02
+            ! part.nc: changed for haas-mill: the tools come in another order, and every move of each section is as before, within 0.001 mm (18 moves compared)
+            ! note: the way to the first point of a section begins where the section above it ends: check that the tool clears the part there
+            exit 0
+        "#]],
+    );
+    // T3 cuts at the feed of T2.
+    refuses(
+        THREE_TOOLS,
+        "haas-mill",
+        "move-section --tool 3 --before 2",
+        &expect![[r#"
+            error: part.nc: cannot move the section of a tool: the proof failed
+            tool section T3 moved from place 3 (part.nc, lines 31 to 39) to place 2 (part.nc (changed), lines 21 to 29)
+            the feed differs, once
+              - part.nc:36  120 mm/min   | G1 Z-1.
+              + part.nc (changed):26  100 mm/min   | G1 Z-1.
+              note: `-` is what the change promises, `+` is what the changed program does
+            part.nc: nothing is changed
+        "#]],
+    );
+    refuses(
+        &with_feed,
+        "haas-mill",
+        "move-section --tool 3 --down",
+        &expect![[r#"
+        error: part.nc: cannot move the section of a tool: it is the last section already
+        part.nc: nothing is changed
+    "#]],
+    );
+    refuses(
+        &with_feed,
+        "haas-mill",
+        "move-section --lines 10-20 --up",
+        &expect![[r#"
+        error: part.nc: cannot move the section of a tool: more than one section is chosen
+          help: choose a line of one of them with --lines
+        part.nc: nothing is changed
+    "#]],
+    );
+    refuses(
+        &with_feed,
+        "haas-mill",
+        "move-section --up",
+        &expect![[r#"
+        error: part.nc: cannot move the section of a tool: one section moves at a time
+          help: name a tool with --tool, or a line of its section with --lines
+        part.nc: nothing is changed
+    "#]],
+    );
+    refuses(
+        &with_feed,
+        "haas-mill",
+        "move-section --tool 3 --after 3",
+        &expect![[r#"
+        error: part.nc: cannot move the section of a tool: no other section of the program uses T3
+        part.nc: nothing is changed
+    "#]],
+    );
+    let looped = "%\nO1\n#1=0\nWHILE [#1 LT 2] DO1\nT1 M6\nT2 M6\n#1=#1+1\nEND1\nM30\n%\n";
+    refuses(
+        looped,
+        "haas-mill",
+        "move-section --tool 2 --up",
+        &expect![[r#"
+        error: part.nc:5:1: cannot move the section of a tool: the tool changes do not run in the order of the text, each of them once
+          |
+        5 | T1 M6
+          | ^^^^^
+        part.nc: nothing is changed
+    "#]],
+    );
+}
+
+/// A turret calls its tool by one word, and takes its offset back by another.
+#[test]
+fn the_section_of_a_lathe_tool_goes_to_another_place() {
+    let program = "%\nO1\nG21 G18 G40 G99\nG28 U0. W0.\nT0101 (ROUGH)\nG97 S800 M3\nG0 X50. Z2.\nG1 Z-20. F0.2\nX60.\nG28 U0. W0.\nT0100\nM01\nT0202 (GROOVE)\nG97 S600 M3\nG0 X52. Z-10.\nG1 X40. F0.1\nX52.\nG28 U0. W0.\nT0200\nM30\n%\n";
+    changes(
+        program,
+        "haas-lathe",
+        "move-section --tool 2 --before 1",
+        &expect![[r#"
+         5 T0202 (GROOVE)
+         6 G97 S600 M3
+         7 G0 X52. Z-10.
+         8 G1 X40. F0.1
+         9 X52.
+        11 T0200
+        12 T0101 (ROUGH)
+        13 G97 S800 M3
+        14 G0 X50. Z2.
+        15 G1 Z-20. F0.2
+        16 X60.
+        17 G28 U0. W0.
+        18 T0100
+        19 M01
+        ! part.nc: changed for haas-lathe: the tools come in another order, and every move of each section is as before, within 0.001 mm (6 moves compared)
+        ! note: the way to the first point of a section begins where the section above it ends: check that the tool clears the part there
+        exit 0
+    "#]],
+    );
+}
+
 /// A program that changes without a change of its moves does the same for `gcheck diff`, which knows nothing of the change.
 #[test]
 fn programs_that_are_written_otherwise_are_the_same_for_diff() {

@@ -44,6 +44,18 @@ export const restricted: Test[] = [
   aFindingAppears,
 ];
 
+/** Opens a program of more than twenty moves with its toolpath beside it. */
+async function drawn(name: string): Promise<vscode.TextEditor> {
+  const { preview } = await api();
+  const editor = await open(name);
+  let pieces = 0;
+  const subscription = preview.onDrawn((drawing) => (pieces = drawing.pieces));
+  await vscode.commands.executeCommand("gcheck.showToolpath");
+  await until("the drawing", () => (pieces > 20 ? true : undefined));
+  subscription.dispose();
+  return editor;
+}
+
 export const trusted: Test[] = [
   theBundledServerRuns,
   aFindingAppears,
@@ -156,14 +168,7 @@ export const trusted: Test[] = [
   [
     "the toolpath is drawn beside the text",
     async () => {
-      const { preview } = await api();
-      const editor = await open("pocket.nc");
-      let pieces = 0;
-      const subscription = preview.onDrawn((drawn) => (pieces = drawn.pieces));
-      await vscode.commands.executeCommand("gcheck.showToolpath");
-      await until("the drawing", () => (pieces > 20 ? true : undefined));
-      subscription.dispose();
-      goTo(editor, "G03");
+      goTo(await drawn("pocket.nc"), "G03");
       await picture("vscode-toolpath");
     },
     uses("gcheck.showToolpath"),
@@ -171,8 +176,7 @@ export const trusted: Test[] = [
   [
     "the options of the toolpath colour, cut, measure and save it",
     async () => {
-      const editor = vscode.window.visibleTextEditors.find(({ document }) => document.fileName.endsWith("pocket.nc"));
-      assert.ok(editor, "the program is shown");
+      const editor = await drawn("pocket.nc");
       const inToolpath = (what: object) => browser<string>("inToolpath", what);
       // The page is too narrow for them to be open from the start.
       await inToolpath({ do: "click", at: "#options" });

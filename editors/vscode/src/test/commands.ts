@@ -108,6 +108,32 @@ M30
 %
 `;
 
+/** Two tools, each with all that it needs. */
+const SECTIONS = `%
+O1022 (SECTIONS)
+(gcheck: control=fanuc-mill)
+G21 G17 G40 G49 G80 G90 G54
+(MILL)
+T1 M6
+S1000 M3
+G90 G0 X10. Y5.
+G43 H1 Z25.
+G1 Z-1. F127.
+X20.
+G0 Z25.
+G91 G28 Z0. M5
+(DRILL)
+T2 M6
+S2000 M3
+G90 G0 X15. Y5.
+G43 H2 Z25.
+G99 G81 Z-5. R2. F90.
+G80
+G91 G28 Z0. M5
+M30
+%
+`;
+
 /** Each change that is proved: its action, its title, the program that it changes, and what it makes of some lines. */
 const CHANGES: [string, RegExp, string, RegExp][] = [
   ["expand-cycle", /^Write canned cycles as plain moves/, PROVED, /^END1\nG0 X3\. Y1\.\nG1 Z-0\.5 F5\.\nG0 Z0\.1\n/m],
@@ -533,6 +559,20 @@ export const commands: Test[] = [
       "action rotate-180",
       "action rotate-270",
     ),
+  ],
+  [
+    "the section of a tool moves up and down as a whole, with its comments",
+    async () => {
+      const { document } = await create("sections.nc", SECTIONS);
+      const at = (text: string) => new vscode.Range(place(document, text), place(document, text));
+      const drilledFirst = /G54\n\(DRILL\)\nT2 M6\n[^]*G80\nG91 G28 Z0\. M5\n\(MILL\)\nT1 M6\n[^]*G91 G28 Z0\. M5\nM30\n/;
+      const down = await afterProof(document, at("G1 Z-1."), /^Move this tool section down, with proof$/);
+      assert.match(down, drilledFirst);
+      const up = await afterProof(document, at("T2 M6"), /^Move this tool section up, with proof$/);
+      assert.match(up, drilledFirst);
+      await closeAll();
+    },
+    uses("action section-up", "action section-down"),
   ],
   [
     "a change that is refused when it is chosen says why, and no request fails",

@@ -23,6 +23,8 @@ export const OFFERED: Record<string, string> = {
   "mm": "Write the program in millimetres",
   "inch": "Write the program in inches",
   "safe-start": "Insert safe start lines in front of tool changes",
+  "section-up": "Move this tool section up",
+  "section-down": "Move this tool section down",
   "feeds-90": "Scale the feeds to 90 %",
   "feeds-110": "Scale the feeds to 110 %",
   "speeds-90": "Scale the spindle speeds to 90 %",

@@ -7,10 +7,10 @@ use std::sync::Arc;
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread;
 
-use gcheck_edit::{Change, Refusal, Scope, expected, plainly};
+use gcheck_edit::{Acts, Change, Refusal, Scope, expected, hold, is_as_claimed, plainly};
 use gcheck_engine::{Options, RunResult, Units};
 use gcheck_syntax::SourceText;
-use gcheck_toolpath::{Act, Differences, Rest, compare};
+use gcheck_toolpath::{Act, Differences};
 
 use super::refusing::problem;
 use crate::Problem;
@@ -56,14 +56,14 @@ pub(super) fn prove(
     let after = before.with_text(text(before, after.to_vec())?, shown);
     let mut moves = 0;
     for options in runs {
-        let (differences, refusal, faults) = both(before, &after, asked, *options)?;
+        let (differences, Ran { refusal, faults }) = held(before, &after, asked, *options)?;
         if let Some(refusal) = refusal {
             return Err(problem(before, change, &refusal));
         }
         // A run that was cut off because the paths had parted before ended nowhere of its own.
         let left_alone = differences.left_alone();
         let fault = faults.into_iter().zip(left_alone).find_map(|(fault, left)| fault.filter(|_| !left));
-        if fault.is_none() && !differences.is_same() {
+        if fault.is_none() && !is_as_claimed(change, &differences) {
             return Err(different(before, &after, asked, &differences));
         }
         if let Some(fault) = fault {
@@ -119,15 +119,40 @@ fn different(before: &Prepared, after: &Prepared, asked: &Asked<'_>, differences
     problem.note("`-` is what the change promises, `+` is what the changed program does")
 }
 
+/// What two runs came to, beside their acts.
+#[derive(Default)]
+struct Ran {
+    /// Why the acts cannot be told in advance.
+    refusal: Option<Refusal>,
+    /// Why a run did not come to its end.
+    faults: [Option<Problem>; 2],
+}
+
 /// Runs both and compares what they do while they do it.
-#[expect(clippy::type_complexity, reason = "the three answers of two runs")]
-fn both(
+fn held(
     before: &Prepared,
     after: &Prepared,
     asked: &Asked<'_>,
     options: Options,
-) -> Result<(Differences, Option<Refusal>, [Option<Problem>; 2]), Problem> {
-    let Asked { change, scope, tolerance, .. } = *asked;
+) -> Result<(Differences, Ran), Problem> {
+    let mut ran = Ran::default();
+    let mut both = |with: &mut dyn FnMut(Acts<'_>, Acts<'_>)| {
+        ran = run_both(before, after, asked, options, with)?;
+        Ok(())
+    };
+    let differences = hold(asked.change, asked.tolerance, &mut both)?;
+    Ok((differences, ran))
+}
+
+/// Runs both; `with` gets their acts.
+fn run_both(
+    before: &Prepared,
+    after: &Prepared,
+    asked: &Asked<'_>,
+    options: Options,
+    with: &mut dyn FnMut(Acts<'_>, Acts<'_>),
+) -> Result<Ran, Problem> {
+    let Asked { change, scope, .. } = *asked;
     thread::scope(|scope_of_threads| {
         let (sender, promised) = sync_channel(WAITING);
         let start = || thread::Builder::new().stack_size(crate::threads::STACK);
@@ -169,13 +194,17 @@ fn both(
                 })
             })
             .map_err(failed)?;
-        let differences = compare(acts(promised), acts(made), tolerance, Rest::Leave);
+        {
+            // With the receivers goes the reason to run on.
+            let (mut promised, mut made) = (acts(promised), acts(made));
+            with(&mut promised, &mut made);
+        }
         let panicked = |payload: Box<dyn std::any::Any + Send>| {
             Problem::own_mistake(payload.as_ref()).in_file(&before.path)
         };
         let (refusal, first) = first.join().map_err(panicked)?;
         let second = second.join().map_err(panicked)?;
-        Ok((differences, refusal, [first, second]))
+        Ok(Ran { refusal, faults: [first, second] })
     })
 }
 
