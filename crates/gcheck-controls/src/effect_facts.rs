@@ -196,6 +196,11 @@ impl Effect {
         matches!(self.group(), EffectGroup::Rapid | EffectGroup::Linear | EffectGroup::Arc)
     }
 
+    /// Measures by a touch: a probing move, a skip, a measurement of its own.
+    pub const fn measures(self) -> bool {
+        matches!(self.group(), EffectGroup::ProbingMove | EffectGroup::Skip | EffectGroup::Measurement)
+    }
+
     /// A move toward or away from the work until the probe changes, which stays the motion mode (`G38`).
     pub const fn is_probing_move(self) -> bool {
         matches!(self.group(), EffectGroup::ProbingMove)

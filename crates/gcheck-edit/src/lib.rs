@@ -7,6 +7,7 @@
 //! with its proof: the acts of a run before, changed as the change claims ([`expected`]), are compared with those of a run
 //! after it by [`gcheck_toolpath::compare`].
 
+mod apart;
 mod change;
 mod course;
 mod distance;
@@ -27,6 +28,7 @@ mod rigid;
 mod run;
 mod safe_start;
 mod scope;
+mod section_lines;
 mod sheet;
 mod tool_sections;
 mod units;

@@ -1,21 +1,20 @@
 //! A section of one tool that goes to another place among those of the other tools.
 //!
-//! Knows: where the sections of a run are in the text, which words call a tool early. Must not know: what the sections do;
-//! whether each still does the same is for the proof.
-//!
-//! A section begins with its tool change, the comments right above it and a `T` alone that the change takes its tool from. The
-//! last one ends in front of the block that ends the program.
+//! Knows: which sections runs have shown, what of them does not move, which words call a tool early. Must not know: what the
+//! sections do; whether each still does the same is for the proof.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
-use gcheck_controls::{Letter, LetterSet, Machine};
+use gcheck_controls::{Letter, Machine};
 use gcheck_engine::{At, Event, Model, Program};
-use gcheck_program::{Block, BlockFlags, Loaded, Place, Value, Word, is_comment_alone};
+use gcheck_program::{Loaded, Place, Word};
 
+use crate::apart::Order;
 use crate::change::Destination;
 use crate::refusal::Refusal;
 use crate::scope::Scope;
+use crate::section_lines::{Lines, number_of};
 use crate::sheet::Sheet;
 
 const T: Letter = Letter::of('T');
@@ -36,9 +35,9 @@ pub(crate) struct ToolSections<'c> {
 }
 
 /// A section of the text.
-struct Section {
-    tool: u32,
-    bytes: Range<u32>,
+pub(crate) struct Section {
+    pub(crate) tool: u32,
+    pub(crate) bytes: Range<u32>,
 }
 
 /// A word that calls a tool while another one works.
@@ -96,18 +95,27 @@ impl<'c> ToolSections<'c> {
         program: &Program<'_>,
         loaded: &Loaded<'_>,
     ) -> Result<Vec<String>, Refusal> {
-        let sections = self.sections(program, loaded)?;
+        let mut ends = self.ends.clone();
+        ends.extend(self.block.as_ref().map(|(number, _)| *number));
+        let (Some(end), true) = (ends.first().copied(), ends.len() == 1) else {
+            return Err(Refusal::whole("the program ends in another block when block delete is on"));
+        };
+        let lines = Lines::new(end, program, loaded, self.model);
+        let (sections, of_last) = self.sections(&lines)?;
         let from = self.chosen(&sections)?;
         let to = self.target(&sections, from)?;
         if from == to {
             return Ok(Vec::new());
         }
+        Order { sections: &sections, moved: from.min(to)..from.max(to) + 1, lines: &lines }.check()?;
         let mut order: Vec<usize> = (0..sections.len()).collect();
         let moved = order.remove(from);
         order.insert(to, moved);
-        let (calls, mut notes) = self.early_calls(&sections, program, loaded);
+        let (calls, stay) = self.early_calls(&sections, program, loaded);
         let rewritten = following(&sections, &order, &calls);
-        self.put(sheet, &sections, from, to, &rewritten);
+        put(sheet, &sections, from, to, &rewritten);
+        let passes_last = from.max(to) + 1 == sections.len();
+        let mut notes: Vec<String> = of_last.filter(|_| passes_last).into_iter().chain(stay).collect();
         notes.push(
             "the way to the first point of a section begins where the section above it ends: check that the tool clears the part there"
                 .to_owned(),
@@ -115,31 +123,29 @@ impl<'c> ToolSections<'c> {
         Ok(notes)
     }
 
-    /// The sections in the order of the text.
-    fn sections(&self, program: &Program<'_>, loaded: &Loaded<'_>) -> Result<Vec<Section>, Refusal> {
-        let mut ends = self.ends.clone();
-        ends.extend(self.block.as_ref().map(|(number, _)| *number));
-        let (Some(end), true) = (ends.first().copied(), ends.len() == 1) else {
-            return Err(Refusal::whole("the program ends in another block when block delete is on"));
-        };
-        let main = loaded.flow_graph().part_of(end);
-        let text = loaded.text();
-        let head = |block: u32, tool: Option<u32>| head(block, tool, &main, program, loaded, &text);
-        let mut starts: Vec<(u32, u32)> = Vec::new();
+    /// The sections in the order of the text, and what is said of the last lines of the last one.
+    fn sections(&self, lines: &Lines<'_, '_>) -> Result<(Vec<Section>, Option<String>), Refusal> {
+        let mut starts: Vec<(usize, u32)> = Vec::new();
         for (number, (range, tool)) in &self.changes {
-            if !main.contains(number) || *number >= end {
-                let reason = "this block changes the tool, and it is not above the end of the program";
-                return Err(Refusal::at(range.clone(), reason));
+            let Some(change) = lines.index(*number) else {
+                let reason = "this block changes the tool, and it is not in the main program above its end";
+                return Err(Refusal::at(range.clone(), reason).help(
+                    "only sections of the main program move: leave tool changes out of called programs",
+                ));
+            };
+            // A lathe calls the same tool again with another offset, and `T0` puts a tool away.
+            if *tool == 0 || starts.last().is_some_and(|(_, last)| last == tool) {
+                continue;
             }
-            // A lathe calls the same tool again with another offset.
-            if starts.last().is_none_or(|(_, last)| last != tool) {
-                starts.push((head(*number, Some(*tool))?, *tool));
-            }
+            starts.push((lines.head(change, *tool, range)?, *tool));
         }
-        let end = head(end, None)?;
-        let ends: Vec<u32> = starts.iter().skip(1).map(|(start, _)| *start).chain([end]).collect();
-        let section = |((start, tool), end): ((u32, u32), u32)| Section { tool, bytes: start..end };
-        Ok(starts.into_iter().zip(ends).map(section).collect())
+        let (last, of_last) = lines.last_section(&starts);
+        let ends: Vec<usize> = starts.iter().skip(1).map(|(start, _)| *start).chain([last]).collect();
+        let mut sections = Vec::new();
+        for ((start, tool), end) in starts.into_iter().zip(ends) {
+            sections.push(Section { tool, bytes: lines.start_of_line(start)?..lines.start_of_line(end)? });
+        }
+        Ok((sections, of_last))
     }
 
     /// The section that somebody chose, by its tool or one of its lines.
@@ -163,7 +169,15 @@ impl<'c> ToolSections<'c> {
 
     /// The place of the chosen section among all of them when it has moved.
     fn target(&self, sections: &[Section], from: usize) -> Result<usize, Refusal> {
-        let missing = |tool: u32| Refusal::whole(format!("no other section of the program uses T{tool}"));
+        let missing = |tool: u32| {
+            let is_itself = sections.get(from).is_some_and(|section| section.tool == tool);
+            let reason = if is_itself {
+                format!("T{tool} is the tool of the section that moves, and no other section uses it")
+            } else {
+                format!("no section of the program uses T{tool}")
+            };
+            Refusal::whole(reason)
+        };
         let is = |tool: u32| move |(at, section): &(usize, &Section)| *at != from && section.tool == tool;
         let mut others = sections.iter().enumerate();
         match self.destination {
@@ -190,131 +204,76 @@ impl<'c> ToolSections<'c> {
         sections: &[Section],
         program: &Program<'_>,
         loaded: &Loaded<'_>,
-    ) -> (Vec<EarlyCall>, Vec<String>) {
+    ) -> (Vec<EarlyCall>, Option<String>) {
         if self.model.control().machine() == Machine::Lathe {
-            return (Vec::new(), Vec::new());
+            return (Vec::new(), None);
         }
         let mut calls: Vec<EarlyCall> = Vec::new();
         let (first, last) = (self.changes.keys().next(), loaded.flow_graph().blocks());
         for number in first.copied().unwrap_or(last)..last {
             let Some(place) = loaded.place(number, program.dialect()) else { continue };
             let start = place.range().start;
-            let Some(section) = sections.iter().position(|section| section.bytes.contains(&start)) else {
+            let words = place.table.words(place.block());
+            let (Some(section), Some(word)) = (
+                sections.iter().position(|section| section.bytes.contains(&start)),
+                words.iter().find(|word| word.letter == T),
+            ) else {
                 continue;
             };
-            let words = place.table.words(place.block());
-            let Some(word) = words.iter().find(|word| word.letter == T) else { continue };
             let own = sections.get(section).map(|section| section.tool);
             let tool = number_of(word);
             if self.changes.contains_key(&number) || tool == own {
                 continue;
             }
-            let Some(tool) = tool else { return (Vec::new(), vec![stays()]) };
-            calls.retain(|call| call.section != section);
-            let value = Sheet::range(&place, word);
-            let digits = loaded.slice(value.clone()).trim_start_matches(|c: char| !c.is_ascii_digit());
-            calls.push(EarlyCall { section, tool, value: value.end - digits.len() as u32..value.end });
+            let Some(tool) = tool else { return (Vec::new(), Some(stays(loaded, start))) };
+            calls.push(EarlyCall { section, tool, value: digits(&place, word, loaded) });
         }
         let next = |section: usize| sections.get(section + 1).or(sections.first());
         let calls_next = |call: &EarlyCall| next(call.section).is_some_and(|next| next.tool == call.tool);
-        if calls.iter().all(calls_next) { (calls, Vec::new()) } else { (Vec::new(), vec![stays()]) }
-    }
-
-    /// Moves the text of a section, with the words that are to be written otherwise.
-    fn put(
-        &self,
-        sheet: &mut Sheet<'_, '_>,
-        sections: &[Section],
-        from: usize,
-        to: usize,
-        words: &[(Range<u32>, String)],
-    ) {
-        let (Some(moved), Some(target)) = (sections.get(from), sections.get(to)) else { return };
-        let range = moved.bytes.start as usize..moved.bytes.end as usize;
-        let mut text = sheet.loaded.text().get(range).unwrap_or_default().to_owned();
-        for (range, word) in words.iter().rev() {
-            if moved.bytes.contains(&range.start) {
-                let at = (range.start - moved.bytes.start) as usize;
-                text.replace_range(at..at + range.len(), word);
-            } else {
-                sheet.replace(range.clone(), word.clone());
-            }
-        }
-        sheet.remove(moved.bytes.clone());
-        sheet.insert(if to > from { target.bytes.end } else { target.bytes.start }, text);
-    }
-}
-
-fn stays() -> String {
-    "`T` words that call a tool early stay as they are: they do not all name the tool of the next section"
-        .to_owned()
-}
-
-/// The number of a tool as a word gives it.
-fn number_of(word: &Word) -> Option<u32> {
-    match word.value {
-        #[expect(clippy::cast_sign_loss, reason = "checked")]
-        Value::Number(number) if number >= 0.0 && number.fract() == 0.0 => Some(number as u32),
-        _ => None,
-    }
-}
-
-/// The first byte of what belongs to a block that changes the tool, or ends the program: its line, a line that names the tool
-/// alone, and comments and numbers of blocks above it, as far as nothing else is between.
-fn head(
-    block: u32,
-    tool: Option<u32>,
-    main: &Range<u32>,
-    program: &Program<'_>,
-    loaded: &Loaded<'_>,
-    text: &str,
-) -> Result<u32, Refusal> {
-    let place_of = |number: u32| loaded.place(number, program.dialect());
-    let Some(own) = place_of(block) else { return Err(Refusal::whole("a tool change is not in the text")) };
-    let mut start = own.range().start;
-    let mut headings = Vec::new();
-    let mut reaches_top = true;
-    for number in (main.start..block).rev() {
-        let Some(place) = place_of(number) else { continue };
-        let block = place.block();
-        if is_comment_alone(block) || is_number_alone(block) {
-            headings.push(place.range().start);
-        } else if headings.is_empty() && calls_alone(&place, tool) {
-            start = place.range().start;
-        } else if !block.letters.is_empty() || block.flags.intersects(STATED) {
-            reaches_top = block.flags.contains(BlockFlags::PROGRAM_NUMBER);
-            break;
+        // After the last section a tool may be called that no section uses.
+        calls.retain(|call| call.section + 1 < sections.len() || calls_next(call));
+        match calls.iter().find(|call| !calls_next(call)) {
+            Some(other) => (Vec::new(), Some(stays(loaded, other.value.start))),
+            None => (calls, None),
         }
     }
-    // The comments at the top of a program are about all of it, but for the last one.
-    let of_section = if reaches_top { headings.first() } else { headings.last() };
-    let start = of_section.copied().unwrap_or(start);
-    let before = text.get(..start as usize).unwrap_or_default();
-    let line = before.rfind(['\n', '\r']).map_or(0, |end| end + 1);
-    if before.get(line..).unwrap_or_default().trim().is_empty() {
-        Ok(line as u32)
-    } else {
-        Err(Refusal::at(own.range(), "this block shares its line with another one"))
+}
+
+fn stays(loaded: &Loaded<'_>, at: u32) -> String {
+    format!(
+        "`T` words that call a tool early stay as they are: the one in line {} does not name the tool of the next section",
+        loaded.line_number(at)
+    )
+}
+
+/// Bytes of the digits of a word.
+fn digits(place: &Place, word: &Word, loaded: &Loaded<'_>) -> Range<u32> {
+    let range = Sheet::range(place, word);
+    let digits = loaded.slice(range.clone()).trim_start_matches(|c: char| !c.is_ascii_digit());
+    range.end - digits.len() as u32..range.end
+}
+
+/// Moves the text of a section, with the words that are to be written otherwise.
+fn put(
+    sheet: &mut Sheet<'_, '_>,
+    sections: &[Section],
+    from: usize,
+    to: usize,
+    words: &[(Range<u32>, String)],
+) {
+    let (Some(moved), Some(target)) = (sections.get(from), sections.get(to)) else { return };
+    let range = moved.bytes.start as usize..moved.bytes.end as usize;
+    let mut text = sheet.loaded.text().get(range).unwrap_or_default().to_owned();
+    for (range, word) in words.iter().rev() {
+        if moved.bytes.contains(&range.start) {
+            let at = (range.start - moved.bytes.start) as usize;
+            text.replace_range(at..at + range.len(), word);
+        } else {
+            sheet.replace(range.clone(), word.clone());
+        }
     }
-}
-
-const STATED: BlockFlags = BlockFlags::STATEMENT.union(BlockFlags::TAPE_MARK).union(BlockFlags::ERROR);
-
-/// Does a block have nothing but its number?
-fn is_number_alone(block: &Block) -> bool {
-    !block.letters.is_empty()
-        && block.letters.without(LetterSet::of("N")).is_empty()
-        && !block.flags.intersects(STATED)
-}
-
-/// Does a block name the tool, and nothing else but its own number?
-fn calls_alone(place: &Place, tool: Option<u32>) -> bool {
-    let block = place.block();
-    let words = place.table.words(block);
-    tool.is_some()
-        && block.letters.without(LetterSet::of("NT")).is_empty()
-        && !block.flags.intersects(STATED)
-        && words.iter().any(|word| word.letter == T && number_of(word) == tool)
+    sheet.remove(moved.bytes.clone());
+    sheet.insert(if to > from { target.bytes.end } else { target.bytes.start }, text);
 }
 
 /// What the early calls become in another order: each names the tool of the section that follows its own.

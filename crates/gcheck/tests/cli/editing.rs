@@ -1942,6 +1942,7 @@ fn the_section_of_a_tool_goes_to_another_place() {
               - part.nc:36  120 mm/min   | G1 Z-1.
               + part.nc (changed):26  100 mm/min   | G1 Z-1.
               note: `-` is what the change promises, `+` is what the changed program does
+              help: let the section give all that it needs after its tool change: work offset, length, modes, feed, speed and a first point
             part.nc: nothing is changed
         "#]],
     );
@@ -1979,9 +1980,9 @@ fn the_section_of_a_tool_goes_to_another_place() {
         "haas-mill",
         "move-section --tool 3 --after 3",
         &expect![[r#"
-        error: part.nc: cannot move the section of a tool: no other section of the program uses T3
-        part.nc: nothing is changed
-    "#]],
+            error: part.nc: cannot move the section of a tool: T3 is the tool of the section that moves, and no other section uses it
+            part.nc: nothing is changed
+        "#]],
     );
     let looped = "%\nO1\n#1=0\nWHILE [#1 LT 2] DO1\nT1 M6\nT2 M6\n#1=#1+1\nEND1\nM30\n%\n";
     refuses(
@@ -1998,6 +1999,132 @@ fn the_section_of_a_tool_goes_to_another_place() {
     );
 }
 
+/// What must not come in another order, and what no section says of itself.
+#[test]
+fn sections_that_depend_on_their_order_stay() {
+    let refused = |replaced: &str, by: &str, arguments: &str, expected: &Expect| {
+        let program = THREE_TOOLS.replace("G1 Z-1.\nX20.", "G1 Z-1. F80.\nX20.").replace(replaced, by);
+        refuses(&program, "haas-mill", arguments, expected);
+    };
+    let up = "move-section --tool 2 --up";
+    refused("M01\n(DRILL)", "M0 (TURN THE PART OVER)\n(DRILL)", up, &expect![[r#"
+        error: part.nc:17:1: cannot move the section of a tool: the operator does something here, which would come before or after other work
+           |
+        17 | M0 (TURN THE PART OVER)
+           | ^^^^^^^^^^^^^^^^^^^^^^^
+          help: move the section by hand, if this may come at another time
+        part.nc: nothing is changed
+    "#]]);
+    refused("X50.\n", "X50.\nM83\n", up, &expect![[r#"
+        error: part.nc:15:1: cannot move the section of a tool: what this command does is not followed, and it would come before or after other work
+           |
+        15 | M83
+           | ^^^
+          help: move the section by hand, if this may come at another time
+        part.nc: nothing is changed
+    "#]]);
+    refused("X50.\n", "X50.\nG31 Z-2. F50.\n", up, &expect![[r#"
+        error: part.nc:15:1: cannot move the section of a tool: what is measured here would be measured before or after other work
+           |
+        15 | G31 Z-2. F50.
+           | ^^^^^^^^^^^^^
+          help: move the section by hand, if this may come at another time
+        part.nc: nothing is changed
+    "#]]);
+    refused(
+        "M01\n(DRILL)",
+        "IF [#500 EQ 1] GOTO 3\n(DRILL)",
+        "move-section --tool 2 --up --set #500=0",
+        &expect![[r#"
+            error: invalid value ''#500=0'' for '--set <VARIABLE=VALUE>': `0'` is not a number
+
+            For more information, try '--help'.
+        "#]],
+    );
+    refused("N2 T2 M6", "N2 M6", up, &expect![[r#"
+        error: part.nc:19:1: cannot move the section of a tool: the section does not name its tool: T2 is called in the section above it
+           |
+        19 | N2 M6
+           | ^^^^^
+          help: write `T2` in this block
+        part.nc: nothing is changed
+    "#]]);
+    let looped = "%\nO1\nG21 G90 G54\n#1=0\nWHILE [#1 LT 1] DO1\nT1 M6\nG0 X0. Y0.\nT2 M6\nG0 X1. Y0.\n#1=#1+1\nEND1\nT3 M6\nG0 X2. Y0.\nM30\n%\n";
+    refuses(looped, "haas-mill", "move-section --tool 3 --up", &expect![[r#"
+        error: part.nc:11:1: cannot move the section of a tool: this loop begins in another section than it ends
+           |
+        11 | END1
+           | ^^^^
+        part.nc: nothing is changed
+    "#]]);
+    let limited = "%\nO1\nG21 G18 G40 G99\nG28 U0. W0.\nT0101\nG50 S2500\nG96 S200 M3\nG0 X50. Z2.\nG1 Z-20. F0.2\nG28 U0. W0.\nT0303\nG50 S1200\nG96 S150 M3\nG0 X52. Z-10.\nG1 X40. F0.1\nG28 U0. W0.\nT0505\nG96 S100 M3\nG0 X52. Z-15.\nG1 X48. F0.1\nG28 U0. W0.\nM30\n%\n";
+    refuses(limited, "haas-lathe", "move-section --tool 3 --up", &expect![[r#"
+        error: part.nc:6:1: cannot move the section of a tool: the limit of the spindle speed is given here, and T5 takes it from the section above it
+          |
+        6 | G50 S2500
+          | ^^^^^^^^^
+          help: give the limit in the section of T5 too
+        part.nc: nothing is changed
+    "#]]);
+}
+
+/// The modes at the beginning of a section go with its comment and number, and the end of the program stays.
+#[test]
+fn a_section_goes_with_what_stands_between_its_heading_and_its_tool() {
+    let section = |tool: u32, cut: &str| {
+        format!(
+            "(TOOL {tool})\nN{tool}\nG0 G17 G40 G49 G80 G90\nT{tool} M6\nS1000 M3\nG54 G0 X{tool}. Y0.\nG43 H{tool} Z5.\n{cut}\nG0 Z5.\nG91 G28 Z0. M5\n"
+        )
+    };
+    let text = format!(
+        "%\nO1\n(PART)\n(ZERO TOP CENTRE)\nG21\n{}{}G28 Y0.\nM30\n%\n",
+        section(1, "G1 Z-1. F100."),
+        section(2, "G1 Z-2. F80.")
+    );
+    changes(&text, "haas-mill", "move-section --tool 2 --up", &expect![[r#"
+         6 (TOOL 2)
+         7 N2
+         9 T2 M6
+        11 G54 G0 X2. Y0.
+        12 G43 H2 Z5.
+        13 G1 Z-2. F80.
+        16 G28 Y0.
+        17 (TOOL 1)
+        18 N1
+        19 G0 G17 G40 G49 G80 G90
+        20 T1 M6
+        21 S1000 M3
+        22 G54 G0 X1. Y0.
+        23 G43 H1 Z5.
+        24 G1 Z-1. F100.
+        25 G0 Z5.
+        26 G91 G28 Z0. M5
+        ! part.nc: changed for haas-mill: the tools come in another order, and every move of each section is as before, within 0.001 mm (11 moves compared)
+        ! note: line 26 of the program before the change goes with T2: move it by hand if it closes the program
+        ! note: the way to the first point of a section begins where the section above it ends: check that the tool clears the part there
+        exit 0
+    "#]]);
+    // Without a program end.
+    let text = format!("%\nG21\n{}{}%\n", section(1, "G1 Z-1. F100."), section(2, "G1 Z-2. F80."));
+    changes(&text, "linuxcnc", "move-section --tool 2 --up", &expect![[r#"
+         3 (TOOL 2)
+         4 N2
+         6 T2 M6
+         8 G54 G0 X2. Y0.
+         9 G43 H2 Z5.
+        10 G1 Z-2. F80.
+        13 (TOOL 1)
+        14 N1
+        16 T1 M6
+        18 G54 G0 X1. Y0.
+        19 G43 H1 Z5.
+        20 G1 Z-1. F100.
+        ! part.nc: changed for linuxcnc: the tools come in another order, and every move of each section is as before, within 0.001 mm (8 moves compared)
+        ! note: the way to the first point of a section begins where the section above it ends: check that the tool clears the part there
+        exit 0
+    "#]]);
+}
+
 /// A turret calls its tool by one word, and takes its offset back by another.
 #[test]
 fn the_section_of_a_lathe_tool_goes_to_another_place() {
@@ -2007,24 +2134,24 @@ fn the_section_of_a_lathe_tool_goes_to_another_place() {
         "haas-lathe",
         "move-section --tool 2 --before 1",
         &expect![[r#"
-         5 T0202 (GROOVE)
-         6 G97 S600 M3
-         7 G0 X52. Z-10.
-         8 G1 X40. F0.1
-         9 X52.
-        11 T0200
-        12 T0101 (ROUGH)
-        13 G97 S800 M3
-        14 G0 X50. Z2.
-        15 G1 Z-20. F0.2
-        16 X60.
-        17 G28 U0. W0.
-        18 T0100
-        19 M01
-        ! part.nc: changed for haas-lathe: the tools come in another order, and every move of each section is as before, within 0.001 mm (6 moves compared)
-        ! note: the way to the first point of a section begins where the section above it ends: check that the tool clears the part there
-        exit 0
-    "#]],
+             5 T0202 (GROOVE)
+             6 G97 S600 M3
+             7 G0 X52. Z-10.
+             8 G1 X40. F0.1
+             9 X52.
+            11 T0200
+            12 T0101 (ROUGH)
+            13 G97 S800 M3
+            14 G0 X50. Z2.
+            15 G1 Z-20. F0.2
+            16 X60.
+            17 G28 U0. W0.
+            18 T0100
+            19 M01
+            ! part.nc: changed for haas-lathe: the tools come in another order, and every move of each section is as before, within 0.001 mm (6 moves compared)
+            ! note: the way to the first point of a section begins where the section above it ends: check that the tool clears the part there
+            exit 0
+        "#]],
     );
 }
 

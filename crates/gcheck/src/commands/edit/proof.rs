@@ -109,6 +109,9 @@ fn different(before: &Prepared, after: &Prepared, asked: &Asked<'_>, differences
         Change::Convert(Units::Inch) => {
             problem.help("the last digit of an inch is 0.00254 mm, and roundings of increments and arcs add up: `--tolerance` allows more")
         }
+        Change::MoveSection(_) => {
+            problem.help("let the section give all that it needs after its tool change: work offset, length, modes, feed, speed and a first point")
+        }
         _ => problem,
     };
     let problem = if asked.assumes_places {
