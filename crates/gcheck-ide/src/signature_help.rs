@@ -10,7 +10,7 @@ use std::ops::Range;
 use gcheck_controls::{Code, Control, Letter, Need, WordEntry};
 use gcheck_db::{Database, DocumentId};
 use gcheck_engine::{Abstract, Domain as _, Look, State};
-use gcheck_syntax::ast::{Group, OStatement, Statement};
+use gcheck_syntax::ast::Statement;
 use gcheck_syntax::{SyntaxKind, byte_range};
 
 use crate::arguments::{Argument, arguments, arguments_of_sub, called, is_call};
@@ -118,7 +118,7 @@ fn call_of_sub(workspace: &Workspace, typing: &Typing<'_>, is_asked: bool) -> Op
     let mut words = typing.snapshot.file_index().o_words.iter();
     let label = words.find(|word| word.range.start <= call.start && call.end <= word.range.end)?;
     let taken = arguments_of_sub(workspace, &label.label)?;
-    let active = active_argument(typing, &statement);
+    let active = statement.argument_at(typing.in_chunk(typing.offset));
     if taken.is_empty() || !is_asked && active >= taken.len() {
         return None;
     }
@@ -137,14 +137,6 @@ fn call_of_sub(workspace: &Workspace, typing: &Typing<'_>, is_asked: bool) -> Op
     let documentation = "calls the subroutine; an argument that is left out is 0".to_owned();
     // Editors count in other units than bytes.
     text.is_ascii().then_some(Signature { label: text, documentation, parameters, active })
-}
-
-/// The argument whose brackets the cursor is in, else the one to come.
-fn active_argument(typing: &Typing<'_>, statement: &OStatement) -> usize {
-    let arguments = statement.arguments().into_iter().map(|group| (typing.in_file(group.range()), group));
-    let begun: Vec<_> = arguments.take_while(|(range, _)| range.start < typing.offset).collect();
-    let is_inside = |(range, group): &(Range<u32>, Group)| typing.offset < range.end || !group.is_closed();
-    if begun.last().is_some_and(is_inside) { begun.len() - 1 } else { begun.len() }
 }
 
 /// Was a word that may be given earlier given?

@@ -62,6 +62,11 @@ impl<'s> Typing<'s> {
         self.tree.as_ref().map_or_else(|| range.clone(), |tree| tree.in_file(range.clone()))
     }
 
+    /// A byte of the file as views count it.
+    pub(crate) fn in_chunk(&self, offset: u32) -> u32 {
+        self.tree.as_ref().map_or(0, |tree| tree.in_chunk(offset))
+    }
+
     pub(crate) fn control(&self) -> &'s Control {
         self.snapshot.control()
     }
@@ -113,7 +118,7 @@ impl<'s> Typing<'s> {
 
     /// Is the cursor inside brackets?
     pub(crate) fn in_brackets(&self) -> bool {
-        let offset = self.tree.as_ref().map_or(0, |tree| tree.in_chunk(self.offset));
+        let offset = self.in_chunk(self.offset);
         self.blocks.iter().any(|block| block.is_in_brackets(offset))
     }
 

@@ -220,6 +220,9 @@ fn o_words_have_a_label_a_keyword_and_arguments() {
     assert_eq!(call.keyword().unwrap().text(), "call");
     assert_eq!(call.arguments().len(), 2);
     assert_eq!(call.operand(), None);
+    let arguments = [13, 15, 16, 17, 19].map(|at| call.argument_at(at));
+    assert_eq!(arguments, [0, 0, 0, 1, 1]);
+    assert_eq!(o("o<probe> call [1] [2\n").argument_at(20), 1);
     let begin = o("o100 while [#1 LT 3]\n");
     assert_eq!(begin.label().unwrap().number(), Some(100));
     assert!(begin.operand().is_some() && begin.arguments().is_empty());

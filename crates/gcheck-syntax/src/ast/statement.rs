@@ -184,6 +184,14 @@ impl OStatement {
         groups.into_iter().flatten().collect()
     }
 
+    /// The index of the argument that a place of the line is in, else of the one that would come there.
+    pub fn argument_at(&self, offset: u32) -> usize {
+        let arguments = self.arguments().into_iter();
+        let begun: Vec<Group> = arguments.take_while(|group| group.range().start < offset).collect();
+        let is_inside = begun.last().is_some_and(|last| last.surrounds(offset));
+        begun.len() - usize::from(is_inside)
+    }
+
     fn after(&self, keyword: &SyntaxToken) -> impl Iterator<Item = SyntaxElement> + use<> {
         let start = keyword.text_range().end();
         self.0.children_with_tokens().filter(move |child| child.text_range().start() >= start)
