@@ -323,9 +323,9 @@ fn last_read<T>(
     if let Some((_, known)) = kept.as_ref().filter(|(index, _)| *index == chunk) {
         return Some(Arc::clone(known));
     }
-    let made = Arc::new(make()?);
-    *kept = Some((chunk, Arc::clone(&made)));
-    Some(made)
+    let new = Arc::new(make()?);
+    *kept = Some((chunk, Arc::clone(&new)));
+    Some(new)
 }
 
 /// Line ends in whole lines or a part of them: `\n`, `\r\n` or `\r`.

@@ -1,5 +1,7 @@
 //! What a snapshot tells of the structure at a byte.
 
+#![expect(clippy::unwrap_used, reason = "a test that meets the unexpected is to fail")]
+
 use gcheck_db::{Database, Settings, Snapshot};
 use gcheck_syntax::ast::{Element, Statement};
 

@@ -919,7 +919,7 @@ impl Items<'_, '_> {
     fn o_keywords(&mut self) {
         let typed = self.typing.o_label();
         let typed_name = typed.as_ref().and_then(|label| label.name()).map(parameter_key);
-        let typed_number = typed.as_ref().and_then(|label| label.number());
+        let typed_number = typed.as_ref().and_then(gcheck_syntax::ast::OLabel::number);
         let mut opened = None;
         for word in &self.typing.snapshot.file_index().o_words {
             if word.range.start >= self.typing.start {

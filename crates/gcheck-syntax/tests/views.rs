@@ -1,9 +1,11 @@
 //! What the typed views of the tree see in small programs.
 
+#![expect(clippy::unwrap_used, reason = "a test that meets the unexpected is to fail")]
+
 use gcheck_syntax::ast::{
-    Binary, Block, Chunk, Comment, Element, Expr, FunctionCall, Statement, Variable, Word,
+    Binary, Block, Chunk, Comment, Element, Expr, FunctionCall, Group, Statement, Variable, Word,
 };
-use gcheck_syntax::{SyntaxNode, SyntaxProfile, byte_range, parse};
+use gcheck_syntax::{SyntaxElement, SyntaxNode, SyntaxProfile, byte_range, parse};
 
 fn chunk(profile: SyntaxProfile, text: &str) -> Chunk {
     Chunk::cast(parse(text, profile).syntax()).unwrap()
@@ -28,7 +30,7 @@ fn element(profile: SyntaxProfile, text: &str) -> Element {
     let at = text.find('$').unwrap() as u32;
     let text = text.replacen('$', "", 1);
     let root = parse(&text, profile).syntax();
-    let mut tokens = root.descendants_with_tokens().filter_map(|element| element.into_token());
+    let mut tokens = root.descendants_with_tokens().filter_map(SyntaxElement::into_token);
     Element::of(tokens.find(|token| byte_range(token.text_range()).contains(&at)).unwrap())
 }
 
@@ -143,7 +145,7 @@ fn function_calls_have_a_name_and_arguments() {
 #[test]
 fn groups_know_what_is_inside_of_them() {
     let groups: Vec<_> = block(MACRO_B, "X[#1+[2]\n").groups().collect();
-    assert_eq!(groups.iter().map(|group| group.is_closed()).collect::<Vec<_>>(), [false, true]);
+    assert_eq!(groups.iter().map(Group::is_closed).collect::<Vec<_>>(), [false, true]);
     assert_eq!((6..=8).map(|at| groups[1].surrounds(at)).collect::<Vec<_>>(), [true, true, false]);
     assert!(groups[0].surrounds(8));
     assert!(!groups[0].surrounds(1));

@@ -134,8 +134,8 @@ impl WhileStatement {
 
     /// What decides; nothing of `DO1` alone.
     pub fn condition(&self) -> Option<Expr> {
-        let before = self.0.children_with_tokens().take_while(|child| child.kind() != SyntaxKind::DO_KW);
-        before.filter_map(Expr::cast).next()
+        let mut before = self.0.children_with_tokens().take_while(|child| child.kind() != SyntaxKind::DO_KW);
+        before.find_map(Expr::cast)
     }
 
     /// The number after `DO`.
