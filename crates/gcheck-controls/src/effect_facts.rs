@@ -206,6 +206,31 @@ impl Effect {
         matches!(self.group(), EffectGroup::ProbingMove)
     }
 
+    /// A move of the motion mode along a straight line: rapid or at the feed (`G0`, `G1`).
+    pub const fn is_straight_move(self) -> bool {
+        matches!(self.group(), EffectGroup::Rapid | EffectGroup::Linear)
+    }
+
+    /// Moves toward the work until the probe touches; with an alarm without a touch or not (`G38.2`, `G38.3`).
+    pub const fn probes_toward(self) -> bool {
+        matches!(self, Self::ProbeToward | Self::ProbeTowardOptional)
+    }
+
+    /// A canned cycle that taps, either hand (`G84`, `G74`).
+    pub const fn is_tapping_cycle(self) -> bool {
+        matches!(self.group(), EffectGroup::TappingCycle)
+    }
+
+    /// Drills in pecks of the depth of `Q`, out of the hole or up to break the chip (`G83`, `G73`).
+    pub const fn pecks(self) -> bool {
+        matches!(self, Self::CyclePeck | Self::CycleChipBreak)
+    }
+
+    /// Bores with a bar that a stopped spindle shifts off the wall (`G76`, `G87`).
+    pub const fn shifts_boring_bar(self) -> bool {
+        matches!(self, Self::CycleFineBore | Self::CycleBackBore)
+    }
+
     /// Cuts a thread with a point: a move with its lead, one pass, or all of them.
     pub const fn cuts_thread(self) -> bool {
         matches!(self.group(), EffectGroup::Thread | EffectGroup::ThreadingPass)
@@ -251,9 +276,24 @@ impl Effect {
         matches!(self.group(), EffectGroup::Compensation)
     }
 
+    /// Cutter compensation whose size is that of a numbered offset, not a diameter of the block (`G41`, `G42`).
+    pub const fn offsets_path_by_number(self) -> bool {
+        matches!(self, Self::CompensationLeft | Self::CompensationRight)
+    }
+
+    /// Says how far the path may leave the corners of the program (`G64`, `G187`).
+    pub const fn sets_path_tolerance(self) -> bool {
+        matches!(self, Self::PathBlending | Self::Smoothing)
+    }
+
     /// Takes the length of the tool from its offset, along Z or about the tip (`G43`, `G44`, `G43.4`).
     pub const fn takes_tool_length(self) -> bool {
         matches!(self, Self::LengthPlus | Self::LengthMinus | Self::ToolCentrePoint)
+    }
+
+    /// Tool length compensation along the tool axis (`G43`, `G44`).
+    pub const fn is_length_compensation(self) -> bool {
+        matches!(self, Self::LengthPlus | Self::LengthMinus)
     }
 
     /// Stops the program until the operator starts it again (`M0`, `M1`).
@@ -266,6 +306,16 @@ impl Effect {
         matches!(self.group(), EffectGroup::Call)
     }
 
+    /// Calls a macro, once or after every move: the words of its block are arguments (`G65`, `G66`).
+    pub const fn calls_macro(self) -> bool {
+        matches!(self, Self::MacroCall | Self::MacroModal)
+    }
+
+    /// Ends the program (`M30`, `M2`).
+    pub const fn ends_program(self) -> bool {
+        matches!(self.group(), EffectGroup::ProgramEnd)
+    }
+
     /// Goes back to the caller, or ends the program.
     pub const fn leaves_program(self) -> bool {
         matches!(self.group(), EffectGroup::Return | EffectGroup::ProgramEnd)
@@ -276,6 +326,11 @@ impl Effect {
         matches!(self.group(), EffectGroup::SpindleStart)
     }
 
+    /// Stops the spindle, at any angle or at one (`M5`, `M19`).
+    pub const fn stops_spindle(self) -> bool {
+        matches!(self.group(), EffectGroup::SpindleStop)
+    }
+
     /// Switches coolant on, whichever; a start of the spindle with coolant is not one of these.
     pub const fn starts_coolant(self) -> bool {
         matches!(self.group(), EffectGroup::CoolantOn)
@@ -284,6 +339,11 @@ impl Effect {
     /// Switches coolant on or off.
     pub const fn switches_coolant(self) -> bool {
         matches!(self.group(), EffectGroup::CoolantOn | EffectGroup::CoolantOff)
+    }
+
+    /// Switches an output on, at once or with the next move (`M64`, `M62`).
+    pub const fn switches_output_on(self) -> bool {
+        matches!(self, Self::OutputOn | Self::OutputOnWithMove)
     }
 
     /// Sets an output together with the next move.

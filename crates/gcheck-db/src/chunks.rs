@@ -161,6 +161,18 @@ impl Chunks {
         }
     }
 
+    /// Tree and blocks of a chunk that an edit made; `None` for another one, and when the chunks do not follow the text yet.
+    pub(crate) fn of_edited(
+        &self,
+        storage: &Storage,
+        index: usize,
+        text: &Arc<str>,
+    ) -> Option<(Arc<Parse>, Arc<BlockTable>)> {
+        let (known, chunk) = self.known.get(index)?;
+        let is_edited = Arc::ptr_eq(known, text) && chunk.origin(storage) == Origin::Edited;
+        is_edited.then(|| (tree(storage, *chunk), blocks(storage, *chunk)))
+    }
+
     /// Follows the text: chunks that are shared with what was known stay what they are.
     pub(crate) fn follow(&mut self, storage: &mut Storage, texts: &[Arc<str>]) {
         let same = |(known, text): &(&(Arc<str>, Chunk), &Arc<str>)| Arc::ptr_eq(&known.0, text);

@@ -61,6 +61,8 @@ pub struct Database {
 struct Open {
     document: Document,
     settings: Settings,
+    /// Where the last edit begins.
+    edited: Option<u32>,
     snapshot: Option<Snapshot>,
     line_ends: LineEnds,
     analysis: Option<Arc<Analysis>>,
@@ -93,7 +95,9 @@ impl Open {
     }
 
     fn indexed(&mut self, storage: &mut Storage) -> Snapshot {
+        let is_new = self.snapshot.is_none();
         let snapshot = self.snapshot();
+        let is_new = is_new || !snapshot.is_outlined();
         if !snapshot.is_outlined() {
             let known = self.incremental.whole_of(self.document.chunks()).cloned();
             snapshot.outline_by(known.unwrap_or_else(|| {
@@ -103,7 +107,21 @@ impl Open {
                 Arc::new(FileFacts::of_source(self.document.chunks(), &source, &dialect))
             }));
         }
+        if is_new {
+            self.hand_on_edited(storage, &snapshot);
+        }
         snapshot
+    }
+
+    /// People look where they edit, and the queries about that chunk have its tree and blocks.
+    fn hand_on_edited(&self, storage: &Storage, snapshot: &Snapshot) {
+        let Some(index) = self.edited.and_then(|at| snapshot.chunk_at(at)).map(|chunk| chunk.index) else {
+            return;
+        };
+        let Some(text) = self.document.chunks().get(index) else { return };
+        if let Some((tree, table)) = self.chunks.of_edited(storage, index, text) {
+            snapshot.has_read(index, tree, table);
+        }
     }
 
     /// Hands on the states before and after some blocks from what is kept of the paths. `false` when too little is.
@@ -231,6 +249,7 @@ impl Database {
         let open = Open {
             document,
             settings,
+            edited: None,
             snapshot: None,
             line_ends: LineEnds::default(),
             analysis: None,
@@ -255,6 +274,7 @@ impl Database {
     pub fn set_text(&mut self, id: DocumentId, text: &str) {
         if let Some(open) = self.documents.get_mut(&id) {
             open.document = Document::new(text);
+            open.edited = None;
             open.changed();
         }
     }
@@ -267,6 +287,7 @@ impl Database {
     pub fn edit(&mut self, id: DocumentId, range: Range<u32>, insert: &str) -> Result<(), OutOfRange> {
         let open = self.documents.get_mut(&id).ok_or(OutOfRange)?;
         open.document.edit(range.start as usize..range.end as usize, insert)?;
+        open.edited = Some(range.start);
         open.changed();
         Ok(())
     }

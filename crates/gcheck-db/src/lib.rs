@@ -17,6 +17,7 @@
 //! assert!(analysis.findings.iter().any(|finding| finding.rule.id == "feed-missing"));
 //! ```
 
+mod chunk_tree;
 mod chunks;
 mod database;
 mod executable;
@@ -24,6 +25,7 @@ mod settings;
 mod snapshot;
 mod states;
 
+pub use chunk_tree::ChunkTree;
 pub use database::{Analysis, Cancelled, Database, DocumentId};
 pub use settings::{Settings, SharedPrograms};
 pub use snapshot::{BlockPlace, ChunkText, Snapshot};

@@ -12,7 +12,7 @@ use gcheck_lint::{ChunkFacts, FileFacts};
 use gcheck_program::{Block, BlockIx, BlockTable, ControlFlowGraph, Dialect, FileIndex, lower, profile};
 use gcheck_syntax::{Document, Parse, line_len, parse};
 
-use crate::Settings;
+use crate::{ChunkTree, Settings};
 
 /// A document as it was at one moment. Cheap to clone, and free to go to other threads.
 #[derive(Debug, Clone)]
@@ -27,8 +27,10 @@ struct Inner {
     /// Number of the first line of each chunk, and the number of line ends.
     lines: Vec<u32>,
     whole: OnceLock<Arc<FileFacts>>,
-    /// The chunk that was read last, with its blocks: who asks for one block asks for its neighbours next.
-    read: Mutex<Option<(usize, Arc<BlockTable>)>>,
+    /// The chunk whose blocks were read last: who asks for one block asks for its neighbours next.
+    table: Mutex<Option<(usize, Arc<BlockTable>)>>,
+    /// The chunk whose tree was read last.
+    tree: Mutex<Option<(usize, Arc<Parse>)>>,
     /// How often a chunk was read.
     tables_read: AtomicUsize,
 }
@@ -116,8 +118,8 @@ impl Snapshot {
             lines.push(line);
         }
         let whole = whole.map_or_else(OnceLock::new, OnceLock::from);
-        let (read, tables_read) = (Mutex::default(), AtomicUsize::new(0));
-        Self(Arc::new(Inner { document, settings, starts, lines, whole, read, tables_read }))
+        let (table, tree, tables_read) = (Mutex::default(), Mutex::default(), AtomicUsize::new(0));
+        Self(Arc::new(Inner { document, settings, starts, lines, whole, table, tree, tables_read }))
     }
 
     /// What is in force.
@@ -235,19 +237,28 @@ impl Snapshot {
 
     /// The blocks of a chunk.
     pub fn table(&self, chunk: usize) -> Option<Arc<BlockTable>> {
-        let mut read = self.0.read.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some((_, table)) = read.as_ref().filter(|(index, _)| *index == chunk) {
-            return Some(Arc::clone(table));
-        }
-        let table = Arc::new(lower(self.chunk(chunk)?.text, &self.dialect()));
-        self.0.tables_read.fetch_add(1, Ordering::Relaxed);
-        *read = Some((chunk, Arc::clone(&table)));
-        Some(table)
+        last_read(&self.0.table, chunk, || {
+            let table = lower(self.chunk(chunk)?.text, &self.dialect());
+            self.0.tables_read.fetch_add(1, Ordering::Relaxed);
+            Some(table)
+        })
     }
 
     /// The tree of a chunk.
     pub fn tree(&self, chunk: usize) -> Option<Arc<Parse>> {
-        Some(Arc::new(parse(self.chunk(chunk)?.text, profile(self.control()))))
+        last_read(&self.0.tree, chunk, || Some(parse(self.chunk(chunk)?.text, profile(self.control()))))
+    }
+
+    /// The tree of the chunk that holds a byte, at its place in the file. `None` in an empty document.
+    pub fn tree_at(&self, offset: u32) -> Option<ChunkTree> {
+        let chunk = self.chunk_at(offset)?;
+        Some(ChunkTree::new(&*self.tree(chunk.index)?, chunk.base))
+    }
+
+    /// Takes tree and blocks of a chunk from where they are known.
+    pub(crate) fn has_read(&self, chunk: usize, tree: Arc<Parse>, table: Arc<BlockTable>) {
+        *self.0.tree.lock().unwrap_or_else(PoisonError::into_inner) = Some((chunk, tree));
+        *self.0.table.lock().unwrap_or_else(PoisonError::into_inner) = Some((chunk, table));
     }
 
     /// Labels, jumps, calls, loops, ends of the file.
@@ -300,6 +311,21 @@ impl Snapshot {
         let ix = table.ix(index)?;
         Some(BlockPlace { number, table, ix, chunk, base })
     }
+}
+
+/// What was read last, if it is of the chunk; else it is made and kept.
+fn last_read<T>(
+    kept: &Mutex<Option<(usize, Arc<T>)>>,
+    chunk: usize,
+    make: impl FnOnce() -> Option<T>,
+) -> Option<Arc<T>> {
+    let mut kept = kept.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some((_, known)) = kept.as_ref().filter(|(index, _)| *index == chunk) {
+        return Some(Arc::clone(known));
+    }
+    let new = Arc::new(make()?);
+    *kept = Some((chunk, Arc::clone(&new)));
+    Some(new)
 }
 
 /// Line ends in whole lines or a part of them: `\n`, `\r\n` or `\r`.

@@ -82,6 +82,21 @@ fn the_tree_of_an_edited_chunk_is_made_once_and_everything_follows_from_it() {
 }
 
 #[test]
+fn a_snapshot_has_tree_and_blocks_of_the_edited_chunk_from_the_queries() {
+    let mut watched = Watched::open(inputs::surfacing(60_000));
+    let line = watched.line(50_000);
+    watched.edit(line.start..line.start, "(HERE) ");
+    let snapshot = watched.database.indexed(watched.id).unwrap();
+    let chunk = snapshot.chunk_at(line.start as u32).unwrap().index;
+    let (tree, table) = (snapshot.tree(chunk).unwrap(), snapshot.table(chunk).unwrap());
+    assert_eq!(snapshot.tables_read(), 0);
+    assert_eq!(tree.syntax().to_string(), snapshot.chunk(chunk).unwrap().text);
+    assert!(table.blocks().next().is_some());
+    assert!(Arc::ptr_eq(&tree, &snapshot.tree(chunk).unwrap()), "the tree is kept");
+    assert_ne!(snapshot.tree(0).unwrap().syntax().to_string(), tree.syntax().to_string());
+}
+
+#[test]
 fn a_comment_is_read_again_in_its_chunk_alone() {
     let mut watched = Watched::open(inputs::surfacing(60_000));
     let line = watched.line(50_000);

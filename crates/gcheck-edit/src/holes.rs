@@ -225,7 +225,7 @@ impl Finder<'_> {
         let deepest = cuts.iter().take_while(|cut| cut.is_deeper).last().unwrap_or(first);
         let mut guesses = Vec::new();
         for effect in CYCLES {
-            let pecks = matches!(effect, Effect::CyclePeck | Effect::CycleChipBreak);
+            let pecks = effect.pecks();
             let last = if pecks { deepest } else { first };
             let dwells = matches!(effect, Effect::CycleDrillDwell | Effect::CycleBoreDwell);
             if dwells && last.dwell.is_none() || pecks && is_same(first.end, last.end) {

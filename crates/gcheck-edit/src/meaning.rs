@@ -153,7 +153,7 @@ pub(crate) fn read(place: &Place, facts: &Facts, model: &Model<'_>) -> Read {
     };
     let mut here = codes.iter().map(|code| model.effect(*code));
     let cuts_thread = here.any(is_thread) || is_thread(facts.motion) && class == Class::Moves && moves;
-    let taps = matches!(cycle, Effect::CycleTap | Effect::CycleLeftTap) && runs_cycle;
+    let taps = cycle.is_tapping_cycle() && runs_cycle;
     Read { class, words: meanings, depth, cuts: cuts || cuts_thread, threads: cuts_thread || taps, taps }
 }
 
@@ -279,9 +279,7 @@ fn meaning(
             incremental: incremental && rules.incremental_r || rules.r_is_distance,
         },
         (_, Some(axis)) if facts.is_arc() => Meaning::Centre { axis, incremental: !facts.centre_absolute },
-        (_, Some(axis)) if matches!(cycle, Effect::CycleFineBore | Effect::CycleBackBore) => {
-            Meaning::Vector { axis }
-        }
+        (_, Some(axis)) if cycle.shifts_boring_bar() => Meaning::Vector { axis },
         (_, Some(_)) if matches!(facts.motion, Effect::SplineCubic | Effect::SplineQuadratic) => {
             Meaning::Direction
         }

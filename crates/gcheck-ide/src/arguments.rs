@@ -4,10 +4,10 @@
 
 use std::ops::Range;
 
-use gcheck_controls::{Code, Control, Effect, Letter};
+use gcheck_controls::{Code, Control};
 use gcheck_db::Snapshot;
-use gcheck_program::{OLabel, remark};
-use gcheck_syntax::SyntaxKind;
+use gcheck_program::OLabel;
+use gcheck_syntax::ast::{Block, Expr, Statement};
 
 use crate::remarks::is_directive;
 use crate::symbols::{Occurrence, Symbol, all_variables, program_around, subs};
@@ -16,6 +16,8 @@ use crate::{ReferenceKind, Workspace};
 
 /// Bytes of a file that is read for its arguments while somebody types.
 const LARGE: u32 = 256 << 10;
+/// The variable that raises an alarm of the macro's own when it is set.
+const ALARM: u32 = 3_000;
 /// Arguments that a call of an O-word may have.
 const MOST_ARGUMENTS: u8 = 30;
 
@@ -71,7 +73,7 @@ pub(crate) fn arguments_of_sub(workspace: &Workspace, label: &OLabel) -> Option<
 
 /// Does a code call a macro?
 pub(crate) fn is_call(code: Code<'_>) -> bool {
-    matches!(code.effect(), Effect::MacroCall | Effect::MacroModal)
+    code.effect().calls_macro()
 }
 
 /// The program that a macro call of the block names.
@@ -79,9 +81,7 @@ pub(crate) fn called(typing: &Typing<'_>, code: Code<'_>) -> Option<u32> {
     if !is_call(code) {
         return None;
     }
-    let names_program = |lexeme: &&crate::lexemes::Lexeme| typing.letter(lexeme) == Some(Letter::of('P'));
-    let word = typing.line.iter().filter(|lexeme| lexeme.kind == SyntaxKind::WORD).find(names_program)?;
-    typing.snapshot.slice(word.range.clone()).get(1..)?.trim().trim_end_matches('.').parse().ok()
+    typing.words().find(|word| word.letter() == Some('P'))?.integer()
 }
 
 /// The arguments that a part of a file reads, of those that it may be given, in the order of their variables.
@@ -91,6 +91,7 @@ fn taken_by(
     given: impl Iterator<Item = (String, u8)>,
 ) -> Vec<Argument> {
     let all = all_variables(snapshot);
+    let mut text = None;
     let mut found = Vec::new();
     for (letter, variable) in given {
         let of_it = |occurrence: &&Occurrence| {
@@ -108,10 +109,10 @@ fn taken_by(
         if !occurrences.iter().any(|occurrence| is_read(&occurrence)) {
             continue;
         }
-        let lines = Lines { snapshot, program: program.clone() };
+        let text = text.get_or_insert_with(|| MacroText::of(snapshot, program));
         found.push(Argument {
-            is_needed: !lines.does_without(&occurrences, variable),
-            says: lines.says(&occurrences, &letter, variable),
+            is_needed: !text.does_without(variable),
+            says: text.says(&occurrences, &letter, variable),
             letter,
             variable,
         });
@@ -120,44 +121,68 @@ fn taken_by(
     found
 }
 
-/// The lines of a macro.
-struct Lines<'s> {
-    snapshot: &'s Snapshot,
-    program: Range<u32>,
+/// What the text of a macro tells of its arguments.
+#[derive(Default)]
+struct MacroText {
+    /// Comments for people, the first of each block, with the block's bytes of the file.
+    comments: Vec<(Range<u32>, String)>,
+    /// Blocks that ask whether a variable was given.
+    tests: Vec<Test>,
+    /// Sequence numbers of blocks that raise an alarm of the macro's own.
+    alarms: Vec<u32>,
 }
 
-impl Lines<'_> {
-    fn all(&self) -> impl Iterator<Item = String> {
-        let first = self.snapshot.line_at(self.program.start);
-        let last = self.snapshot.line_at(self.program.end.saturating_sub(1).max(self.program.start));
-        (first..=last).map(|line| self.snapshot.line_text(line).into_owned())
+/// `IF [#7 EQ #0] …`
+struct Test {
+    variable: u32,
+    /// The block raises an alarm of the macro's own.
+    is_alarm: bool,
+    /// The sequence number that the block jumps to.
+    target: Option<u32>,
+}
+
+impl MacroText {
+    fn of(snapshot: &Snapshot, program: &Range<u32>) -> Self {
+        let mut this = Self::default();
+        for chunk in snapshot.chunks() {
+            let end = program.end.min(chunk.base + chunk.text.len() as u32);
+            let start = program.start.max(chunk.base);
+            let Some(tree) = (start < end).then(|| snapshot.tree_at(start)).flatten() else { continue };
+            for block in tree.blocks(start..end) {
+                this.block(&block, tree.in_file(block.range()));
+            }
+        }
+        this
+    }
+
+    fn block(&mut self, block: &Block, range: Range<u32>) {
+        let comment = block.comments().next().map(|comment| comment.text().trim().to_owned());
+        let says_something = |comment: &String| !comment.is_empty() && !is_directive(comment);
+        self.comments.extend(comment.filter(says_something).map(|comment| (range, comment)));
+        let is_alarm = block.all_statements().any(|statement| {
+            let Statement::Assignment(assignment) = statement else { return false };
+            assignment.target().and_then(|target| target.number()) == Some(ALARM)
+        });
+        if is_alarm {
+            let number = block.words().find(|word| word.letter() == Some('N'));
+            self.alarms.extend(number.and_then(|number| number.integer()));
+        }
+        let target = block.all_statements().find_map(|statement| match statement {
+            Statement::Goto(goto) => match goto.target()? {
+                Expr::Number(number) => number.integer(),
+                _ => None,
+            },
+            _ => None,
+        });
+        let tested = block.expressions().filter_map(|expression| tested(&expression));
+        self.tests.extend(tested.map(|variable| Test { variable, is_alarm, target }));
     }
 
     /// Does the macro ask whether the argument was given (`IF [#7 EQ #0] …`), and go on without it?
-    fn does_without(&self, occurrences: &[&Occurrence], variable: u8) -> bool {
-        occurrences.iter().any(|occurrence| {
-            let line = self.snapshot.line_text(self.snapshot.line_at(occurrence.range.start));
-            let plain = squeezed(&line);
-            let asks = ["EQ#0]", "NE#0]"].iter().any(|test| plain.contains(&format!("#{variable}{test}")));
-            asks && !self.ends_in_an_alarm(&plain)
-        })
-    }
-
-    /// Does a statement, or the block that it jumps to, raise an alarm of the macro's own?
-    fn ends_in_an_alarm(&self, statement: &str) -> bool {
-        let alarm = |text: &str| text.contains("#3000=");
-        let label = statement.split_once("GOTO").map(|(_, label)| {
-            let end = label.find(|c: char| !c.is_ascii_digit()).unwrap_or(label.len());
-            format!("N{}", label.get(..end).unwrap_or_default())
-        });
-        let jumps_to_alarm = |label: String| {
-            self.all().any(|line| {
-                let plain = squeezed(&line);
-                let rest = plain.strip_prefix(&label);
-                rest.is_some_and(|rest| !rest.starts_with(|c: char| c.is_ascii_digit()) && alarm(rest))
-            })
-        };
-        alarm(statement) || label.is_some_and(jumps_to_alarm)
+    fn does_without(&self, variable: u8) -> bool {
+        let raises_alarm =
+            |test: &Test| test.is_alarm || test.target.is_some_and(|target| self.alarms.contains(&target));
+        self.tests.iter().any(|test| test.variable == u32::from(variable) && !raises_alarm(test))
     }
 
     /// A comment that names the variable or begins with the letter; else one beside the first use.
@@ -178,24 +203,25 @@ impl Lines<'_> {
             let rest = rest.strip_prefix(['=', ':', '-'])?;
             Some(trimmed(rest).to_owned()).filter(|text| !text.is_empty())
         };
-        let said = |line: &str| remark(line).filter(|comment| !is_directive(comment)).map(str::to_owned);
-        let comments: Vec<String> = self.all().filter_map(|line| said(&line)).collect();
-        let named = || comments.iter().find_map(|comment| of_variable(comment));
-        let lettered = || comments.iter().find_map(|comment| of_letter(comment));
+        let named = || self.comments.iter().find_map(|(_, comment)| of_variable(comment));
+        let lettered = || self.comments.iter().find_map(|(_, comment)| of_letter(comment));
         let beside = || {
             occurrences.iter().find_map(|occurrence| {
-                let line = self.snapshot.line_text(self.snapshot.line_at(occurrence.range.start));
-                said(&line)
+                let of_block = |(block, _): &&(Range<u32>, String)| block.contains(&occurrence.range.start);
+                self.comments.iter().find(of_block).map(|(_, comment)| comment.clone())
             })
         };
         named().or_else(lettered).or_else(beside)
     }
 }
 
-/// A line without blanks and comments, in capitals.
-fn squeezed(line: &str) -> String {
-    let code = line.find(['(', ';']).map_or(line, |at| line.get(..at).unwrap_or(line));
-    code.chars().filter(|c| !c.is_whitespace()).map(|c| c.to_ascii_uppercase()).collect()
+/// The variable that an expression compares with the one that is always empty.
+fn tested(expression: &Expr) -> Option<u32> {
+    let Expr::Binary(test) = expression else { return None };
+    let operator = test.operator()?;
+    let is_equality = ["EQ", "NE"].iter().any(|name| operator.text().eq_ignore_ascii_case(name));
+    let empty = test.right()?.as_variable()?.number()?;
+    test.left()?.as_variable()?.number().filter(|_| is_equality && empty == 0)
 }
 
 /// Without blanks and the signs that join a name and its meaning.

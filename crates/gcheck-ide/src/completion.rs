@@ -99,7 +99,7 @@ pub fn completion(
     let (prefix, from) = typing.prefix();
     items.from = from;
     let first = prefix.chars().next().map(|c| c.to_ascii_uppercase());
-    let last = typing.last_before(from).map(|lexeme| lexeme.kind);
+    let last = typing.last_before(from).map(|token| token.kind());
     // It opens the list in comments of ours alone.
     if first.is_none() && matches!(trigger, Some('=' | ':')) {
         return Vec::new();
@@ -917,23 +917,17 @@ impl Items<'_, '_> {
 
     /// The keywords of O-words. After a label that the file has opened, what goes on with it comes first.
     fn o_keywords(&mut self) {
-        let label = self.typing.last_before(self.from);
-        let label = label.map(|label| label.range.clone()).unwrap_or_default();
-        let typed = self.typing.snapshot.slice(label.clone()).to_ascii_lowercase();
+        let typed = self.typing.o_label();
+        let typed_name = typed.as_ref().and_then(|label| label.name()).map(parameter_key);
+        let typed_number = typed.as_ref().and_then(gcheck_syntax::ast::OLabel::number);
         let mut opened = None;
         for word in &self.typing.snapshot.file_index().o_words {
             if word.range.start >= self.typing.start {
                 break;
             }
             let is_same = match &word.label {
-                OLabel::Number(number) => {
-                    let digits = typed.get(1..).map(|digits| digits.trim().trim_matches(['<', '>']));
-                    digits.and_then(|digits| digits.parse().ok()) == Some(*number)
-                }
-                OLabel::Name(name) => {
-                    let inner = typed.split_once('<').and_then(|(_, rest)| rest.split_once('>'));
-                    inner.is_some_and(|(inner, _)| parameter_key(inner) == parameter_key(name))
-                }
+                OLabel::Number(number) => typed_number == Some(*number),
+                OLabel::Name(name) => typed_name.as_ref() == Some(&parameter_key(name)),
                 OLabel::Computed => false,
             };
             if !is_same {

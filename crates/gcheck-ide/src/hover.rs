@@ -14,14 +14,15 @@ use gcheck_engine::{
 };
 use gcheck_geometry::Plane;
 use gcheck_program::{ExprIx, StatementKind, Value, Word};
-use gcheck_syntax::SyntaxKind;
+use gcheck_syntax::ast::{self, Element};
+use gcheck_syntax::{SyntaxKind, SyntaxToken};
 
 use crate::ReferenceKind;
 use crate::assumed::assumed;
 use crate::describe;
 use crate::foreign::Foreign;
 use crate::keywords;
-use crate::lexemes::{lexemes_of_line, touches};
+use crate::lexemes::touches;
 use crate::number_text::{coordinate, decimals, plain, unit, value};
 use crate::remarks::title;
 use crate::sections::tool_names;
@@ -136,33 +137,32 @@ impl Subject {
     }
 }
 
+/// The token that is pointed at, and its bytes of the file: where two meet the one after the cursor, unless it is a blank.
+fn pointed_at(snapshot: &Snapshot, offset: u32) -> Option<(SyntaxToken, Range<u32>)> {
+    let tree = snapshot.tree_at(offset)?;
+    let is_solid =
+        |token: &SyntaxToken| !matches!(token.kind(), SyntaxKind::WHITESPACE | SyntaxKind::NEWLINE);
+    let after = tree.token_at(offset).filter(is_solid);
+    let token = after.or_else(|| tree.token_before(offset).filter(is_solid))?;
+    let range = tree.place_of(&token);
+    Some((token, range))
+}
+
 fn subject(snapshot: &Snapshot, place: &BlockPlace, offset: u32) -> Subject {
-    let lexemes = lexemes_of_line(snapshot, offset);
-    // Where two lexemes meet, the one after the cursor is pointed at, unless it is a blank.
-    let at = lexemes
-        .iter()
-        .find(|lexeme| {
-            lexeme.range.contains(&offset)
-                && !matches!(lexeme.kind, SyntaxKind::WHITESPACE | SyntaxKind::NEWLINE)
-        })
-        .or_else(|| {
-            lexemes.iter().rfind(|lexeme| lexeme.range.end == offset && lexeme.kind != SyntaxKind::WHITESPACE)
-        });
-    let Some(at) = at.filter(|lexeme| !lexeme.kind.is_comment()) else {
-        return Subject::Nothing(at.map_or(offset..offset, |lexeme| lexeme.range.clone()));
-    };
-    match at.kind {
-        SyntaxKind::FUNCTION => {
-            let name = snapshot.slice(at.range.clone()).to_ascii_uppercase();
-            return Subject::Function(at.range.clone(), name);
+    let Some((token, at)) = pointed_at(snapshot, offset) else { return Subject::Nothing(offset..offset) };
+    match Element::of(token) {
+        Element::Comment(_) => return Subject::Nothing(at),
+        Element::Function(name) => return Subject::Function(at, name.text().to_ascii_uppercase()),
+        Element::Keyword(token) | Element::Operator(token)
+            if keywords::does(token.kind(), "", false).is_some()
+                || token.kind() == SyntaxKind::COMPARISON =>
+        {
+            let named = symbol_at(snapshot, offset).filter(|_| token.kind().is_keyword());
+            return Subject::Keyword(at, token.kind(), named.map(|occurrence| occurrence.symbol));
         }
-        kind if keywords::does(kind, "", false).is_some() || kind == SyntaxKind::COMPARISON => {
-            let named = symbol_at(snapshot, offset).filter(|_| kind.is_keyword());
-            return Subject::Keyword(at.range.clone(), kind, named.map(|occurrence| occurrence.symbol));
-        }
-        SyntaxKind::VARIABLE | SyntaxKind::NAMED_VARIABLE => {
-            if let Some(occurrence) = symbol_at(snapshot, at.range.start + 1) {
-                return Subject::Symbol(at.range.clone(), occurrence.symbol);
+        Element::Variable(ast::Variable::Numbered(_) | ast::Variable::Named(_)) => {
+            if let Some(occurrence) = symbol_at(snapshot, at.start + 1) {
+                return Subject::Symbol(at, occurrence.symbol);
             }
         }
         _ => {}
@@ -170,14 +170,14 @@ fn subject(snapshot: &Snapshot, place: &BlockPlace, offset: u32) -> Subject {
     let words = place.table.words(place.block()).iter();
     let word = words.copied().find(|word| {
         let range = place.in_file(word.range());
-        range.start <= at.range.start && at.range.end <= range.end
+        range.start <= at.start && at.end <= range.end
     });
     match word {
         Some(word) if word.code.is_some() => Subject::Code(place.in_file(word.range()), word.code),
         Some(word) => Subject::Word(place.in_file(word.range()), word),
         None => match symbol_at(snapshot, offset) {
             Some(occurrence) => Subject::Symbol(occurrence.range, occurrence.symbol),
-            None => Subject::Nothing(at.range.clone()),
+            None => Subject::Nothing(at),
         },
     }
 }

@@ -1,4 +1,6 @@
-//! The tokens of whole lines, without a tree.
+//! The tokens of whole lines, without a tree: for what goes over all of a large file, colours and variables.
+//!
+//! What is asked at one place reads the tree ([`Snapshot::tree_at`]).
 //!
 //! Knows: how tokens come from the grammar. Must not know: what they mean.
 
@@ -21,12 +23,6 @@ pub(crate) fn lexemes(snapshot: &Snapshot, lines: &str, base: u32) -> Vec<Lexeme
     let mut sink = LexemeSink { base, list: Vec::with_capacity(lines.len() / 6) };
     parse_into(lines, profile(snapshot.control()), &mut sink);
     sink.list
-}
-
-/// The tokens of the line around a byte.
-pub(crate) fn lexemes_of_line(snapshot: &Snapshot, offset: u32) -> Vec<Lexeme> {
-    let line = snapshot.line_range(snapshot.line_at(offset));
-    lexemes(snapshot, &snapshot.slice(line.clone()), line.start)
 }
 
 /// Does the range contain the offset, its end included? A cursor after a word is still at the word.

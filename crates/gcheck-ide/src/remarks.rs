@@ -1,4 +1,4 @@
-//! What the comment of a line calls what the line begins.
+//! What the comment of a line calls what the line begins. The line may be of a program on disk, of which there is no tree.
 //!
 //! Knows: comments, and which of them are directives of ours. Must not know: what is named.
 

@@ -283,7 +283,7 @@ impl Finder<'_> {
         let effects =
             || words.iter().filter_map(|word| control.code_at(word.code)).map(gcheck_controls::Code::effect);
         // The arguments of a macro call are not tools.
-        if effects().any(|effect| matches!(effect, Effect::MacroCall | Effect::MacroModal)) {
+        if effects().any(Effect::calls_macro) {
             return;
         }
         let word = words.iter().find(|word| word.letter == Letter::of('T'));

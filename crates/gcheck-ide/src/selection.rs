@@ -5,8 +5,8 @@
 use std::ops::Range;
 
 use gcheck_db::Snapshot;
-use gcheck_program::profile;
-use gcheck_syntax::{SyntaxKind, parse};
+use gcheck_syntax::ast::Block;
+use gcheck_syntax::{SyntaxKind, byte_range};
 
 use crate::sections::sections_around;
 use crate::symbols::{program_around, subs};
@@ -38,28 +38,16 @@ pub fn selection_ranges(snapshot: &Snapshot, offset: u32) -> Vec<Range<u32>> {
 }
 
 fn inside_the_block(snapshot: &Snapshot, offset: u32) -> Vec<Range<u32>> {
-    // A block never goes over the end of its line.
-    let line = snapshot.line_range(snapshot.line_at(offset));
-    let base = line.start;
-    let tree = parse(&snapshot.slice(line.clone()), profile(snapshot.control()));
-    let root = tree.syntax();
-    let inside = (offset - base).min(root.text_range().end().into());
-    let tokens = root.token_at_offset(inside.into());
+    let Some(tree) = snapshot.tree_at(offset) else { return Vec::new() };
+    let is_blank = |kind| matches!(kind, SyntaxKind::WHITESPACE | SyntaxKind::NEWLINE | SyntaxKind::BOM);
     // Between a word and a blank the word is meant.
-    let left =
-        tokens.clone().left_biased().filter(|token| !token.kind().is_trivia() || token.kind().is_comment());
-    let Some(token) = left.or_else(|| tokens.right_biased()) else { return Vec::new() };
-    if matches!(token.kind(), SyntaxKind::WHITESPACE | SyntaxKind::NEWLINE) {
-        return Vec::new();
-    }
-    let in_file = |range: Range<u32>| base + range.start..base + range.end;
-    let own = in_file(token.text_range().start().into()..token.text_range().end().into());
-    let mut ranges = vec![own];
-    let nodes =
-        token.parent_ancestors().filter(|node| !matches!(node.kind(), SyntaxKind::CHUNK | SyntaxKind::BLOCK));
-    ranges
-        .extend(nodes.map(|node| in_file(node.text_range().start().into()..node.text_range().end().into())));
-    ranges
+    let token =
+        tree.token_before(offset).filter(|token| !is_blank(token.kind())).or_else(|| tree.token_at(offset));
+    let Some(token) = token.filter(|token| !is_blank(token.kind())) else { return Vec::new() };
+    let nodes = token.parent_ancestors();
+    let nodes = nodes.take_while(|node| Block::cast(node.clone()).is_none());
+    let around = std::iter::once(token.text_range()).chain(nodes.map(|node| node.text_range()));
+    around.map(|range| tree.in_file(byte_range(range))).collect()
 }
 
 #[cfg(test)]

@@ -90,6 +90,7 @@ pub fn semantic_tokens(
         if end <= wanted.start || wanted.end <= chunk.base {
             continue;
         }
+        // Tokens without a tree: an editor asks for all of a file, and what a token is the token alone says.
         let (skip, len) = lines_around(chunk.text, chunk.base, &wanted);
         let lines = chunk.text.get(skip..skip + len).unwrap_or_default();
         painter.lines(&lexemes(snapshot, lines, chunk.base + skip as u32));

@@ -10,11 +10,12 @@ use std::ops::Range;
 use gcheck_controls::{Code, Control, Letter, Need, WordEntry};
 use gcheck_db::{Database, DocumentId};
 use gcheck_engine::{Abstract, Domain as _, Look, State};
-use gcheck_syntax::SyntaxKind;
+use gcheck_syntax::ast::Statement;
+use gcheck_syntax::{SyntaxKind, byte_range};
 
 use crate::arguments::{Argument, arguments, arguments_of_sub, called, is_call};
 use crate::completion::{Knowledge, with_state};
-use crate::typing::Typing;
+use crate::typing::{Typing, address};
 use crate::{Workspace, describe};
 
 /// Characters that open the help.
@@ -73,14 +74,8 @@ pub fn signature_help(
     if codes.is_empty() {
         return Vec::new();
     }
-    let at = typing
-        .line
-        .iter()
-        .rfind(|lexeme| lexeme.range.start < typing.offset && !lexeme.kind.is_trivia())
-        // After a blank the next word is to come; a cursor inside a word is at the word.
-        .filter(|lexeme| lexeme.range.end >= typing.offset)
-        .filter(|lexeme| matches!(lexeme.kind, SyntaxKind::WORD | SyntaxKind::LETTER))
-        .and_then(|lexeme| typing.letter(lexeme));
+    // After a blank the next word is to come; a cursor inside a word is at the word.
+    let at = typing.word_here().and_then(|word| address(&word));
     let block = Block { typing: &typing, present: typing.letters(), at };
     // What was given earlier costs an execution: only where a word of that kind is missing.
     let mut missing: Vec<Vec<Letter>> = codes.iter().map(|code| block.missing(*code, &|_| false)).collect();
@@ -113,30 +108,21 @@ pub fn signature_help(
 
 /// The call of a subroutine of O-words that is being typed: `o<probe> call [1] [2]`.
 fn call_of_sub(workspace: &Workspace, typing: &Typing<'_>, is_asked: bool) -> Option<Signature> {
-    let before = || typing.line.iter().filter(|lexeme| lexeme.range.end <= typing.offset);
-    let call = before().find(|lexeme| lexeme.kind == SyntaxKind::CALL_KW)?;
-    let written = typing.snapshot.slice(typing.start..call.range.start);
+    let (statement, call) = typing.statements().find_map(|statement| {
+        let Statement::O(statement) = statement else { return None };
+        let keyword = statement.keyword().filter(|keyword| keyword.kind() == SyntaxKind::CALL_KW)?;
+        let call = typing.in_file(byte_range(keyword.text_range()));
+        (call.end <= typing.offset).then_some((statement, call))
+    })?;
+    let written = typing.snapshot.slice(typing.in_file(statement.label()?.range()));
     let mut words = typing.snapshot.file_index().o_words.iter();
-    let label =
-        words.find(|word| word.range.start <= call.range.start && call.range.end <= word.range.end)?;
+    let label = words.find(|word| word.range.start <= call.start && call.end <= word.range.end)?;
     let taken = arguments_of_sub(workspace, &label.label)?;
-    // The bracket that the cursor is in, else the one to come.
-    let (mut depth, mut begun) = (0_u32, 0_usize);
-    for lexeme in before().filter(|lexeme| lexeme.range.start >= call.range.end) {
-        match lexeme.kind {
-            SyntaxKind::L_BRACKET => {
-                begun += usize::from(depth == 0);
-                depth += 1;
-            }
-            SyntaxKind::R_BRACKET => depth = depth.saturating_sub(1),
-            _ => {}
-        }
-    }
-    let active = if depth > 0 { begun.saturating_sub(1) } else { begun };
+    let active = statement.argument_at(typing.in_chunk(typing.offset));
     if taken.is_empty() || !is_asked && active >= taken.len() {
         return None;
     }
-    let mut text = format!("{} {}", written.trim(), typing.snapshot.slice(call.range.clone()));
+    let mut text = format!("{} {}", written.trim(), typing.snapshot.slice(call));
     let mut parameters = Vec::new();
     for argument in &taken {
         text.push(' ');
@@ -220,9 +206,9 @@ impl Block<'_, '_> {
     /// there after the last that is.
     fn next(&self, code: Code<'_>) -> Option<Letter> {
         let letters = || code.entry().words.iter().filter_map(|word| Letter::parse(&word.letter));
-        let last = self.typing.line.iter().filter(|lexeme| lexeme.range.end < self.typing.offset);
-        let last = last.filter(|lexeme| lexeme.kind == SyntaxKind::WORD);
-        let last = last.filter_map(|lexeme| self.typing.letter(lexeme)).next_back()?;
+        let finished =
+            self.typing.words().filter(|word| self.typing.in_file(word.range()).end < self.typing.offset);
+        let last = finished.filter_map(|word| address(&word)).last()?;
         let place = letters().position(|letter| letter == last)?;
         letters().skip(place + 1).find(|letter| !self.present.contains(letter))
     }
@@ -230,15 +216,11 @@ impl Block<'_, '_> {
     /// Does the block have a word with its value: `L2`?
     fn has_word(&self, word: &str) -> bool {
         let plain = |text: &str| {
-            let text: String = text.chars().filter(|c| !c.is_whitespace()).collect();
             let text = text.trim_end_matches('.').to_ascii_uppercase();
             let (letter, number) = text.split_at_checked(1).unwrap_or((&text, ""));
             format!("{letter}{}", number.trim_start_matches('0'))
         };
-        let words = self.typing.line.iter().filter(|lexeme| lexeme.kind == SyntaxKind::WORD);
-        words
-            .map(|lexeme| self.typing.snapshot.slice(lexeme.range.clone()))
-            .any(|text| plain(&text) == plain(word))
+        self.typing.words().any(|written| plain(&written.text()) == plain(word))
     }
 }
 

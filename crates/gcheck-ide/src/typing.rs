@@ -5,11 +5,11 @@
 use std::ops::Range;
 
 use gcheck_controls::{Code, CodeNumber, Control, Letter, WordEntry};
-use gcheck_db::Snapshot;
-use gcheck_syntax::SyntaxKind;
+use gcheck_db::{ChunkTree, Snapshot};
+use gcheck_syntax::ast::{Block, Comment, Element, OLabel, Statement, Word};
+use gcheck_syntax::{SyntaxKind, SyntaxToken, byte_range};
 
 use crate::describe;
-use crate::lexemes::{Lexeme, lexemes};
 
 /// What the tokens before a place ask for next.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -30,8 +30,10 @@ pub(crate) enum Expected {
 /// A block that is being typed.
 pub(crate) struct Typing<'s> {
     pub(crate) snapshot: &'s Snapshot,
-    /// Tokens of the whole line.
-    pub(crate) line: Vec<Lexeme>,
+    /// The tree of the chunk around; none in an empty document.
+    tree: Option<ChunkTree>,
+    /// The blocks of the line.
+    blocks: Vec<Block>,
     /// Text of the line up to the cursor.
     pub(crate) before: String,
     /// First byte of the line.
@@ -49,7 +51,20 @@ impl<'s> Typing<'s> {
         let upto = (0..=upto).rev().find(|at| text.is_char_boundary(*at)).unwrap_or(0);
         let before = text.get(..upto).unwrap_or_default().to_owned();
         let offset = range.start + upto as u32;
-        Self { snapshot, line: lexemes(snapshot, &text, range.start), before, start: range.start, offset }
+        let start = range.start;
+        let tree = snapshot.tree_at(start);
+        let blocks = tree.iter().flat_map(|tree| tree.blocks(range.clone())).collect();
+        Self { snapshot, tree, blocks, before, start, offset }
+    }
+
+    /// Bytes of a view as bytes of the file.
+    pub(crate) fn in_file(&self, range: Range<u32>) -> Range<u32> {
+        self.tree.as_ref().map_or_else(|| range.clone(), |tree| tree.in_file(range.clone()))
+    }
+
+    /// A byte of the file as views count it.
+    pub(crate) fn in_chunk(&self, offset: u32) -> u32 {
+        self.tree.as_ref().map_or(0, |tree| tree.in_chunk(offset))
     }
 
     pub(crate) fn control(&self) -> &'s Control {
@@ -64,15 +79,12 @@ impl<'s> Typing<'s> {
 
     /// The text of the comment that the cursor is in, up to the cursor.
     pub(crate) fn comment(&self) -> Option<&str> {
-        let lexeme = self
-            .line
-            .iter()
-            .find(|lexeme| lexeme.range.start < self.offset && self.offset <= lexeme.range.end)?;
-        let is_closed = lexeme.kind == SyntaxKind::COMMENT && lexeme.range.end == self.offset;
-        if !lexeme.kind.is_comment() || is_closed {
+        let comment = Comment::cast(self.token_before(self.offset)?)?;
+        let range = self.in_file(comment.range());
+        if comment.is_closed() && range.end == self.offset {
             return None;
         }
-        self.before.get((lexeme.range.start - self.start) as usize + 1..)
+        self.before.get((range.start - self.start) as usize + 1..)
     }
 
     /// What is being typed: letters, digits and signs right before the cursor, with the offset of the first.
@@ -106,105 +118,121 @@ impl<'s> Typing<'s> {
 
     /// Is the cursor inside brackets?
     pub(crate) fn in_brackets(&self) -> bool {
-        let before = self.line.iter().filter(|lexeme| lexeme.range.start < self.offset);
-        let depth = before.fold(0_i32, |depth, lexeme| match lexeme.kind {
-            SyntaxKind::L_BRACKET => depth + 1,
-            SyntaxKind::R_BRACKET => depth - 1,
-            _ => depth,
-        });
-        depth > 0
+        let offset = self.in_chunk(self.offset);
+        self.blocks.iter().any(|block| block.is_in_brackets(offset))
     }
 
     /// What the tokens before `from` ask for.
     pub(crate) fn expected(&self, from: u32) -> Expected {
-        let before: Vec<&Lexeme> =
-            self.line.iter().filter(|lexeme| lexeme.range.end <= from && !lexeme.kind.is_trivia()).collect();
-        let Some(last) = before.last() else { return Expected::Anything };
+        let Some(last) = self.last_before(from) else { return Expected::Anything };
+        let end = self.in_file(byte_range(last.text_range())).end;
         let syntax = self.control().syntax();
-        if syntax.o_words && before.iter().any(|lexeme| self.is_label(lexeme)) {
-            let is_alone = self.is_label(last) && last.range.end < self.offset;
-            return if is_alone { Expected::OKeyword } else { self.expected_in_brackets(&before) };
+        let label = self.o_label().map(|label| self.in_file(label.range()).end);
+        if let Some(label) = label.filter(|label| syntax.o_words && *label <= end) {
+            let is_alone = label == end && end < self.offset;
+            return if is_alone { Expected::OKeyword } else { self.expected_in_brackets(&last) };
         }
-        // The bracket that the last token closes, if it closes one.
-        let mut depth = 0;
-        let open = before.iter().rposition(|lexeme| {
-            match lexeme.kind {
-                SyntaxKind::R_BRACKET => depth += 1,
-                SyntaxKind::L_BRACKET => depth -= 1,
-                _ => {}
-            }
-            depth == 0
+        let after_condition = self.statements().find_map(|statement| {
+            let (keyword, condition) = match statement {
+                Statement::If(statement) => (statement.keyword()?, statement.condition()?),
+                Statement::While(statement) => (statement.keyword()?, statement.condition()?),
+                _ => return None,
+            };
+            (self.in_file(condition.range()).end == end).then_some(keyword.kind())
         });
-        let keyword = open.and_then(|open| before.get(open.checked_sub(1)?)).map(|lexeme| lexeme.kind);
-        match keyword {
-            Some(keyword @ (SyntaxKind::IF_KW | SyntaxKind::WHILE_KW))
-                if last.kind == SyntaxKind::R_BRACKET && syntax.macro_statements =>
+        match after_condition {
+            Some(keyword)
+                if last.kind() == SyntaxKind::R_BRACKET && syntax.macro_statements && !self.in_brackets() =>
             {
                 Expected::AfterCondition(keyword)
             }
-            _ => self.expected_in_brackets(&before),
+            _ => self.expected_in_brackets(&last),
         }
     }
 
-    fn expected_in_brackets(&self, before: &[&Lexeme]) -> Expected {
-        let ends_operand = before.last().is_some_and(|last| {
-            matches!(
-                last.kind,
-                SyntaxKind::VARIABLE
-                    | SyntaxKind::NAMED_VARIABLE
-                    | SyntaxKind::NUMBER
-                    | SyntaxKind::R_BRACKET
-            )
-        });
+    fn expected_in_brackets(&self, last: &SyntaxToken) -> Expected {
+        let ends_operand = matches!(
+            last.kind(),
+            SyntaxKind::VARIABLE | SyntaxKind::NAMED_VARIABLE | SyntaxKind::NUMBER | SyntaxKind::R_BRACKET
+        );
         if !ends_operand || !self.in_brackets() {
             return Expected::Anything;
         }
-        let is_condition = |lexeme: &&Lexeme| {
-            matches!(lexeme.kind, SyntaxKind::IF_KW | SyntaxKind::ELSEIF_KW | SyntaxKind::WHILE_KW)
-        };
-        Expected::Operator { in_condition: before.iter().any(is_condition) }
+        let in_condition = self.statements().any(|statement| match statement {
+            Statement::If(_) => true,
+            Statement::While(statement) => statement.keyword().is_some(),
+            Statement::O(statement) => statement.keyword().is_some_and(|keyword| {
+                matches!(keyword.kind(), SyntaxKind::IF_KW | SyntaxKind::ELSEIF_KW | SyntaxKind::WHILE_KW)
+            }),
+            _ => false,
+        });
+        Expected::Operator { in_condition }
     }
 
-    /// Is a token the label of an O-word?
-    fn is_label(&self, lexeme: &Lexeme) -> bool {
-        lexeme.kind == SyntaxKind::O_NAME
-            || lexeme.kind == SyntaxKind::WORD && self.letter(lexeme) == Some(Letter::of('O'))
+    /// The statements of the line, those inside of others included.
+    pub(crate) fn statements(&self) -> impl Iterator<Item = Statement> {
+        self.blocks.iter().flat_map(Block::all_statements)
+    }
+
+    /// The label of the line's O-word.
+    pub(crate) fn o_label(&self) -> Option<OLabel> {
+        self.blocks.iter().find_map(Block::o_label)
+    }
+
+    fn token_before(&self, offset: u32) -> Option<SyntaxToken> {
+        self.tree.as_ref()?.token_before(offset).filter(|_| offset > self.start)
     }
 
     /// The last token before the cursor and what is typed there, blanks left out.
-    pub(crate) fn last_before(&self, from: u32) -> Option<&Lexeme> {
-        self.line.iter().rfind(|lexeme| lexeme.range.end <= from && !lexeme.kind.is_trivia())
+    pub(crate) fn last_before(&self, from: u32) -> Option<SyntaxToken> {
+        let tokens = self.blocks.iter().flat_map(Block::tokens);
+        let before = tokens.take_while(|token| self.in_file(byte_range(token.text_range())).end <= from);
+        before.filter(|token| !token.kind().is_trivia()).last()
+    }
+
+    /// The words of the line.
+    pub(crate) fn words(&self) -> impl Iterator<Item = Word> {
+        self.blocks.iter().flat_map(Block::all_words)
+    }
+
+    /// The word that the cursor is in or at the end of.
+    pub(crate) fn word_here(&self) -> Option<Word> {
+        match Element::of(self.token_before(self.offset)?) {
+            Element::Word(word) => Some(word),
+            _ => None,
+        }
     }
 
     /// The codes of the line in text order, but for one that is being typed at the cursor.
     pub(crate) fn codes(&self) -> Vec<(Range<u32>, Code<'s>)> {
-        let words = self.line.iter().filter(|lexeme| lexeme.kind == SyntaxKind::WORD);
-        let finished = words.filter(|lexeme| lexeme.range.end != self.offset);
+        let words = self.words().map(|word| (self.in_file(word.range()), word));
+        let finished = words.filter(|(range, _)| range.end != self.offset);
         finished
-            .filter_map(|lexeme| {
-                let number = CodeNumber::parse(&self.snapshot.slice(lexeme.range.clone()))?;
-                Some((lexeme.range.clone(), self.control().code(number)?))
+            .filter_map(|(range, word)| {
+                let number = CodeNumber::parse(&word.text())?;
+                Some((range, self.control().code(number)?))
             })
             .collect()
     }
 
     /// Addresses of the line's words, but for one that is being typed at the cursor.
     pub(crate) fn letters(&self) -> Vec<Letter> {
-        let words =
-            self.line.iter().filter(|lexeme| matches!(lexeme.kind, SyntaxKind::WORD | SyntaxKind::LETTER));
-        let finished = words.filter(|lexeme| lexeme.range.end != self.offset);
-        finished.filter_map(|lexeme| self.letter(lexeme)).collect()
-    }
-
-    /// The address of a word.
-    pub(crate) fn letter(&self, lexeme: &Lexeme) -> Option<Letter> {
-        let text = self.snapshot.slice(lexeme.range.clone());
-        let len = if text.starts_with(',') { 2 } else { 1 };
-        Letter::parse(&text.get(..len)?.to_ascii_uppercase())
+        let finished = self.words().filter(|word| self.in_file(word.head_range()).end != self.offset);
+        finished.filter_map(|word| address(&word)).collect()
     }
 
     /// How the codes of the line read an address: the first that reads it.
     pub(crate) fn entry(&self, letter: Letter) -> Option<(Code<'s>, &'s WordEntry)> {
         self.codes().into_iter().find_map(|(_, code)| Some((code, describe::word_of(code, letter)?)))
+    }
+}
+
+/// The address of a word.
+pub(crate) fn address(word: &Word) -> Option<Letter> {
+    let letter = u8::try_from(word.letter()?).ok()?;
+    if word.is_corner() {
+        Letter::corner(letter)
+    } else {
+        Letter::new(letter).or_else(|| Letter::sign(letter))
     }
 }

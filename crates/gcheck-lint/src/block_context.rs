@@ -167,6 +167,19 @@ impl<'a> BlockCx<'a> {
         self.slice(self.block.range.clone())
     }
 
+    /// The structure of the block's text, with offsets from the start of the block: for the places of findings and fixes. The tree
+    /// is made for the rule that asks, so a rule asks where it has something to report.
+    pub fn tree(&self) -> Option<gcheck_syntax::ast::Block> {
+        let parse = gcheck_syntax::parse(self.block_text(), gcheck_program::profile(self.control()));
+        gcheck_syntax::ast::Chunk::cast(parse.syntax())?.blocks().next()
+    }
+
+    /// Bytes of the block's [tree](Self::tree) as bytes of the file.
+    pub fn of_tree(&self, range: Range<u32>) -> Range<u32> {
+        let start = self.block_range().start;
+        start + range.start..start + range.end
+    }
+
     /// What a word means: asked first of the codes in its block, then of its address.
     ///
     /// `None` for `G` and `M` words, for addresses the control does not have, and where a code of the block may read

@@ -5,6 +5,7 @@
 use std::ops::Range;
 
 use gcheck_diagnostics::Fix;
+use gcheck_syntax::ast::comment_text;
 
 use crate::suppression::{MalformedDirective, Suppression, Suppressions};
 use crate::{ProgramText, RuleTable};
@@ -15,9 +16,8 @@ impl Suppressions {
         let mut this = Self::default();
         for range in ranges {
             let comment = text.slice(range.clone());
-            let Some((_, directive)) = comment.split_once("gcheck:") else { continue };
-            let directive = directive.trim_end_matches(')').trim();
-            this.directive(text, range, directive, table);
+            let Some((_, directive)) = comment_text(comment).split_once("gcheck:") else { continue };
+            this.directive(text, range, directive.trim(), table);
         }
         this
     }

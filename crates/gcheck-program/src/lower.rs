@@ -7,8 +7,8 @@
 use std::ops::Range;
 
 use gcheck_controls::{
-    CodeEntry, CodeIx, CodeNumber, Control, Effect, Letter, LetterSet, LineCounts, Need, Semicolon,
-    WordEntry, WordKind,
+    CodeEntry, CodeIx, CodeNumber, Control, Letter, LetterSet, LineCounts, Need, Semicolon, WordEntry,
+    WordKind,
 };
 use gcheck_syntax::{
     MAX_LINE_BYTES, Parse, Sink, SyntaxError, SyntaxErrorKind, SyntaxKind, SyntaxProfile, parse_into, replay,
@@ -151,8 +151,7 @@ impl<'c> Dialect<'c> {
             increments,
             lasting: control.codes().map(|code| lasting_words(code.entry())).collect(),
             takes_m: if control.semantics().m_is_argument {
-                let is_call = |effect| matches!(effect, Effect::MacroCall | Effect::MacroModal);
-                control.codes().map(|code| is_call(code.effect())).collect()
+                control.codes().map(|code| code.effect().calls_macro()).collect()
             } else {
                 Vec::new()
             },

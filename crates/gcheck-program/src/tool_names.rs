@@ -80,7 +80,7 @@ impl<'c> ToolNames<'c> {
         for word in words {
             let effect = self.control.code_at(word.code).map_or(Effect::None, gcheck_controls::Code::effect);
             changes |= effect == Effect::ToolChange;
-            has_arguments |= matches!(effect, Effect::MacroCall | Effect::MacroModal);
+            has_arguments |= effect.calls_macro();
         }
         let tools = &self.control.semantics().tools;
         let t = words.iter().find(|word| word.letter == Letter::of('T')).filter(|_| !has_arguments);

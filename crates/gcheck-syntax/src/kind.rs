@@ -184,6 +184,22 @@ impl SyntaxKind {
         matches!(self, Self::COMMENT | Self::BROKEN_COMMENT | Self::LINE_COMMENT)
     }
 
+    /// An operator between two operands; some of these characters have other uses as well.
+    pub fn is_operator(self) -> bool {
+        matches!(
+            self,
+            Self::PLUS
+                | Self::MINUS
+                | Self::STAR
+                | Self::POWER
+                | Self::SLASH
+                | Self::COMPARISON
+                | Self::AND_KW
+                | Self::OR_KW
+                | Self::MOD_KW
+        )
+    }
+
     /// A word of a macro statement.
     pub fn is_keyword(self) -> bool {
         (Self::IF_KW..=Self::PORT_KW).contains(&self)

@@ -23,4 +23,6 @@ pub use kind::SyntaxKind;
 pub use lexer::count_tokens;
 pub use profile::SyntaxProfile;
 pub use source::{SourceText, TooLarge};
-pub use tree::{Parse, PartProgram, SyntaxElement, SyntaxNode, SyntaxToken, parse, replay};
+pub use tree::{
+    Parse, PartProgram, SyntaxElement, SyntaxNode, SyntaxToken, byte_range, parse, replay, token_at,
+};

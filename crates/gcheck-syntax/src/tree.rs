@@ -4,7 +4,7 @@
 
 use std::ops::Range;
 
-use rowan::{GreenNode, GreenNodeBuilder, Language, NodeOrToken};
+use rowan::{GreenNode, GreenNodeBuilder, Language, NodeOrToken, TextRange};
 
 use crate::{Sink, SyntaxError, SyntaxKind, SyntaxProfile, parse_into};
 
@@ -31,6 +31,25 @@ pub type SyntaxNode = rowan::SyntaxNode<PartProgram>;
 pub type SyntaxToken = rowan::SyntaxToken<PartProgram>;
 /// A node or a token.
 pub type SyntaxElement = rowan::SyntaxElement<PartProgram>;
+
+/// A place in a tree as bytes of the text that was parsed.
+pub fn byte_range(range: TextRange) -> Range<u32> {
+    range.start().into()..range.end().into()
+}
+
+/// The token of a tree that holds a byte of the parsed text.
+pub fn token_at(root: &SyntaxNode, offset: u32) -> Option<SyntaxToken> {
+    let byte = TextRange::at(offset.into(), 1.into());
+    // By halving in each node; a look at all children would make each of them.
+    let covering = |node: &SyntaxNode| node.child_or_token_at_range(byte);
+    let mut found = covering(root)?;
+    loop {
+        match found {
+            NodeOrToken::Token(token) => return Some(token),
+            NodeOrToken::Node(node) => found = covering(&node)?,
+        }
+    }
+}
 
 /// The tree of one chunk and what is wrong with it.
 #[derive(Debug, Clone, PartialEq, Eq)]

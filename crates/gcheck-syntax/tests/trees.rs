@@ -1,9 +1,8 @@
-//! The shape of trees, mistakes included, and what the typed views see in them.
+//! The shape of trees, mistakes included.
 
 use std::fmt::Write as _;
 
 use expect_test::{Expect, expect};
-use gcheck_syntax::ast::{Block, Chunk};
 use gcheck_syntax::{SyntaxElement, SyntaxNode, SyntaxProfile, parse};
 
 /// The one boundary helper: a text, its tree and its mistakes.
@@ -207,20 +206,4 @@ fn a_number_may_be_divided_by_blanks() {
             NEWLINE "\n"
     "#]],
     );
-}
-
-#[test]
-fn views_name_the_parts_of_a_block() {
-    let text = "/2 N10 G1 x[#1] :7 #100=#101+1. (note)\n";
-    let chunk = Chunk::cast(parse(text, SyntaxProfile::MACRO_B).syntax()).unwrap();
-    let block: Block = chunk.blocks().next().unwrap();
-    assert_eq!(block.block_delete().and_then(|d| d.level()), Some(2));
-    let words: String = block.words().filter_map(|w| w.letter()).collect();
-    assert_eq!(words, "NGXO");
-    let spread = block.words().find(|w| w.letter() == Some('X')).unwrap();
-    assert_eq!(spread.value().unwrap().to_string(), "[#1]");
-    let assignment = block.assignments().next().unwrap();
-    assert_eq!(assignment.target().unwrap().to_string(), "#100");
-    assert_eq!(assignment.value().unwrap().to_string(), "#101+1.");
-    assert_eq!(block.comments().map(|c| c.text().to_owned()).collect::<Vec<_>>(), ["(note)"]);
 }

@@ -188,7 +188,7 @@ impl Tool<'_, '_> {
         if let Some(peck) = self.hole.peck {
             known(&[peck])?;
         }
-        let pecks = matches!(effect, Effect::CyclePeck | Effect::CycleChipBreak);
+        let pecks = effect.pecks();
         if pecks && self.hole.peck.is_some_and(|peck| peck <= Mm::ZERO) {
             return Err(CycleFault::NotPositive(Letter::of('Q')).into());
         }

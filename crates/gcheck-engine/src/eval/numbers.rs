@@ -89,7 +89,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     }
 
     pub(crate) fn is_macro_call(&self, code: CodeIx) -> bool {
-        matches!(self.model.effect(code), Effect::MacroCall | Effect::MacroModal)
+        self.model.effect(code).calls_macro()
     }
 
     /// A computed value as the control reads it: rounded to a whole number, or to the last digit of its lengths and angles, on

@@ -191,7 +191,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let probes = self.model.semantics().machine_coordinates_in_probing
             && effect.is_probing_move()
             && self.words.codes().contains(&motion);
-        probes || matches!(effect, Effect::Rapid | Effect::Linear)
+        probes || effect.is_straight_move()
     }
 
     /// What a block without a known mode of motion does: it may be a move of any kind that the modes allow, or a cycle, with

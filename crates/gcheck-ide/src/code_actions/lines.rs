@@ -7,6 +7,8 @@ use std::ops::Range;
 use gcheck_db::Snapshot;
 use gcheck_diagnostics::Edit;
 use gcheck_format::{Numbering, renumber};
+use gcheck_syntax::ast::Element;
+use gcheck_syntax::{SyntaxKind, SyntaxToken};
 
 use super::action::{CodeAction, Offer};
 use crate::symbols::code_end;
@@ -27,40 +29,45 @@ pub(super) fn offer_block_skip(snapshot: &Snapshot, range: &Range<u32>, actions:
         return;
     }
     let end = code_end(snapshot);
-    let mut lines: Vec<(u32, bool)> = Vec::new();
+    // Where each block begins, and its block delete.
+    let mut blocks: Vec<(u32, Option<Range<u32>>)> = Vec::new();
     for line in first..=last {
-        let range = snapshot.line_range(line);
-        let text = snapshot.slice(range.clone());
-        let trimmed = text.trim_start_matches([' ', '\t', '\u{FEFF}']);
-        // Programs, tape marks and comments are not blocks to be skipped.
-        if range.start >= end
-            || trimmed.trim().is_empty()
-            || trimmed.starts_with(['%', '(', ';', 'O', 'o', ':'])
-        {
-            continue;
-        }
-        lines.push((range.start + (text.len() - trimmed.len()) as u32, trimmed.starts_with('/')));
+        let start = snapshot.line_range(line).start;
+        let tree = snapshot.tree_at(start).filter(|_| start < end);
+        blocks.extend(tree.and_then(|tree| {
+            let block = tree.block_at(start)?;
+            let first = block.first().filter(may_be_skipped)?;
+            let place = tree.place_of(&first);
+            let mark = block.block_delete().map(|mark| tree.in_file(mark.range()));
+            Some((place.start, mark.filter(|mark| mark.start == place.start)))
+        }));
     }
-    if lines.is_empty() {
+    if blocks.is_empty() {
         return;
     }
-    let all = lines.iter().all(|(_, is_skipped)| *is_skipped);
-    let count = lines.len();
+    let all = blocks.iter().all(|(_, mark)| mark.is_some());
+    let count = blocks.len();
     let plural = if count == 1 { "this block" } else { "these blocks" };
     let (title, offer, edits): (_, _, Vec<Edit>) = if all {
-        let edits = lines.iter().map(|(at, _)| {
-            // A level belongs to its slash.
-            let behind = snapshot.slice(at + 1..at + 2);
-            let len = if behind.starts_with(|c: char| c.is_ascii_digit()) { 2 } else { 1 };
-            Edit { range: *at..at + len, text: String::new() }
-        });
+        // A level belongs to its slash.
+        let marks = blocks.into_iter().filter_map(|(_, mark)| mark);
+        let edits = marks.map(|range| Edit { range, text: String::new() });
         (format!("Remove block delete from {plural}"), Offer::RemoveBlockDelete, edits.collect())
     } else {
-        let bare = lines.iter().filter(|(_, is_skipped)| !is_skipped);
+        let bare = blocks.iter().filter(|(_, mark)| mark.is_none());
         let edits = bare.map(|(at, _)| Edit { range: *at..*at, text: "/".to_owned() });
         (format!("Add block delete to {plural}"), Offer::AddBlockDelete, edits.collect())
     };
     actions.push(CodeAction::change(title, offer, edits));
+}
+
+/// Programs, tape marks and comments are not blocks to be skipped.
+fn may_be_skipped(first: &SyntaxToken) -> bool {
+    match Element::of(first.clone()) {
+        Element::Comment(_) | Element::Label(_) => false,
+        Element::Word(word) => word.letter() != Some('O'),
+        _ => !matches!(first.kind(), SyntaxKind::PERCENT | SyntaxKind::SEMICOLON),
+    }
 }
 
 /// Offers to renumber the blocks, with all that names them.

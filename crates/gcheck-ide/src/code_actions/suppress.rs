@@ -4,10 +4,9 @@
 
 use gcheck_db::Snapshot;
 use gcheck_diagnostics::{Edit, Finding};
+use gcheck_syntax::ast::Block;
 
 use super::action::{CodeAction, Offer};
-use crate::lexemes::lexemes;
-use gcheck_syntax::SyntaxKind;
 
 /// Stands for the reason, which only a person can give.
 const REASON: &str = "say why";
@@ -35,14 +34,13 @@ pub(super) fn of(snapshot: &Snapshot, finding: &Finding) -> Vec<CodeAction> {
 fn on_line(snapshot: &Snapshot, line: u32, comment: &str) -> Option<Edit> {
     let range = snapshot.line_range(line);
     let text = snapshot.slice(range.clone());
+    let tree = snapshot.tree_at(range.start);
+    let blocks: Vec<Block> = tree.iter().flat_map(|tree| tree.blocks(range.clone())).collect();
     // What is at a mark of the tape is not a block, and above it the tape may not have begun.
-    if text.trim_start().starts_with('%') {
+    if blocks.first().is_some_and(Block::is_tape_mark) {
         return None;
     }
-    let tokens = lexemes(snapshot, &text, range.start);
-    let is_open = tokens
-        .iter()
-        .any(|lexeme| matches!(lexeme.kind, SyntaxKind::LINE_COMMENT | SyntaxKind::BROKEN_COMMENT));
+    let is_open = blocks.iter().flat_map(Block::comments).any(|comment| !comment.is_closed());
     let length = text.chars().count() + comment.len() + 1;
     let is_long = snapshot.control().limits().line_length.is_some_and(|most| length > most as usize);
     if is_open || is_long {

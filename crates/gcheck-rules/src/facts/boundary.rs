@@ -31,7 +31,7 @@ impl Boundary {
 
 /// What ends with this block.
 pub(crate) fn boundary(cx: &PathCx<'_>) -> Option<Boundary> {
-    if cx.has_effect(|effect| matches!(effect, Effect::ProgramEnd | Effect::ProgramEndWithPallet)) {
+    if cx.has_effect(Effect::ends_program) {
         return Some(Boundary::ProgramEnd);
     }
     changes_tool(cx).then_some(Boundary::ToolChange)
@@ -57,7 +57,7 @@ pub(crate) fn boundary_range(cx: &PathCx<'_>, place: Boundary) -> Range<u32> {
         let effect = cx.model.effect(word.code);
         match place {
             Boundary::ToolChange => effect == Effect::ToolChange || by_t && word.letter == Letter::of('T'),
-            Boundary::ProgramEnd => matches!(effect, Effect::ProgramEnd | Effect::ProgramEndWithPallet),
+            Boundary::ProgramEnd => effect.ends_program(),
         }
     })
 }

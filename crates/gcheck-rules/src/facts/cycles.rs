@@ -41,7 +41,7 @@ pub(crate) fn is_drilling(effect: Effect) -> bool {
 
 /// Is it a cycle that taps?
 pub(crate) fn is_tapping(effect: Effect) -> bool {
-    matches!(effect, Effect::CycleTap | Effect::CycleLeftTap)
+    effect.is_tapping_cycle()
 }
 
 /// Is a cycle in effect that drills into the full?

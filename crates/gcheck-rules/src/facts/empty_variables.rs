@@ -60,7 +60,7 @@ pub(crate) fn usage(cx: &PathCx<'_>, place: &Place, variable: u32) -> Option<(Us
         }
     };
     let reads = |expr: ExprIx| place.table.ops(place.table.expr(expr)).contains(&Op::Variable(variable));
-    let calls = cx.has_effect(|effect| matches!(effect, Effect::MacroCall | Effect::MacroModal));
+    let calls = cx.has_effect(Effect::calls_macro);
     for word in place.table.words(place.block()) {
         let Value::Expr(expr) = word.value else { continue };
         if !reads(expr) {

@@ -139,8 +139,7 @@ fn still_active(cx: &PathCx<'_>, of: Role) -> Vec<(CodeIx, bool)> {
 
 /// Compensation in a plane takes the place of that along vectors without an end between.
 fn changed_over(cx: &PathCx<'_>) -> Option<Clash> {
-    let is_planar = |effect| matches!(effect, Effect::CompensationLeft | Effect::CompensationRight);
-    let code = cx.codes().iter().copied().find(|code| is_planar(cx.model.effect(*code)))?;
+    let code = cx.codes().iter().copied().find(|code| cx.model.effect(*code).offsets_path_by_number())?;
     let mode = cx.state().mode(Role::Compensation).only()?;
     is_along_vectors(cx.model.effect(mode)).then_some(Clash {
         role: Role::Compensation,

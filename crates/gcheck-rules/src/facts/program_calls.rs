@@ -89,7 +89,7 @@ impl ProgramEnds {
             let words = place.table.words(place.block()).iter();
             for effect in words.filter(|word| word.code.is_some()).map(|word| cx.model.effect(word.code)) {
                 ends.returns |= effect == Effect::Return;
-                ends.the_job |= matches!(effect, Effect::ProgramEnd | Effect::ProgramEndWithPallet);
+                ends.the_job |= effect.ends_program();
             }
         }
         Some(ends)

@@ -55,7 +55,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         self.flush_compensation(state)?;
         // On from here, and unless everything about it is known, along a path that is not.
         state.compensation.on = Perhaps::Yes(Course::Unknown);
-        let by_number = matches!(effect, Effect::CompensationLeft | Effect::CompensationRight);
+        let by_number = effect.offsets_path_by_number();
         if state.tool_shift.is_on() {
             // Refused along a tilting tool: the path beside the programmed one is not known.
             return self.remember_offset_number(state);

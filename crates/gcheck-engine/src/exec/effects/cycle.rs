@@ -212,7 +212,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     pub(in crate::exec) fn cycle_words(&mut self, effect: Effect, depth: Axis, state: &mut State<D>) -> Step {
         let rules = &self.model.semantics().cycles;
         // Of a tap `J` is a number, not a length: how many times faster it comes out.
-        let taps = matches!(effect, Effect::CycleTap | Effect::CycleLeftTap);
+        let taps = effect.is_tapping_cycle();
         let times_out =
             rules.tap_out_setting.as_ref().filter(|_| taps).and_then(|_| self.raw(Letter::of('J'), state));
         let mut words = self.lasting_cycle_words(state);
@@ -472,7 +472,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let words = *state.cycle();
         let [i, j, k] = words.ijk;
         let (r, bottom) = if incremental.is_none() { (f64::NAN, f64::NAN) } else { (words.r, words.z) };
-        let taps = matches!(effect, Effect::CycleTap | Effect::CycleLeftTap);
+        let taps = effect.is_tapping_cycle();
         let dwell = if taps && rules.rise_to_r { words.last_dwell } else { words.word('P', words.p) };
         let (clearance, above_r) = self.settings_of_pecks(effect, state);
         let shift = [words.word('I', i), words.word('J', j), words.word('K', k)].map(|word| word.map(Mm));
@@ -509,7 +509,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     /// What settings say of pecks: how far they back off, where that is told, and how far above `R` they come out.
     fn settings_of_pecks(&mut self, effect: Effect, state: &State<D>) -> (Option<Mm>, Mm) {
-        if !matches!(effect, Effect::CyclePeck | Effect::CycleChipBreak) {
+        if !effect.pecks() {
             return (None, Mm::ZERO);
         }
         if let Some(number) = &self.model.semantics().cycles.clearance_setting {
@@ -538,7 +538,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         q: Option<Mm>,
         ijk: [Option<Mm>; 3],
     ) -> (Option<Mm>, [Option<Mm>; 3]) {
-        let bores = matches!(effect, Effect::CycleFineBore | Effect::CycleBackBore);
+        let bores = effect.shifts_boring_bar();
         let Some(number) = self.model.semantics().cycles.shift_setting.as_deref().filter(|_| bores) else {
             return (q, ijk);
         };
@@ -649,7 +649,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     /// What strokes that are not followed may have switched.
     fn lose_switches(effect: Effect, state: &mut State<D>) {
-        if matches!(effect, Effect::CycleTap | Effect::CycleLeftTap) {
+        if effect.is_tapping_cycle() {
             let either = state.cycle.feed_override_on.join(&Truth::True);
             state.cycle.feed_override_on = either;
             state.spindle.way = Flat::Unknown;

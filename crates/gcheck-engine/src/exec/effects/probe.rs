@@ -42,7 +42,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if !turns_alone && distance < self.least_probe_distance(state) {
             return Err(Fault::Probe);
         }
-        let toward = matches!(effect, Effect::ProbeToward | Effect::ProbeTowardOptional);
+        let toward = effect.probes_toward();
         let required = matches!(effect, Effect::ProbeToward | Effect::ProbeAway);
         self.probing(TravelKind::Probe { toward, required, skip: false }, target, state)
     }

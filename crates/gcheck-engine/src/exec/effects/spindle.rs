@@ -307,7 +307,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     pub(in crate::exec) fn digital_output(&mut self, effect: Effect, state: &mut State<D>) -> Step {
         let index = self.index(Letter::of('P'))?;
-        let on = matches!(effect, Effect::OutputOn | Effect::OutputOnWithMove);
+        let on = effect.switches_output_on();
         let with_move = matches!(effect, Effect::OutputOnWithMove | Effect::OutputOffWithMove);
         if let Some(first) = self.model.semantics().output_variables {
             state.variables.set(first.saturating_add(index), D::number(f64::from(u8::from(on))));

@@ -1,6 +1,5 @@
 //! A cutter compensation offset that does not follow the scheme of the program's other tools.
 
-use gcheck_controls::Effect;
 use gcheck_engine::{Abstract, At, Domain, Event, Fact, Role};
 
 use crate::declare::declare_rule;
@@ -173,8 +172,7 @@ impl DiameterOffsetOfAnotherTool {
 
 /// The number of the length offset that the tool cuts with.
 fn length_of(cx: &PathCx<'_>) -> Option<u32> {
-    let is_on = |effect| matches!(effect, Effect::LengthPlus | Effect::LengthMinus);
-    cx.state().effect(Role::Length, cx.model).filter(|effect| is_on(*effect))?;
+    cx.state().effect(Role::Length, cx.model).filter(|effect| effect.is_length_compensation())?;
     Abstract::known(cx.state().h()).and_then(whole).filter(|length| *length > 0)
 }
 

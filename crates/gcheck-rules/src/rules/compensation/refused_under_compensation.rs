@@ -64,9 +64,9 @@ impl PathRule for RefusedUnderCompensation {
 
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
         let Some(refusals) = &cx.model.semantics().compensation.refuses else { return };
-        let is_on = |effect| matches!(effect, Effect::CompensationLeft | Effect::CompensationRight);
-        let was_on = cx.state().effect(Role::Compensation, cx.model).is_some_and(is_on);
-        let begins = cx.has_effect(is_on);
+        let was_on =
+            cx.state().effect(Role::Compensation, cx.model).is_some_and(Effect::offsets_path_by_number);
+        let begins = cx.has_effect(Effect::offsets_path_by_number);
         let ends = cx.has_effect(|effect| effect == Effect::CompensationOff);
         let limits = cx.codes().iter().any(|code| limits_reading_ahead(cx, *code));
         let refused = if limits && was_on && !ends {

@@ -96,7 +96,7 @@ impl PathRule for BoreWithoutShift {
 }
 
 fn is_bore(effect: Effect) -> bool {
-    is_cycle(effect) && matches!(effect, Effect::CycleFineBore | Effect::CycleBackBore)
+    is_cycle(effect) && effect.shifts_boring_bar()
 }
 
 #[cfg(test)]

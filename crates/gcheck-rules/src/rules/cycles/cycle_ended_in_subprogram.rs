@@ -81,9 +81,11 @@ impl PathRule for CycleEndedInSubprogram {
         let given = cx.definitions().set_by(Fact::Mode(Role::Cycle)).filter(|_| active.is_some());
         let ended = std::mem::replace(&mut self.cycle, active).zip(std::mem::replace(&mut self.given, given));
         let Some((cycle, given)) = ended.filter(|_| active.is_none()) else { return };
-        let goes = |effect| matches!(effect, Effect::Rapid | Effect::Linear);
         let letters = cx.origin().letters;
-        if !cx.has_effect(goes) || !letters.intersects(ACROSS) || letters.contains(Letter::of('Z')) {
+        if !cx.has_effect(Effect::is_straight_move)
+            || !letters.intersects(ACROSS)
+            || letters.contains(Letter::of('Z'))
+        {
             return;
         }
         // The cycle is the caller's, and the next block is a place without a code.
@@ -98,7 +100,7 @@ impl PathRule for CycleEndedInSubprogram {
         }
         let message = format!("the subprogram ends the cycle of its caller (`{}`)", cx.name_of(cycle));
         let finding = cx
-            .finding(&META, cx.effect_range(goes), message)
+            .finding(&META, cx.effect_range(Effect::is_straight_move), message)
             .label("from here on no hole is made")
             .help("remove the code: the cycle goes from hole to hole by itself");
         let given = cx.find_word(given, |word| is_cycle(cx.model.effect(word.code)));

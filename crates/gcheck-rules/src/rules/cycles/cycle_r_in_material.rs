@@ -276,8 +276,7 @@ impl CycleRInMaterial {
     /// Is it a tap in a hole that one drill alone has made?
     fn is_narrow(&self, cx: &PathCx<'_>, cuts: &Cuts, stroke: &Stroke, radius: f64) -> bool {
         let code = cx.state().active_cycle(cx.model).filter(|code| code.is_some());
-        let taps =
-            code.is_some_and(|code| matches!(cx.model.effect(code), Effect::CycleTap | Effect::CycleLeftTap));
+        let taps = code.is_some_and(|code| cx.model.effect(code).is_tapping_cycle());
         if !taps || stroke.tool == 0 || stroke.r > -TIP || cuts.reach_sideways(stroke.at, stroke.r, radius) {
             return false;
         }

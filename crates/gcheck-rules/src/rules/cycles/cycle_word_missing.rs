@@ -62,7 +62,7 @@ impl PathRule for CycleWordMissing {
         let begins = self.series.block(cx);
         let Some(code) = begins.and_then(|ix| cx.control().code_at(ix)) else { return };
         // If missing pecks are not a fault, the cycle makes one stroke to the bottom.
-        let pecks = matches!(code.effect(), Effect::CyclePeck | Effect::CycleChipBreak);
+        let pecks = code.effect().pecks();
         let is_fault = cx.model.semantics().cycles.rise_to_r;
         if pecks && !is_fault && !cx.origin().letters.intersects(LetterSet::of("QIJK")) {
             self.tell(cx, code, Letter::of('Q'), Severity::Error, report);

@@ -1,6 +1,6 @@
 //! A canned cycle that relies on words of an earlier cycle that has ended.
 
-use gcheck_controls::{Code, Effect, Letter, LetterSet};
+use gcheck_controls::{Code, Letter, LetterSet};
 use gcheck_engine::{CycleFault, Event, Fault};
 
 use crate::declare::declare_rule;
@@ -74,7 +74,7 @@ impl PathRule for CycleWordsLost {
         let begins = self.series.block(cx);
         let Some(code) = begins.and_then(|ix| cx.control().code_at(ix)) else { return };
         // If missing pecks are not a fault, the cycle makes one stroke to the bottom.
-        let pecks = matches!(code.effect(), Effect::CyclePeck | Effect::CycleChipBreak);
+        let pecks = code.effect().pecks();
         let q = Letter::of('Q');
         let given = cx.origin().letters;
         if pecks && !cx.model.semantics().cycles.rise_to_r && !given.intersects(LetterSet::of("QIJK")) {

@@ -171,7 +171,7 @@ fn by_feed(cx: &PathCx<'_>, travel: &Travel, report: &mut Report<'_>) {
 }
 
 fn drills(effect: Effect) -> bool {
-    is_drilling(effect) || matches!(effect, Effect::CycleTap | Effect::CycleLeftTap)
+    is_drilling(effect) || effect.is_tapping_cycle()
 }
 
 #[cfg(test)]

@@ -98,7 +98,7 @@ impl PathRule for PeckLongerThanHole {
 }
 
 fn is_peck(effect: Effect) -> bool {
-    matches!(effect, Effect::CyclePeck | Effect::CycleChipBreak)
+    effect.pecks()
 }
 
 #[cfg(test)]

@@ -77,9 +77,8 @@ impl PathRule for PocketWithoutCompensation {
 
 /// Compensation is on, and the offset in effect is zero, which has no size.
 fn with_offset_zero(cx: &PathCx<'_>) -> Option<Finding> {
-    let is_side = |effect| matches!(effect, Effect::CompensationLeft | Effect::CompensationRight);
-    let is_on =
-        cx.has_effect(is_side) || cx.state().effect(Role::Compensation, cx.model).is_some_and(is_side);
+    let is_on = cx.has_effect(Effect::offsets_path_by_number)
+        || cx.state().effect(Role::Compensation, cx.model).is_some_and(Effect::offsets_path_by_number);
     let is_off = cx.has_effect(|effect| effect == Effect::CompensationOff);
     let written = cx.word('D').is_some();
     let d = if written { cx.known_number('D') } else { Abstract::known(cx.state().d()) };

@@ -1,7 +1,5 @@
 //! A turning cycle whose profile begins without `G0` or `G1`.
 
-use gcheck_controls::Effect;
-
 use crate::declare::declare_rule;
 use crate::facts::turning::{is_roughing, profile_blocks};
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
@@ -61,8 +59,7 @@ impl PathRule for TurningProfileFirstBlock {
         let Some((first, _)) = profile_blocks(cx) else { return };
         let Some(place) = cx.place_of(first) else { return };
         let words = place.table.words(place.block());
-        let moves = |effect| matches!(effect, Effect::Rapid | Effect::Linear);
-        if words.iter().any(|word| moves(cx.model.effect(word.code))) {
+        if words.iter().any(|word| cx.model.effect(word.code).is_straight_move()) {
             return;
         }
         let name = words

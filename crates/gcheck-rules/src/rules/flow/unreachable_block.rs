@@ -280,7 +280,7 @@ fn is_return(place: &Place, cx: &FinishCx<'_>) -> bool {
 /// Does the block end the program?
 fn ends_program(place: &Place, cx: &FinishCx<'_>) -> bool {
     let mut words = place.table.words(place.block()).iter();
-    words.any(|word| matches!(cx.model.effect(word.code), Effect::ProgramEnd | Effect::ProgramEndWithPallet))
+    words.any(|word| cx.model.effect(word.code).ends_program())
 }
 
 /// Does a statement or jump of the text lead to the block?

@@ -284,7 +284,7 @@ fn is_in_air(cx: &PathCx<'_>, event: &Event) -> bool {
 /// A tap is fed by its pitch.
 fn taps(cx: &PathCx<'_>) -> bool {
     let cycle = cx.state().active_cycle(cx.model).filter(|code| code.is_some());
-    cycle.is_some_and(|code| matches!(cx.model.effect(code), Effect::CycleTap | Effect::CycleLeftTap))
+    cycle.is_some_and(|code| cx.model.effect(code).is_tapping_cycle())
 }
 
 #[cfg(test)]

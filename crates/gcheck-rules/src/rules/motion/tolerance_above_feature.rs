@@ -119,7 +119,7 @@ impl PathRule for ToleranceAboveFeature {
     }
 
     fn concerns(&self, program: &Uses<'_>) -> bool {
-        program.may(|effect| matches!(effect, Effect::PathBlending | Effect::Smoothing))
+        program.may(Effect::sets_path_tolerance)
             || setting(program.environment.control())
                 .is_some_and(|number| program.environment.machine.engine.settings.contains_key(number))
     }

@@ -110,7 +110,7 @@ impl PathRule for ToleranceOfToolBefore {
     }
 
     fn concerns(&self, program: &Uses<'_>) -> bool {
-        program.may(|effect| matches!(effect, Effect::PathBlending | Effect::Smoothing))
+        program.may(Effect::sets_path_tolerance)
     }
 
     fn block(&mut self, cx: &PathCx<'_>, _: &mut Report<'_>) {

@@ -83,8 +83,7 @@ impl PathRule for GoesOnAfterTouch {
     }
 
     fn concerns(&self, program: &Uses<'_>) -> bool {
-        let touches =
-            |effect| is_touch(effect) || matches!(effect, Effect::ProbeToward | Effect::ProbeTowardOptional);
+        let touches = |effect| is_touch(effect) || effect.probes_toward();
         program.environment.control().machine() == gcheck_controls::Machine::Mill && program.may(touches)
     }
 

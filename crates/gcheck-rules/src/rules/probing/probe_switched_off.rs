@@ -63,8 +63,7 @@ impl PathRule for ProbeSwitchedOff {
     }
 
     fn block(&mut self, cx: &PathCx<'_>, _: &mut Report<'_>) {
-        let switches = |effect| matches!(effect, Effect::OutputOn | Effect::OutputOnWithMove);
-        self.is_switched |= cx.has_effect(switches) && cx.known_number('P').is_none()
+        self.is_switched |= cx.has_effect(Effect::switches_output_on) && cx.known_number('P').is_none()
             || cx.has_code(Code::is_user)
             || !cx.is_certain();
     }

@@ -56,7 +56,7 @@ impl PathRule for ProbeTouchesAlready {
     }
 
     fn concerns(&self, program: &Uses<'_>) -> bool {
-        program.may(|effect| matches!(effect, Effect::ProbeToward | Effect::ProbeTowardOptional))
+        program.may(Effect::probes_toward)
     }
 
     /// Stops, tool changes and the M codes of a shop may take the probe or its plate away.

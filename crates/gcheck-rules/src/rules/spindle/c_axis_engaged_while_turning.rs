@@ -80,8 +80,11 @@ impl PathRule for CAxisEngagedWhileTurning {
             && Abstract::known(cx.state().speed()) != Some(0.0)
             && !self.may_rest.is_so();
         // The block may stop the spindle first.
-        let stops = |effect| matches!(effect, Effect::SpindleStop | Effect::SpindleOrient);
-        if moved(cx, GROUP) != Some(Moved::Out) || !turns || cx.has_effect(stops) || !cx.is_certain() {
+        if moved(cx, GROUP) != Some(Moved::Out)
+            || !turns
+            || cx.has_effect(Effect::stops_spindle)
+            || !cx.is_certain()
+        {
             return;
         }
         let engages = |code: Code<'_>| code.entry().group == GROUP && Moved::by(code) == Moved::Out;

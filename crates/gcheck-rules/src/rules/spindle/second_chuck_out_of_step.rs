@@ -89,8 +89,7 @@ impl PathRule for SecondChuckOutOfStep {
         self.turns_too |= has_it_in_mind || is_user || !cx.is_certain();
         self.is_handed_over |= cx.has_effect(|effect| effect == Effect::ChuckUnclamp);
         let turns = cx.state().spindle().is_some_and(Spindle::turns);
-        let stops = |effect| matches!(effect, Effect::SpindleStop | Effect::SpindleOrient);
-        let is_at_rest = !turns || self.spindle.is_so() || cx.has_effect(stops);
+        let is_at_rest = !turns || self.spindle.is_so() || cx.has_effect(Effect::stops_spindle);
         if !cx.has_effect(closes) || is_at_rest || self.turns_too || self.is_handed_over {
             return;
         }

@@ -427,7 +427,7 @@ fn stopping(cx: &PathCx<'_>, at: At) -> Option<CodeIx> {
 
 /// Is it a cycle that stops the spindle at an angle to bring the tool off the wall?
 fn bores(code: Code<'_>) -> bool {
-    matches!(code.effect(), Effect::CycleFineBore | Effect::CycleBackBore)
+    code.effect().shifts_boring_bar()
 }
 
 /// Is it a cycle that a strict control begins only while the spindle turns?

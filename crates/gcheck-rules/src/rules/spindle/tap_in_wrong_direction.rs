@@ -73,7 +73,7 @@ impl PathRule for TapInWrongDirection {
         let finding = cx
             .finding(
                 &META,
-                cx.effect_range(|effect| matches!(effect, Effect::CycleTap | Effect::CycleLeftTap)),
+                cx.effect_range(Effect::is_tapping_cycle),
                 "the spindle turns the wrong way for this tapping cycle",
             )
             .label("the control refuses the cycle")

@@ -47,31 +47,15 @@ fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
     {
         return;
     }
-    let text = cx.block_text();
-    let Some((at, level)) = sign(text) else { return };
-    let inside = !text.get(..at).unwrap_or_default().trim_start_matches(['\u{FEFF}', ' ', '\t']).is_empty();
-    let start = cx.block().range.start + at as u32;
-    let range = cx.in_file(start..start + 1 + level as u32);
-    if inside && !syntax.block_delete_inside {
+    let Some(block) = cx.tree() else { return };
+    let Some(mark) = block.block_delete() else { return };
+    let is_first = block.first().is_some_and(|first| mark.syntax().first_token() == Some(first));
+    let range = cx.of_tree(mark.range());
+    if !is_first && !syntax.block_delete_inside {
         report.add(inside_finding(cx, range));
-    } else if level > 0 && !syntax.block_delete_levels {
+    } else if mark.level().is_some() && !syntax.block_delete_levels {
         report.add(level_finding(cx, range));
     }
-}
-
-/// Place of the first `/` outside comments and brackets, and how many digits follow it.
-fn sign(text: &str) -> Option<(usize, usize)> {
-    let mut depth = 0_i32;
-    let at = text.bytes().position(|byte| {
-        match byte {
-            b'(' | b'[' => depth += 1,
-            b')' | b']' => depth -= 1,
-            _ => {}
-        }
-        byte == b'/' && depth == 0
-    })?;
-    let digits = text.bytes().skip(at + 1).take_while(u8::is_ascii_digit).count();
-    Some((at, digits.min(1)))
 }
 
 fn confidence(cx: &BlockCx<'_>) -> Confidence {

@@ -48,9 +48,9 @@ fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
 }
 
 fn finding(cx: &BlockCx<'_>) -> Finding {
-    let start = cx.block().range.start;
-    let at = cx.block_text().find('/').map_or(start, |at| start + at as u32);
-    Finding::new(&META, cx.in_file(at..at + 1), "block delete `/` does not skip this block")
+    let mark = cx.tree().and_then(|block| block.block_delete());
+    let slash = mark.map_or_else(|| cx.block_range(), |mark| cx.of_tree(mark.range()));
+    Finding::new(&META, slash.start..slash.start + 1, "block delete `/` does not skip this block")
         .label("the control ignores this sign")
         .note(format!("{} has no block delete: the block runs every time", cx.control().title()))
         .help("remove the block, or make a second program without it")

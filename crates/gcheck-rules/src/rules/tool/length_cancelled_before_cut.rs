@@ -87,7 +87,7 @@ impl PathRule for LengthCancelledBeforeCut {
     }
 
     fn concerns(&self, program: &Uses<'_>) -> bool {
-        program.may(|effect| matches!(effect, Effect::LengthPlus | Effect::LengthMinus))
+        program.may(Effect::is_length_compensation)
     }
 
     fn rapid(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {

@@ -1,6 +1,5 @@
 //! Tool length compensation with offset number zero.
 
-use gcheck_controls::Effect;
 use gcheck_program::BlockFlags;
 
 use crate::declare::declare_rule;
@@ -37,8 +36,7 @@ declare_rule! {
 }
 
 fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
-    let is_length = |effect| matches!(effect, Effect::LengthPlus | Effect::LengthMinus);
-    let Some((_, code)) = cx.codes().find(|(_, code)| is_length(code.effect())) else { return };
+    let Some((_, code)) = cx.codes().find(|(_, code)| code.effect().is_length_compensation()) else { return };
     let Some(word) = cx.word('H').filter(|word| word.number() == Some(0.0)) else { return };
     // If it means the tool in the spindle, it has a length.
     let is_of_the_tool = cx.control().semantics().tools.length_from_tool;

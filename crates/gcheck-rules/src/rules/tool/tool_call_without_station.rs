@@ -73,8 +73,7 @@ impl PathRule for ToolCallWithoutStation {
 
     fn block(&mut self, cx: &PathCx<'_>, _: &mut Report<'_>) {
         // `T` may be an argument of a macro.
-        let calls = |effect| matches!(effect, Effect::MacroCall | Effect::MacroModal);
-        if cx.origin().at.file != 0 || cx.is_malformed() || cx.has_effect(calls) {
+        if cx.origin().at.file != 0 || cx.is_malformed() || cx.has_effect(Effect::calls_macro) {
             return;
         }
         let Some(word) = cx.word('T').filter(|word| !word.is_computed()) else { return };

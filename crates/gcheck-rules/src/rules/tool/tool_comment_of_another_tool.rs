@@ -46,18 +46,16 @@ fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
     let Some(called) = word.integer() else { return };
     let tool = |number: u32| if tools.offset_in_t && number >= 100 { number / 100 } else { number };
     // A comment that begins with a tool number names its tool; the rest of it may be about any tool.
-    let text = cx.block_text();
-    let Some((named, range)) = named_tool(text) else { return };
+    let Some(comment) = cx.tree().and_then(|block| block.comments().next()) else { return };
+    let Some((named, range)) = named_tool(comment.text()) else { return };
     if tool(called) != 0 && tool(named) != tool(called) && named != called {
-        let start = cx.block_range().start;
+        let start = cx.of_tree(comment.range()).start + 1;
         report.add(finding(cx, word, start + range.start as u32..start + range.end as u32));
     }
 }
 
-/// The tool number at the beginning of the first comment, and its place.
-fn named_tool(text: &str) -> Option<(u32, Range<usize>)> {
-    let open = text.find(['(', ';'])? + 1;
-    let comment = text.get(open..)?;
+/// The tool number at the beginning of what a comment says, and its place there.
+fn named_tool(comment: &str) -> Option<(u32, Range<usize>)> {
     let blanks = comment.len() - comment.trim_start_matches([' ', '\t']).len();
     let named = comment.get(blanks..)?;
     let head = ["TOOL NO.", "TOOL #", "TOOL", "T"]
@@ -69,11 +67,11 @@ fn named_tool(text: &str) -> Option<(u32, Range<usize>)> {
     let digits = rest.get(if head == "T" { 0 } else { gap }..)?;
     let gap = if head == "T" { 0 } else { gap };
     let length = digits.bytes().take_while(u8::is_ascii_digit).count();
+    let rest = digits.get(length..)?;
     let ends =
-        digits.get(length..)?.starts_with(|c: char| !c.is_ascii_alphanumeric() && c != '.' && c != '/');
+        rest.is_empty() || rest.starts_with(|c: char| !c.is_ascii_alphanumeric() && c != '.' && c != '/');
     let number = digits.get(..length)?.parse().ok().filter(|_| ends && length <= 4)?;
-    let start = open + blanks;
-    Some((number, start..start + head.len() + gap + length))
+    Some((number, blanks..blanks + head.len() + gap + length))
 }
 
 fn finding(cx: &BlockCx<'_>, word: &Word, comment: Range<u32>) -> Finding {

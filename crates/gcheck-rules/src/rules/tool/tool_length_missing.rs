@@ -246,14 +246,13 @@ fn is_touching_off(cx: &PathCx<'_>) -> Option<bool> {
     }
     // A tool that is about to touch off finds its own zero. If no offset is written, the result is the position of
     // the spindle nose, and the other tools move there with their tips.
-    let touches = |effect| matches!(effect, Effect::ProbeToward | Effect::ProbeTowardOptional);
     let keeps = |effect| {
         matches!(
             effect,
             Effect::WriteOffsets | Effect::SetPosition | Effect::LocalShift | Effect::LengthFromBlock
         )
     };
-    let is_touching = is_near(cx, touches);
+    let is_touching = is_near(cx, Effect::probes_toward);
     let goes_without = is_touching && (!cx.file_uses(Effect::takes_tool_length) || cx.file_uses(keeps));
     (!goes_without).then_some(is_touching)
 }
