@@ -32,8 +32,7 @@ impl Order<'_, '_> {
                     .help("move the section by hand, if this may come at another time"));
             }
         }
-        self.check_ways()?;
-        self.check_speed_limits()
+        self.check_ways()
     }
 
     /// The section that a byte is in.
@@ -99,33 +98,6 @@ impl Order<'_, '_> {
             let section = self.section_of(word.range.start);
             if *first_section.entry(&word.label).or_insert(section) != section {
                 return refuse(&word.range, "this statement belongs to one in another section");
-            }
-        }
-        Ok(())
-    }
-
-    /// The limit of the spindle speed is not compared: each section has to give its own.
-    fn check_speed_limits(&self) -> Result<(), Refusal> {
-        let limits = |line: &&Line| {
-            let block = line.place.block();
-            let words = line.place.table.words(block);
-            let is_limit = |effect| matches!(effect, Effect::SpeedLimitOrSetPosition | Effect::SetPosition);
-            block.letters.contains(Letter::of('S'))
-                && words.iter().any(|word| is_limit(self.lines.model.effect(word.code)))
-        };
-        let given: Vec<u32> = self.lines.blocks.iter().filter(limits).map(|line| line.start).collect();
-        let Some(first) = self.lines.blocks.iter().find(limits).map(|line| line.place.range()) else {
-            return Ok(());
-        };
-        for section in self.moved.start..(self.moved.end + 1).min(self.sections.len()) {
-            let Some(section) = self.sections.get(section) else { continue };
-            if !given.iter().any(|at| section.bytes.contains(at)) {
-                let reason = format!(
-                    "the limit of the spindle speed is given here, and T{} takes it from the section above it",
-                    section.tool
-                );
-                return Err(Refusal::at(first, reason)
-                    .help(format!("give the limit in the section of T{} too", section.tool)));
             }
         }
         Ok(())

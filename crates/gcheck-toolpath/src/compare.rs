@@ -526,9 +526,22 @@ fn feed_differs(a: Feed, b: Feed) -> bool {
     }
 }
 
+/// Is the surface speed constant in one alone, or limited otherwise? Without a limit a part that is turned to its centre spins
+/// as fast as the machine can.
+fn surface_differs(a: Option<f64>, b: Option<f64>) -> bool {
+    match (a, b) {
+        (Some(a), Some(b)) => {
+            a.is_infinite() != b.is_infinite() && !a.is_nan() && !b.is_nan() || rate_differs(a, b)
+        }
+        (a, b) => a.is_some() != b.is_some(),
+    }
+}
+
 fn spindle_differs(a: &Setting, b: &Setting) -> bool {
     use gcheck_engine::Spindle::Stopped;
     let stands = |setting: &Setting| setting.spindle == Some(Stopped);
     known_differ(a.spindle, b.spindle)
-        || !stands(a) && !stands(b) && (a.surface != b.surface || rate_differs(a.speed, b.speed))
+        || !stands(a)
+            && !stands(b)
+            && (surface_differs(a.surface, b.surface) || rate_differs(a.speed, b.speed))
 }

@@ -129,8 +129,8 @@ pub struct Setting {
     pub spindle: Option<Spindle>,
     /// Its speed: turns a minute, or metres a minute under constant surface speed.
     pub speed: f64,
-    /// Constant surface speed.
-    pub surface: bool,
+    /// Constant surface speed, with its limit in turns a minute: infinite without one, NaN unknown.
+    pub surface: Option<f64>,
     /// The tool in the spindle.
     pub tool: Option<u32>,
     /// Number of the work coordinate system, 1 the first.
@@ -180,7 +180,7 @@ impl Trail {
                 feed: None,
                 spindle: None,
                 speed: f64::NAN,
-                surface: false,
+                surface: None,
                 tool: None,
                 work: work.number,
                 zero: zero(&work.origin),
@@ -227,9 +227,9 @@ impl Trail {
         match event {
             Event::Spindle(spindle) => setting.spindle = Some(*spindle),
             Event::SpindleSpeed(speed) => {
-                setting.speed = if setting.surface { metres(*speed, step.units) } else { *speed };
+                setting.speed = if setting.surface.is_some() { metres(*speed, step.units) } else { *speed };
             }
-            Event::SpindleMode(limit) => setting.surface = limit.is_some(),
+            Event::SpindleMode(limit) => setting.surface = *limit,
             Event::ToolChange(tool) | Event::SetToolNumber(tool) => setting.tool = *tool,
             Event::WorkOffset { number, offset, .. } => {
                 setting.work = Some(*number);

@@ -103,8 +103,8 @@ pub enum Value {
     Driven(Driven),
     /// A feed.
     Feed(Option<Feed>),
-    /// Direction, speed if it is known, and whether that is a surface speed in metres a minute.
-    Spindle(Option<Spindle>, Option<f64>, bool),
+    /// Direction, speed if it is known, and of a surface speed, in metres a minute, the limit in turns a minute.
+    Spindle(Option<Spindle>, Option<f64>, Option<f64>),
     /// A tool.
     Tool(Option<u32>),
     /// Number of a work coordinate system.

@@ -38,6 +38,21 @@ fn numbers_blanks_comments_and_leading_zeros_make_no_difference() {
     same("N10 G01 X10. F100. (SIDE)\nN20 Y5.0", "G1X10.F100\n\n/ \nX10.000Y+5.");
 }
 
+/// A part that is turned to its centre spins up to the limit: another one may throw it out of the chuck.
+#[test]
+fn another_limit_of_the_surface_speed_is_a_difference() {
+    let program = |limit: &str| {
+        format!("%\nO1\nG21 G18 G99\nT0101\n{limit}G96 S200 M3\nG0 X50. Z0.\nG1 X0. F0.2\nG97 S500\nM30\n%\n")
+    };
+    let run = |a: &str, b: &str| {
+        let shop = Shop::with(&[("a.nc", &program(a)), ("b.nc", &program(b))]);
+        shop.gcheck("diff a.nc b.nc --control haas-lathe -q")
+    };
+    assert_eq!(run("G50 S1200\n", "G50 S1200\n").code, 0);
+    expect![[r#""#]].assert_eq(&run("G50 S1200\n", "G50 S9000\n").stdout);
+    expect![[r#""#]].assert_eq(&run("G50 S1200\n", "").stdout);
+}
+
 #[test]
 fn a_line_in_pieces_is_the_line() {
     same("G1 X10. Y10. Z-3.\nX0.", "G1 X5. Y5. Z-2.\nX7.5 Y7.5 Z-2.5\nX10. Y10. Z-3.\nX6.\nX3.\nX0.");

@@ -2007,30 +2007,45 @@ fn sections_that_depend_on_their_order_stay() {
         refuses(&program, "haas-mill", arguments, expected);
     };
     let up = "move-section --tool 2 --up";
-    refused("M01\n(DRILL)", "M0 (TURN THE PART OVER)\n(DRILL)", up, &expect![[r#"
+    refused(
+        "M01\n(DRILL)",
+        "M0 (TURN THE PART OVER)\n(DRILL)",
+        up,
+        &expect![[r#"
         error: part.nc:17:1: cannot move the section of a tool: the operator does something here, which would come before or after other work
            |
         17 | M0 (TURN THE PART OVER)
            | ^^^^^^^^^^^^^^^^^^^^^^^
           help: move the section by hand, if this may come at another time
         part.nc: nothing is changed
-    "#]]);
-    refused("X50.\n", "X50.\nM83\n", up, &expect![[r#"
+    "#]],
+    );
+    refused(
+        "X50.\n",
+        "X50.\nM83\n",
+        up,
+        &expect![[r#"
         error: part.nc:15:1: cannot move the section of a tool: what this command does is not followed, and it would come before or after other work
            |
         15 | M83
            | ^^^
           help: move the section by hand, if this may come at another time
         part.nc: nothing is changed
-    "#]]);
-    refused("X50.\n", "X50.\nG31 Z-2. F50.\n", up, &expect![[r#"
+    "#]],
+    );
+    refused(
+        "X50.\n",
+        "X50.\nG31 Z-2. F50.\n",
+        up,
+        &expect![[r#"
         error: part.nc:15:1: cannot move the section of a tool: what is measured here would be measured before or after other work
            |
         15 | G31 Z-2. F50.
            | ^^^^^^^^^^^^^
           help: move the section by hand, if this may come at another time
         part.nc: nothing is changed
-    "#]]);
+    "#]],
+    );
     refused(
         "M01\n(DRILL)",
         "IF [#500 EQ 1] GOTO 3\n(DRILL)",
@@ -2041,31 +2056,46 @@ fn sections_that_depend_on_their_order_stay() {
             For more information, try '--help'.
         "#]],
     );
-    refused("N2 T2 M6", "N2 M6", up, &expect![[r#"
+    refused(
+        "N2 T2 M6",
+        "N2 M6",
+        up,
+        &expect![[r#"
         error: part.nc:19:1: cannot move the section of a tool: the section does not name its tool: T2 is called in the section above it
            |
         19 | N2 M6
            | ^^^^^
           help: write `T2` in this block
         part.nc: nothing is changed
-    "#]]);
+    "#]],
+    );
     let looped = "%\nO1\nG21 G90 G54\n#1=0\nWHILE [#1 LT 1] DO1\nT1 M6\nG0 X0. Y0.\nT2 M6\nG0 X1. Y0.\n#1=#1+1\nEND1\nT3 M6\nG0 X2. Y0.\nM30\n%\n";
-    refuses(looped, "haas-mill", "move-section --tool 3 --up", &expect![[r#"
+    refuses(
+        looped,
+        "haas-mill",
+        "move-section --tool 3 --up",
+        &expect![[r#"
         error: part.nc:11:1: cannot move the section of a tool: this loop begins in another section than it ends
            |
         11 | END1
            | ^^^^
         part.nc: nothing is changed
-    "#]]);
+    "#]],
+    );
     let limited = "%\nO1\nG21 G18 G40 G99\nG28 U0. W0.\nT0101\nG50 S2500\nG96 S200 M3\nG0 X50. Z2.\nG1 Z-20. F0.2\nG28 U0. W0.\nT0303\nG50 S1200\nG96 S150 M3\nG0 X52. Z-10.\nG1 X40. F0.1\nG28 U0. W0.\nT0505\nG96 S100 M3\nG0 X52. Z-15.\nG1 X48. F0.1\nG28 U0. W0.\nM30\n%\n";
-    refuses(limited, "haas-lathe", "move-section --tool 3 --up", &expect![[r#"
+    refuses(
+        limited,
+        "haas-lathe",
+        "move-section --tool 3 --up",
+        &expect![[r#"
         error: part.nc:6:1: cannot move the section of a tool: the limit of the spindle speed is given here, and T5 takes it from the section above it
           |
         6 | G50 S2500
           | ^^^^^^^^^
           help: give the limit in the section of T5 too
         part.nc: nothing is changed
-    "#]]);
+    "#]],
+    );
 }
 
 /// The modes at the beginning of a section go with its comment and number, and the end of the program stays.
@@ -2081,7 +2111,11 @@ fn a_section_goes_with_what_stands_between_its_heading_and_its_tool() {
         section(1, "G1 Z-1. F100."),
         section(2, "G1 Z-2. F80.")
     );
-    changes(&text, "haas-mill", "move-section --tool 2 --up", &expect![[r#"
+    changes(
+        &text,
+        "haas-mill",
+        "move-section --tool 2 --up",
+        &expect![[r#"
          6 (TOOL 2)
          7 N2
          9 T2 M6
@@ -2103,10 +2137,15 @@ fn a_section_goes_with_what_stands_between_its_heading_and_its_tool() {
         ! note: line 26 of the program before the change goes with T2: move it by hand if it closes the program
         ! note: the way to the first point of a section begins where the section above it ends: check that the tool clears the part there
         exit 0
-    "#]]);
+    "#]],
+    );
     // Without a program end.
     let text = format!("%\nG21\n{}{}%\n", section(1, "G1 Z-1. F100."), section(2, "G1 Z-2. F80."));
-    changes(&text, "linuxcnc", "move-section --tool 2 --up", &expect![[r#"
+    changes(
+        &text,
+        "linuxcnc",
+        "move-section --tool 2 --up",
+        &expect![[r#"
          3 (TOOL 2)
          4 N2
          6 T2 M6
@@ -2122,7 +2161,8 @@ fn a_section_goes_with_what_stands_between_its_heading_and_its_tool() {
         ! part.nc: changed for linuxcnc: the tools come in another order, and every move of each section is as before, within 0.001 mm (8 moves compared)
         ! note: the way to the first point of a section begins where the section above it ends: check that the tool clears the part there
         exit 0
-    "#]]);
+    "#]],
+    );
 }
 
 /// A turret calls its tool by one word, and takes its offset back by another.

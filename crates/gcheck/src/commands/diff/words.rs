@@ -320,19 +320,24 @@ impl Sides<'_> {
             Value::Feed(None) => "no feed".to_owned(),
             Value::Feed(Some(Feed::PerMinute(feed))) => format!("{}/min", self.length(*feed, true)),
             Value::Feed(Some(Feed::PerTurn(feed))) => format!("{} a turn", self.length(*feed, true)),
-            Value::Spindle(direction, speed, is_surface) => {
+            Value::Spindle(direction, speed, surface) => {
                 let direction = match direction {
                     Some(Spindle::Clockwise) => "clockwise",
                     Some(Spindle::CounterClockwise) => "counter-clockwise",
                     Some(Spindle::Stopped) => return "spindle stopped".to_owned(),
                     None => "spindle unknown",
                 };
-                let unit = if *is_surface { "m/min" } else { "rpm" };
+                let unit = if surface.is_some() { "m/min" } else { "rpm" };
                 let speed = speed.map_or_else(
                     || "unknown speed".to_owned(),
                     |speed| format!("{} {unit}", rounded(speed, 2)),
                 );
-                format!("{direction}, {speed}")
+                let limit = match surface {
+                    Some(limit) if limit.is_infinite() => " without a limit".to_owned(),
+                    Some(limit) if limit.is_finite() => format!(", at most {} rpm", rounded(*limit, 2)),
+                    _ => String::new(),
+                };
+                format!("{direction}, {speed}{limit}")
             }
             Value::Tool(tool) => number(*tool, 'T'),
             Value::WorkOffset(None) => "work offset unknown".to_owned(),
