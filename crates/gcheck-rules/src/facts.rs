@@ -8,6 +8,7 @@ pub(crate) mod bar_feed;
 pub(crate) mod beside;
 pub(crate) mod block_delete;
 pub(crate) mod boundary;
+pub(crate) mod broaching;
 pub(crate) mod callers;
 pub(crate) mod cancelled_length;
 pub(crate) mod compensation;
