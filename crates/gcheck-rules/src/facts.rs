@@ -45,6 +45,7 @@ pub(crate) mod shared_list;
 pub(crate) mod smoothing;
 pub(crate) mod thread_cycles;
 pub(crate) mod thread_passes;
+pub(crate) mod thread_series;
 pub(crate) mod threads;
 pub(crate) mod tool_comment;
 pub(crate) mod tool_words;
