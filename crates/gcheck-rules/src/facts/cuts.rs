@@ -3,7 +3,7 @@
 //! Knows: the cuts of every path up to a move, as long as all of them are known. Must not know: any rule, stock, fixtures.
 
 use gcheck_controls::Effect;
-use gcheck_engine::{Axis, Event, Position, TravelKind};
+use gcheck_engine::{At, Axis, Event, Fact, Position, TravelKind};
 
 use crate::facts::compensation::is_compensated;
 use crate::facts::cycles::is_round_pocket;
@@ -30,12 +30,23 @@ impl Clear {
     pub(crate) fn of(cx: &PathCx<'_>) -> Self {
         match diameter_or_size(cx) {
             Some((_, diameter, assumption)) => Self { radius: diameter.0 / 2.0, assumption },
-            None => {
-                Self { radius: 12.7, assumption: Some("no cutter is wider than 25.4 mm (1 in)".to_owned()) }
-            }
+            None => Self::unknown(),
         }
     }
+
+    /// Of the tool in the spindle, unless one of unknown size has cut before it.
+    pub(crate) fn among(cx: &PathCx<'_>, cuts: &Cuts) -> Self {
+        let own = Self::of(cx);
+        if cuts.has_unknown && own.radius < WIDE { Self::unknown() } else { own }
+    }
+
+    fn unknown() -> Self {
+        Self { radius: WIDE, assumption: Some("no cutter is wider than 25.4 mm (1 in)".to_owned()) }
+    }
 }
+
+/// How far beside its path a cutter of unknown size may clear: millimetres.
+pub(crate) const WIDE: f64 = 12.7;
 
 /// The radius of the tool in the spindle, as the tables have it or else its comment: millimetres.
 pub(crate) fn cutter_radius(cx: &PathCx<'_>) -> Option<f64> {
@@ -44,6 +55,7 @@ pub(crate) fn cutter_radius(cx: &PathCx<'_>) -> Option<f64> {
 
 /// What was cut so far, as far as it is known throughout.
 #[derive(Default, Clone, PartialEq)]
+#[expect(clippy::struct_excessive_bools, reason = "independent facts of the cuts")]
 pub(crate) struct Cuts {
     list: SharedList<Cut>,
     /// Work offset and shift that the coordinates count from.
@@ -56,6 +68,10 @@ pub(crate) struct Cuts {
     is_beside: bool,
     /// One of the cuts ran beside its path, by a distance that is unknown.
     has_beside: bool,
+    /// The tool that has cut last, with its radius; zero for one of unknown size.
+    tool: Option<(Option<At>, f64)>,
+    /// One of the tools that have cut is of unknown size.
+    has_unknown: bool,
     /// Something unknown was moved, so that no later question has an answer.
     blind: bool,
 }
@@ -77,6 +93,15 @@ struct Cut {
     z: f64,
     /// How far beside it the tool may have cut: a path beside the programmed one, by a size that is not known.
     beside: f64,
+    /// The radius of the tool that has cut; zero if that is unknown.
+    radius: f64,
+}
+
+impl Cut {
+    /// Did its tool, or one of this radius, come to a place?
+    fn reaches(&self, at: [f64; 2], radius: f64) -> bool {
+        distance_to_line(at, self.from, self.to) <= radius.max(self.radius) + self.beside
+    }
 }
 
 /// Cuts that differ in depth by more are two, and points that are nearer to a cut are on it: millimetres.
@@ -88,7 +113,7 @@ const MOST_BESIDE: f64 = 25.4;
 /// Cuts that are kept. Programs with more of them come from a system that plans its rapid moves.
 const MAX_CUTS: usize = 20_000;
 
-remembers!(Cuts);
+remembers!(Cuts: tool);
 
 impl SharedMemory for Cuts {
     fn moved(&mut self, cx: &PathCx<'_>, event: &Event) {
@@ -157,6 +182,7 @@ impl Cuts {
         if !cuts {
             return;
         }
+        let radius = self.radius(cx);
         let depth = |position: &Position| position.get(Axis::Z);
         let z = match (depth(from), depth(to)) {
             (Some(a), Some(b)) => Some(a.min(b)),
@@ -169,7 +195,7 @@ impl Cuts {
                 (Some([x0, y0, z0]), Some([x1, y1, z1]), Some(bulge)) if was_beside || is_compensated(cx) => {
                     (self.is_beside, self.has_beside) = (flat(to).is_none(), true);
                     let beside = MOST_BESIDE + bulge;
-                    self.list.push(Cut { from: [x0, y0], to: [x1, y1], z: z0.min(z1), beside });
+                    self.list.push(Cut { from: [x0, y0], to: [x1, y1], z: z0.min(z1), beside, radius });
                 }
                 _ => self.give_up(),
             }
@@ -179,16 +205,28 @@ impl Cuts {
             Event::Arc(arc) => {
                 if arc.plane != gcheck_geometry::Plane::Xy || !arc.sweep.is_finite() {
                     self.blind = arc.plane == gcheck_geometry::Plane::Xy;
-                    self.list.push(Cut { from: a, to: b, z, beside: 0.0 });
+                    self.list.push(Cut { from: a, to: b, z, beside: 0.0, radius });
                 } else {
-                    self.add_arc([arc.centre.0.0, arc.centre.1.0], a, arc.sweep, z);
+                    self.add_arc([arc.centre.0.0, arc.centre.1.0], a, arc.sweep, [z, radius]);
                 }
             }
-            _ => self.list.push(Cut { from: a, to: b, z, beside: 0.0 }),
+            _ => self.list.push(Cut { from: a, to: b, z, beside: 0.0, radius }),
         }
     }
 
-    fn add_arc(&mut self, centre: [f64; 2], start: [f64; 2], sweep: f64, z: f64) {
+    /// The radius of the tool in the spindle; zero if it is unknown.
+    fn radius(&mut self, cx: &PathCx<'_>) -> f64 {
+        let tool = cx.definitions().set_by(Fact::Tool);
+        let radius = match self.tool {
+            Some((known, radius)) if known == tool => radius,
+            _ => cutter_radius(cx).filter(|radius| radius.is_finite()).unwrap_or(0.0),
+        };
+        self.tool = Some((tool, radius));
+        self.has_unknown |= radius <= 0.0;
+        radius
+    }
+
+    fn add_arc(&mut self, centre: [f64; 2], start: [f64; 2], sweep: f64, [z, radius_of_tool]: [f64; 2]) {
         const PIECES: u32 = 12;
         let radius = distance(centre, start);
         let angle = (start[1] - centre[1]).atan2(start[0] - centre[0]);
@@ -197,20 +235,26 @@ impl Cuts {
             [centre[0] + radius * cos, centre[1] + radius * sin]
         };
         for piece in 0..PIECES {
-            self.list.push(Cut { from: at(piece), to: at(piece + 1), z, beside: 0.0 });
+            self.list.push(Cut {
+                from: at(piece),
+                to: at(piece + 1),
+                z,
+                beside: 0.0,
+                radius: radius_of_tool,
+            });
         }
     }
 
-    /// Did one of the first `count` cuts reach within `radius` of a point, at this depth or lower?
+    /// Did one of the first `count` cuts reach within `radius` of a point, or its own tool come there, at this depth or lower?
     pub(crate) fn reach(&self, count: usize, at: [f64; 2], z: f64, radius: f64) -> bool {
         let mut cuts = self.list.iter().take(count);
-        cuts.any(|cut| cut.z <= z + LEVEL && distance_to_line(at, cut.from, cut.to) <= radius + cut.beside)
+        cuts.any(|cut| cut.z <= z + LEVEL && cut.reaches(at, radius))
     }
 
     /// The same of the cuts that go sideways: no holes.
     pub(crate) fn reach_sideways(&self, at: [f64; 2], z: f64, radius: f64) -> bool {
         let mut cuts = self.list.iter().filter(|cut| distance(cut.from, cut.to) > LEVEL || cut.beside > 0.0);
-        cuts.any(|cut| cut.z <= z + LEVEL && distance_to_line(at, cut.from, cut.to) <= radius + cut.beside)
+        cuts.any(|cut| cut.z <= z + LEVEL && cut.reaches(at, radius))
     }
 
     /// Does an earlier straight cut pass over a point, less deep than this level, and not near the ends of the cut? Near its

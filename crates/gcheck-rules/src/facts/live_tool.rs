@@ -3,12 +3,110 @@
 //! Knows: the C axis, the cycles of live tools, functions of machine builders with a speed. Must not know: any rule.
 
 use gcheck_controls::{CodeIx, Effect, LetterSet};
-use gcheck_engine::{At, Fact, Role};
+use gcheck_engine::{At, Event, Fact, Role};
 use gcheck_geometry::Plane;
 use gcheck_program::{Place, Word};
 
-use crate::PathCx;
 use crate::facts::cutting::starts_spindle;
+use crate::facts::program_calls::calls_other_files;
+use crate::facts::tool_words::ToolWords;
+use crate::{PathCx, remembers};
+
+/// What blocks have shown of a live tool, in the order in which they are executed: a called program works between two blocks that
+/// are next to each other in the text, or far from them.
+///
+/// A rule keeps one, and shows it every block and every event that is not a move.
+#[derive(Debug, Default, Clone, PartialEq)]
+#[expect(clippy::struct_excessive_bools, reason = "independent facts of what was executed")]
+pub(crate) struct Executed {
+    /// Since the tool came, the C axis was moved or engaged, or the machine builder's codes were executed.
+    may_be_live: bool,
+    /// Since the spindle started, the part may have come to rest.
+    may_hold_part: bool,
+    /// Since the tool came and anything started, a block worked with the C axis.
+    is_live: bool,
+    /// In the same time, a code of the machine builder with a speed was executed.
+    may_turn: bool,
+}
+
+remembers!(Executed);
+
+impl Executed {
+    /// A block begins.
+    pub(crate) fn block(&mut self, cx: &PathCx<'_>) {
+        if cx.is_mill() {
+            return;
+        }
+        if cx.has_effect(starts_spindle) {
+            (self.is_live, self.may_turn) = (false, false);
+        }
+        if cx.has_effect(Effect::starts_spindle) {
+            self.may_hold_part = false;
+        }
+        let Some(place) = cx.place() else { return };
+        let words = place.table.words(place.block());
+        // What a program of another file does is not shown.
+        let is_elsewhere = cx.has_effect(Effect::calls) && calls_other_files(cx.file_index);
+        let turns_c = place.block().letters.intersects(LetterSet::of("CH")) && cx.has_effect(is_rapid);
+        let has_speed = place.block().letters.intersects(LetterSet::of("SP"));
+        let has_c_axis = words.iter().any(|word| is_of(cx, word.code, &[C_AXIS]));
+        self.may_be_live |= is_elsewhere || has_c_axis || turns_c || has_builders(cx, words);
+        self.may_hold_part |= is_elsewhere || turns_c || words.iter().any(|word| holds(cx, word));
+        self.may_hold_part |= has_builders(cx, words);
+        self.is_live |= turns_c || words.iter().any(|word| is_of(cx, word.code, &GROUPS));
+        self.may_turn |= is_elsewhere || has_speed && has_builders(cx, words);
+    }
+
+    /// The axes move at rapid.
+    pub(crate) fn rapid(&mut self, cx: &PathCx<'_>) {
+        if !cx.is_mill() && cx.origin().letters.intersects(LetterSet::of("CH")) {
+            (self.may_be_live, self.may_hold_part) = (true, true);
+        }
+    }
+
+    /// An event that is not a move.
+    pub(crate) fn changed(&mut self, cx: &PathCx<'_>, event: &Event) {
+        if matches!(event, Event::ToolChange(_)) {
+            *self = Self { may_hold_part: self.may_hold_part, ..Self::default() };
+            self.block(cx);
+        }
+    }
+
+    /// May a live tool work that the state does not know of?
+    pub(crate) fn may_be_live(&self, cx: &PathCx<'_>) -> bool {
+        self.may_be_live || may_be_live(cx) || ToolWords::of(cx).is_powered()
+    }
+
+    /// May the part be at rest although the spindle was started in this block?
+    pub(crate) fn may_hold_part(&self, cx: &PathCx<'_>, started: At) -> bool {
+        self.may_hold_part || may_hold_part_since(cx, started.block)
+    }
+
+    /// What shows of a live tool in the block and before it.
+    pub(crate) fn live_tool(&self, cx: &PathCx<'_>) -> LiveTool {
+        match live_tool(cx) {
+            LiveTool::MayTurn => LiveTool::MayTurn,
+            _ if self.may_turn => LiveTool::MayTurn,
+            LiveTool::No if self.is_live => LiveTool::Stands,
+            shown => shown,
+        }
+    }
+}
+
+fn is_rapid(effect: Effect) -> bool {
+    effect == Effect::Rapid
+}
+
+/// Is it a code of one of these modal groups?
+fn is_of(cx: &PathCx<'_>, code: CodeIx, groups: &[&str]) -> bool {
+    cx.code_of(code).is_some_and(|code| groups.contains(&code.entry().group.as_str()))
+}
+
+/// Does the code engage the C axis, hold the spindle at an angle, or stop the program?
+fn holds(cx: &PathCx<'_>, word: &Word) -> bool {
+    is_of(cx, word.code, &[C_AXIS])
+        || matches!(cx.model.effect(word.code), Effect::SpindleOrient | Effect::Stop)
+}
 
 /// What shows of a live tool.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -29,7 +127,7 @@ const C_AXIS: &str = "c-axis";
 const BEFORE: u32 = 60;
 
 /// Of the block, with what comes before it since the tool came.
-pub(crate) fn live_tool(cx: &PathCx<'_>) -> LiveTool {
+fn live_tool(cx: &PathCx<'_>) -> LiveTool {
     if cx.is_mill() {
         return LiveTool::No;
     }
@@ -56,16 +154,14 @@ pub(crate) fn live_tool(cx: &PathCx<'_>) -> LiveTool {
         let is_rapid = words.iter().any(|word| cx.model.effect(word.code) == Effect::Rapid);
         let turns = letters.intersects(LetterSet::of("C"))
             && (is_rapid || !letters.intersects(LetterSet::of("XZUW")));
-        let is_of_live_tools =
-            |code: CodeIx| cx.code_of(code).is_some_and(|code| GROUPS.contains(&code.entry().group.as_str()));
-        is_live |= turns || words.iter().any(|word| is_of_live_tools(word.code));
+        is_live |= turns || words.iter().any(|word| is_of(cx, word.code, &GROUPS));
     }
     if is_live { LiveTool::Stands } else { LiveTool::No }
 }
 
 /// May a live tool work that the state does not know of? The block, or one before it since the tool came, moves the C axis, or has
 /// an M code whose meaning is the machine builder's.
-pub(crate) fn may_be_live(cx: &PathCx<'_>) -> bool {
+fn may_be_live(cx: &PathCx<'_>) -> bool {
     let here = cx.origin().at;
     let changed =
         cx.definitions().set_by(Fact::Tool).filter(|at| at.file == here.file && at.block <= here.block);
@@ -83,16 +179,12 @@ pub(crate) fn may_be_live(cx: &PathCx<'_>) -> bool {
 
 /// May the part be at rest although the spindle was started: does a block from this one of the main file on engage the C axis or move
 /// it, hold the spindle at an angle, stop the program, or have an M code of the machine builder?
-pub(crate) fn may_hold_part_since(cx: &PathCx<'_>, first: u32) -> bool {
+fn may_hold_part_since(cx: &PathCx<'_>, first: u32) -> bool {
     first > cx.origin().at.block
         || some_block_since(cx, first, |place| {
             let words = place.table.words(place.block());
-            let holds = |word: &Word| {
-                let is_c_axis = cx.code_of(word.code).is_some_and(|code| code.entry().group == C_AXIS);
-                is_c_axis || matches!(cx.model.effect(word.code), Effect::SpindleOrient | Effect::Stop)
-            };
             place.block().letters.intersects(LetterSet::of("CHY"))
-                || words.iter().any(holds)
+                || words.iter().any(|word| holds(cx, word))
                 || has_builders(cx, words)
         })
 }

@@ -9,6 +9,7 @@ use gcheck_program::BlockFlags;
 
 use crate::PathCx;
 use crate::facts::offset_schemes::whole;
+use crate::facts::thread_series::{Series, coarse_pitch, is_made, threads_in};
 use crate::facts::tool_comment::{HEAD, comments_in, entries};
 
 /// The rounding error of a number with these digits.
@@ -289,10 +290,15 @@ fn thread_in(comment: &str, wanted: Wanted) -> Option<(String, f64)> {
             continue;
         }
         let of_turns = || turns_to_the_inch(&all, ix);
-        if let Some(pitch) = metric(piece).or_else(|| inch(piece)).filter(|_| is_written) {
+        // `M30` alone ends a program.
+        let is_code = matches!(piece, "M1" | "M7" | "M9" | "M11" | "M30") && !is_beside;
+        let thread = || metric(piece).or_else(|| inch(piece));
+        if let Some(pitch) = thread().filter(|_| is_written && !is_code) {
             found.push((piece.to_owned(), pitch));
         } else if let Some(turns) = of_turns() {
             found.push((format!("{turns} TPI"), 25.4 / turns));
+        } else if let Some(thread) = of_series(&all, ix) {
+            found.push(thread);
         }
     }
     match found.as_slice() {
@@ -335,21 +341,6 @@ fn may_be_pitch(piece: &str) -> bool {
 
 /// `M6X1`, `M10-1.25`, `M8` with its coarse pitch.
 fn metric(piece: &str) -> Option<f64> {
-    const COARSE: [(f64, f64); 13] = [
-        (2.0, 0.4),
-        (2.5, 0.45),
-        (3.0, 0.5),
-        (4.0, 0.7),
-        (5.0, 0.8),
-        (6.0, 1.0),
-        (8.0, 1.25),
-        (10.0, 1.5),
-        (12.0, 1.75),
-        (14.0, 2.0),
-        (16.0, 2.0),
-        (20.0, 2.5),
-        (24.0, 3.0),
-    ];
     let size = piece.strip_prefix('M')?;
     match size.split_once(['X', '-', '*']) {
         Some((size, pitch)) => {
@@ -358,61 +349,44 @@ fn metric(piece: &str) -> Option<f64> {
             let (size, pitch) = (number(size)?, number(pitch)?);
             ((0.2..=6.0).contains(&pitch) && pitch < size).then_some(pitch)
         }
-        None => {
-            let size = number(size)?;
-            COARSE.iter().find(|(known, _)| known.to_bits() == size.to_bits()).map(|(_, pitch)| *pitch)
-        }
+        None => coarse_pitch(number(size)?),
     }
 }
 
 /// `1/4-20`, `#10-32`, `10-24`: threads per inch after the dash, and only if such a thread exists.
 fn inch(piece: &str) -> Option<f64> {
-    const NUMBERED: [(u32, u32); 17] = [
-        (0, 80),
-        (1, 64),
-        (1, 72),
-        (2, 56),
-        (2, 64),
-        (3, 48),
-        (4, 40),
-        (4, 48),
-        (5, 40),
-        (6, 32),
-        (6, 40),
-        (8, 32),
-        (8, 36),
-        (10, 24),
-        (10, 32),
-        (12, 24),
-        (12, 28),
-    ];
-    const FRACTIONS: [(&str, [u32; 2]); 10] = [
-        ("1/4", [20, 28]),
-        ("5/16", [18, 24]),
-        ("3/8", [16, 24]),
-        ("7/16", [14, 20]),
-        ("1/2", [13, 20]),
-        ("9/16", [12, 18]),
-        ("5/8", [11, 18]),
-        ("3/4", [10, 16]),
-        ("7/8", [9, 14]),
-        ("1", [8, 12]),
-    ];
-    let (size, threads) = piece.split_once('-')?;
-    let digits = threads.bytes().take_while(u8::is_ascii_digit).count();
-    let (threads, series) = threads.split_at_checked(digits)?;
-    // `13`, `13UNC`, `13UNC-2A`, `13-2A`; a date has more digits.
+    piece.match_indices('-').find_map(|(at, _)| {
+        let threads = threads_after(piece.get(at + 1..)?)?;
+        is_made(piece.get(..at)?, threads).then(|| 25.4 / f64::from(threads))
+    })
+}
+
+/// `13`, `13UNC`, `13UNC-2A`, `13-2A`; a date has more digits.
+fn threads_after(text: &str) -> Option<u32> {
+    let digits = text.bytes().take_while(u8::is_ascii_digit).count();
+    let (threads, series) = text.split_at_checked(digits)?;
     let is_class = |class: &str| class.len() == 3 && class.ends_with(['A', 'B']);
     let is_series = series.is_empty() || series.starts_with(|c: char| c.is_ascii_alphabetic());
-    let threads: u32 = threads.parse().ok().filter(|_| is_series || is_class(series))?;
-    let is_made = match FRACTIONS.iter().find(|(known, _)| *known == size) {
-        Some((_, made)) => made.contains(&threads),
-        None => {
-            let number: u32 = size.trim_start_matches('#').parse().ok()?;
-            NUMBERED.contains(&(number, threads))
-        }
+    threads.parse().ok().filter(|_| is_series || is_class(series))
+}
+
+/// `1/4 UNC`, `#10 UNF`, `UNC 1/4`, `1/4UNC`: a size with its series stands for the threads per inch.
+fn of_series(pieces: &[&str], ix: usize) -> Option<(String, f64)> {
+    let at = |ix: Option<usize>| ix.and_then(|ix| pieces.get(ix)).copied().unwrap_or_default();
+    let piece = at(Some(ix));
+    let letters = piece.find(|c: char| c.is_ascii_alphabetic()).unwrap_or(piece.len());
+    let (size, own) = piece.split_at_checked(letters)?;
+    let (before, after) = (at(ix.checked_sub(1)), at(ix.checked_add(1)));
+    // `3/4 10 UNC`: the number is that of the threads.
+    let is_count = |word: &str| word.starts_with(|c: char| c.is_ascii_digit()) || word == "-";
+    let series = match own {
+        "" => Series::named(after).or_else(|| Series::named(before)),
+        own => Series::named(own),
     };
-    is_made.then(|| 25.4 / f64::from(threads))
+    let series = series.filter(|_| !(is_count(before) || own.is_empty() && is_count(after)))?;
+    let threads = threads_in(size, series)?;
+    let name = if series == Series::Coarse { "UNC" } else { "UNF" };
+    Some((format!("{size} {name}"), 25.4 / f64::from(threads)))
 }
 
 fn number(text: &str) -> Option<f64> {
@@ -465,6 +439,20 @@ mod tests {
             ("(TAP M8 /1)", None),
             ("(TAP M10 1,25)", None),
             ("(M10 TAP 6H)", Some(1.5)),
+            ("(M30 TAP)", Some(3.5)),
+            ("(M7 TAP)", Some(1.0)),
+            ("(M8 TAP, THEN M30)", Some(1.25)),
+            ("(1-8 UNC TAP)", Some(25.4 / 8.0)),
+            ("(TAP 1/4 UNC)", Some(25.4 / 20.0)),
+            ("(#10 UNF TAP)", Some(25.4 / 32.0)),
+            ("(10 UNC-2B TAP)", Some(25.4 / 24.0)),
+            ("(TAP UNF 5/16)", Some(25.4 / 24.0)),
+            ("(3/8UNC TAP)", Some(25.4 / 16.0)),
+            ("(1-1/8-7 UNC TAP)", Some(25.4 / 7.0)),
+            ("(3/4 10 UNC TAP)", None),
+            ("(1 UNC TAP)", None),
+            ("(1/4 - 20 UNC TAP)", None),
+            ("(13/64 DRILL, UNC)", None),
         ] {
             assert_eq!(thread_in(comment, Wanted::Tap).map(|(_, pitch)| pitch), expected, "{comment}");
         }
@@ -484,6 +472,9 @@ mod tests {
             ("(REV 10-24-2020)", None),
             ("(M20 NUT)", None),
             ("(M20X2 DRILL)", None),
+            ("(1/4 UNC)", Some(25.4 / 20.0)),
+            ("(UNC THREADS 1/4 DEEP)", None),
+            ("(1/4-28 UNF)", Some(25.4 / 28.0)),
             ("(M30X3 2 START)", None),
             ("(M20X1.5 OR M20X2)", None),
             ("(ADAPTER M20X1.5 - G3/4)", None),

@@ -9,6 +9,35 @@ use gcheck_engine::Fact;
 use crate::PathCx;
 use crate::facts::tool_comment::{ToolComment, comment_of_tool};
 
+/// Words for a holder that turns its tool, in the languages in which comments were seen.
+const POWERED: [&str; 25] = [
+    "ACTIONNE",
+    "ANGETR",
+    "ANGETRIEBEN",
+    "ANGETRIEBENE",
+    "ANGETRIEBENER",
+    "ANGETRIEBENES",
+    "DRIVEN",
+    "ENTRAINE",
+    "LIVE",
+    "LIVETOOL",
+    "LIVETOOLING",
+    "MOTORISE",
+    "MOTORISED",
+    "MOTORIZADA",
+    "MOTORIZADO",
+    "MOTORIZED",
+    "MOTORIZZATO",
+    "POWER",
+    "POWERED",
+    "ROTARY",
+    "ROTATING",
+    "SPINNING",
+    "TOURNANT",
+    "WKZANTRIEB",
+    "XPOWER",
+];
+
 /// The comment of the tool that works, if it has one.
 pub(crate) struct ToolWords(Option<Rc<ToolComment>>);
 
@@ -76,7 +105,6 @@ impl ToolWords {
             "CSINK",
             "DCMT",
             "DEBURR",
-            "DRIVEN",
             "ENLARGE",
             "FACE",
             "FACING",
@@ -91,13 +119,11 @@ impl ToolWords {
             "INSERT",
             "INSERTS",
             "KUB",
-            "LIVE",
             "MILL",
             "MILLING",
             "OD",
             "OPEN",
             "PCD",
-            "POWERED",
             "RADIAL",
             "REAM",
             "REDRILL",
@@ -116,7 +142,14 @@ impl ToolWords {
             "VCMT",
             "WNMG",
         ];
-        self.has(&["DRILL"]) && !self.has(&others)
+        self.has(&["DRILL"]) && !self.has(&others) && !self.is_powered()
+    }
+
+    /// Does the holder turn the tool: a live tool, as shops name it?
+    pub(crate) fn is_powered(&self) -> bool {
+        let is_centre =
+            self.has(&["CENTER", "CENTRE", "CENTERS", "CENTRES"]) && !self.has(&["DRILL", "DRILLING"]);
+        self.has(&POWERED) && !is_centre
     }
 
     /// Does the tool cut a thread by its own shape, so that it is fed by the pitch: a tap, a die, a chaser?
@@ -137,6 +170,11 @@ impl ToolWords {
             "ROLLER",
             "ROLLING",
         ])
+    }
+
+    /// May the tool move the bar, or stop it, as far as its comment tells?
+    pub(crate) fn may_move_bar(&self) -> bool {
+        self.0.is_none() || self.needs_no_spindle()
     }
 
     /// Does the tool push, hold or touch the work, or cut it while the spindle is stopped: a bar puller, a bar stop, a live centre, a

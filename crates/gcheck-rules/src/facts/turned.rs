@@ -7,13 +7,14 @@
 use std::ops::Range;
 
 use gcheck_controls::Effect;
-use gcheck_engine::{At, Axis, Event, Fact, Position, Role, Stop, Travel, TravelKind};
+use gcheck_engine::{At, Axis, Event, Fact, Position, Role, Spindle, Stop, Travel, TravelKind};
 
 use crate::facts::live_tool::builders_since;
 use crate::facts::parting::{Along, Parting};
 use crate::facts::second_spindle::swaps;
 use crate::facts::tool_words::ToolWords;
 use crate::facts::turning::{is_roughing, turns, turns_the_part};
+use crate::facts::workholding::{changes_part, changes_part_at};
 use crate::{PathCx, SharedMemory, remembers};
 
 /// X as a radius, and Z: millimetres.
@@ -30,6 +31,8 @@ const MOST: usize = 2000;
 const STEP: f64 = 6.0;
 /// Half the width of a tool that plunges, at most: millimetres.
 const WIDTH: f64 = 6.0;
+/// Blocks between two moves that are looked at.
+const BETWEEN: u32 = 60;
 /// A bore does not leave less of the part than this: millimetres.
 const THIN: f64 = 3.0;
 /// A facing cut goes past the centre by less: millimetres, of the radius.
@@ -93,6 +96,9 @@ impl SharedMemory for Turned {
         if self.frame != frame {
             *self = Self { frame, ..Self::default() };
         }
+        if self.is_before_other_part(cx) {
+            self.forget();
+        }
         let tool = cx.definitions().set_by(Fact::Tool);
         if self.tool != tool {
             (self.tool, self.chain, self.last) = (tool, None, None);
@@ -119,6 +125,8 @@ impl SharedMemory for Turned {
         match kind {
             TravelKind::Rapid => self.rapid(from, to),
             TravelKind::Thread => {}
+            // A bar stop or a puller: the bar moves with it, or to it.
+            _ if is_pushed(cx) => self.forget(),
             _ => self.cut(cx, from, to, is_expanded),
         }
         if Parting::of(cx, event).is_some_and(|parting| self.along().is_turned(&parting)) {
@@ -127,7 +135,7 @@ impl SharedMemory for Turned {
     }
 
     fn block(&mut self, cx: &PathCx<'_>) {
-        if swaps(cx) {
+        if swaps(cx) || changes_part(cx) {
             self.forget();
         }
     }
@@ -147,6 +155,12 @@ impl SharedMemory for Turned {
     }
 }
 
+/// Does the tool move at feed while the program has stopped the spindle? Then it cuts nothing.
+fn is_pushed(cx: &PathCx<'_>) -> bool {
+    let is_stopped = cx.state().spindle() == Some(Spindle::Stopped);
+    is_stopped && cx.definitions().set_by(Fact::Spindle).is_some() && ToolWords::of(cx).may_move_bar()
+}
+
 /// After this, the part is another one, or elsewhere in the chuck; for rules that share [`Turned`].
 pub(crate) fn is_other_part(cx: &PathCx<'_>, event: &Event) -> bool {
     match cx.shared::<Turned>() {
@@ -158,7 +172,16 @@ pub(crate) fn is_other_part(cx: &PathCx<'_>, event: &Event) -> bool {
 impl Turned {
     /// Is everything known that was cut up to here, and does the part turn under a tool that does not?
     pub(crate) fn knows(&self, cx: &PathCx<'_>) -> bool {
-        !self.blind && self.frame.is_some() && self.frame == frame(cx) && turns_the_part(cx)
+        let is_one_frame = self.frame.is_some() && self.frame == frame(cx);
+        !self.blind && is_one_frame && turns_the_part(cx) && !self.is_before_other_part(cx)
+    }
+
+    /// Does a block between the last move and this one bring another part?
+    fn is_before_other_part(&self, cx: &PathCx<'_>) -> bool {
+        let here = cx.origin().at;
+        let Some(last) = self.block.map(|(at, _)| at).filter(|at| at.file == here.file) else { return false };
+        let first = (last.block + 1).max(here.block.saturating_sub(BETWEEN));
+        (first..here.block).any(|block| changes_part_at(cx, At { block, ..here }))
     }
 
     /// Where the tool is before the move that is shown.
@@ -488,6 +511,32 @@ impl Turned {
         let is_into = to[0] < from[0] - UNDER && to[0] < radius - UNDER && to[0] > UNDER;
         let is_cut = |cut: &Cut| cut.back() < level - SLACK && cut.opens(to);
         (is_behind && is_into && !self.has_hole(to[1]) && !self.cuts.iter().any(is_cut)).then_some(face)
+    }
+
+    /// The outside that a straight way inward enters where nothing was cut as deep: not at the end of what was turned, and not near a
+    /// neck.
+    pub(crate) fn outside_entered(&self, from: Spot, to: Spot) -> Option<&Cut> {
+        let [radius, z] = to;
+        let is_inward = is_level(from, to) && radius < from[0] - SLACK;
+        let is_neck = |cut: &Cut| {
+            let [[r0, z0], [r1, z1]] = cut.ends;
+            let is_across = r0.min(r1) < radius + SLACK && r0.max(r1) > radius;
+            is_across && !cut.is_face_to_centre() && z0.min(z1) - WIDTH < z && z < z0.max(z1) + WIDTH
+        };
+        if !is_inward
+            || z > -UNDER
+            || self.has_hole(z)
+            || self.is_opened_to(to)
+            || self.cuts.iter().any(is_neck)
+        {
+            return None;
+        }
+        let is_wall = |cut: &&Cut| {
+            let is_beside = cut.spans(z - UNDER) && cut.spans(z + UNDER);
+            let least = cut.ends[0][0].min(cut.ends[1][0]);
+            cut.side == Side::Outside && is_beside && least > radius + SLACK && from[0] > least - SLACK
+        };
+        self.cuts.iter().rev().find(is_wall)
     }
 
     /// The outside that a way along Z runs into which goes on at rapid where the tool has cut at feed: the cut before it ended there, at

@@ -65,7 +65,7 @@ fn a_mistake_is_found_whether_its_words_are_written_or_computed() {
     };
     let shown: String = silent.into_iter().map(line).collect();
     expect![[r#"
-        6556 words
+        6599 words
         allowance-into-contour: F G X Z
         blank-inside-number: G Y
         block-number-not-first: G
@@ -75,6 +75,7 @@ fn a_mistake_is_found_whether_its_words_are_written_or_computed() {
         corner-before-rapid: G Z
         corner-does-not-fit: Y
         cycle-ended-in-subprogram: X
+        cycle-repeated-in-place: F G M X Z
         decimal-point-on-integer: H
         drilled-beside-the-centre: M
         dwell-unit-unsure: P
@@ -123,6 +124,7 @@ fn a_mistake_is_found_whether_its_words_are_written_or_computed() {
         unknown-address: @ G ^
         unreachable-block: G M
         unwanted-word: G
+        variable-read-before-set: M
         word-of-another-form: G
         word-of-newer-version: $ M
         word-passed-over: G

@@ -8,7 +8,7 @@ use gcheck_geometry::{Mm, Plane};
 
 use crate::declare::declare_rule;
 use crate::facts::boundary::is_before;
-use crate::facts::cuts::{Clear, Cuts, LEVEL, SURFACE, distance, may_hide_cuts, point};
+use crate::facts::cuts::{Clear, Cuts, LEVEL, SURFACE, WIDE, distance, may_hide_cuts, point};
 use crate::facts::cycles::is_cycle;
 use crate::facts::offset_schemes::whole;
 use crate::{Finding, FollowedCx, MakeShared, PathCx, PathRule, Report, Run, Severity, Uses, Watch};
@@ -25,6 +25,9 @@ declare_rule! {
     /// * `R` counted from the level before the cycle is close above the zero, and no cycle begins above the zero, or one with
     ///   that very `R`, or
     /// * no cycle of the program begins above the zero, but its rapid moves end close above it.
+    ///
+    /// A cycle that goes from hole to hole at its `R` (`G99`) is reported too where both holes are in pockets that the program has milled
+    /// from above, and the way between them leaves those: a warning where the top of the part there was milled, else *info*.
     ///
     /// Without such a sign it is *info*, and only if no cycle of the program begins above the zero: the hole may be in a recess
     /// that was there before, or on a lower step of the part.
@@ -110,9 +113,13 @@ struct CycleRInMaterial {
     doubts: Vec<Doubt>,
     /// A rapid move down that belongs to no cycle ends close above the zero.
     shows_surface: bool,
+    /// Where such moves ended.
+    surfaces: Vec<[f64; 2]>,
+    /// The cycle whose way between two holes was reported.
+    between: Option<At>,
 }
 
-remembers!(CycleRInMaterial: doubts);
+remembers!(CycleRInMaterial: doubts, between);
 
 /// A stroke of a cycle, millimetres.
 #[derive(Clone, Copy, PartialEq)]
@@ -153,6 +160,10 @@ const SPOT: f64 = 4.0;
 const CLEARANCE: f64 = 6.35;
 /// A retract plane is closer above its surface: millimetres.
 const CLOSE: f64 = 3.0;
+/// A plane that is deeper is in a pocket: millimetres.
+const DEEP: f64 = 0.5;
+/// A tool comes down to a pocket no farther from the holes in it: millimetres.
+const AROUND: f64 = 60.0;
 /// The tip of a tap fits into its hole so far: millimetres.
 const TIP: f64 = 1.0;
 
@@ -169,9 +180,18 @@ impl PathRule for CycleRInMaterial {
         program.may(is_cycle) && program.environment.control().machine() == gcheck_controls::Machine::Mill
     }
 
-    fn rapid(&mut self, cx: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
+    fn rapid(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
         let Event::Travel(travel) = event else { return };
-        self.shows_surface |= ends_at_surface(travel);
+        if ends_at_surface(travel) {
+            self.shows_surface = true;
+            if let Some([x, y, _]) = point(&travel.to).filter(|_| self.surfaces.len() < MOST) {
+                self.surfaces.push([x, y]);
+            }
+        }
+        if let Some(finding) = self.way_between(cx, event, travel) {
+            self.between = cx.definitions().set_by(Fact::Mode(Role::Cycle));
+            report.add(finding);
+        }
         let Some(stroke) = stroke(cx, travel).filter(|_| self.strokes.len() < MOST) else { return };
         if stroke.r < SURFACE {
             self.doubt(cx, travel, &stroke);
@@ -223,6 +243,50 @@ impl PathRule for CycleRInMaterial {
 }
 
 impl CycleRInMaterial {
+    /// The way of a cycle at its plane from one pocket to another, through what is between them.
+    fn way_between(&self, cx: &PathCx<'_>, event: &Event, travel: &Travel) -> Option<Finding> {
+        let ([x0, y0, z0], [x1, y1, z]) = (point(&travel.from)?, point(&travel.to)?);
+        let cycle = cx.definitions().set_by(Fact::Mode(Role::Cycle));
+        let length = distance([x0, y0], [x1, y1]);
+        let is_level = (z0 - z).abs() <= LEVEL && z < -DEEP && length > 2.0 * WIDE;
+        let is_at_plane = (z - cx.state().cycle().r).abs() <= LEVEL;
+        if !travel.expanded || !is_level || !is_at_plane || self.between.is_some() && self.between == cycle {
+            return None;
+        }
+        let is_known = cx.is_certain() && cx.state().plane(cx.model) == Some(Plane::Xy) && !may_hide_cuts(cx);
+        let cuts = cx.shared::<Cuts>().filter(|cuts| is_known && cuts.knows(cx, event))?;
+        let is_in_pocket = |at: [f64; 2]| {
+            let is_from_above = self.surfaces.iter().any(|surface| distance(*surface, at) < AROUND);
+            is_from_above && cuts.reach_sideways(at, z, WIDE)
+        };
+        if !is_in_pocket([x0, y0]) || !is_in_pocket([x1, y1]) {
+            return None;
+        }
+        #[expect(clippy::cast_sign_loss, reason = "a length below 100 m")]
+        let pieces = length.min(1e5) as u32;
+        let on_the_way = (1..pieces).map(|piece| {
+            let part = f64::from(piece) / f64::from(pieces);
+            [x0 + (x1 - x0) * part, y0 + (y1 - y0) * part]
+        });
+        let closed: Vec<[f64; 2]> =
+            on_the_way.filter(|at| !cuts.reach(cuts.len(), *at, z, WIDE)).take(MOST).collect();
+        let first = closed.first()?;
+        let is_milled = closed.iter().any(|at| cuts.reach(cuts.len(), *at, -SURFACE, WIDE));
+        let return_level = cx.name_of_effect(Effect::ReturnToInitial)?;
+        let place = first.map(|coordinate| cx.shown(Mm(coordinate))).join(", ");
+        let finding = cx
+            .finding(&META, cx.range(), "the cycle goes at rapid from hole to hole through the part")
+            .label(format!(
+                "{} below the zero of the part; at {place} nothing was cut as deep",
+                cx.shown(Mm(-z))
+            ))
+            .also(word_of_plane(cx, cycle), "at this level")
+            .assuming("the part is solid where the program has not cut")
+            .assuming("no cutter is wider than 25.4 mm (1 in)")
+            .help(format!("go back to the level before the cycle between these holes (`{return_level}`)"));
+        Some(if is_milled { finding } else { finding.at_most(Severity::Info) })
+    }
+
     fn doubt(&mut self, cx: &PathCx<'_>, travel: &Travel, stroke: &Stroke) {
         let cycle = cx.definitions().set_by(Fact::Mode(Role::Cycle));
         let start = travel.from.raw(Axis::Z);
@@ -242,7 +306,7 @@ impl CycleRInMaterial {
         }
         let event = Event::Travel(*travel);
         let Some(cuts) = cx.shared::<Cuts>().filter(|cuts| cuts.knows(cx, &event)) else { return };
-        let clear = Clear::of(cx);
+        let clear = Clear::among(cx, cuts);
         let reaches = |z: f64| cuts.reach(cuts.len(), stroke.at, z, clear.radius);
         let is_spot = |other: &&Stroke| {
             distance(other.at, stroke.at) <= NEAR
@@ -541,6 +605,60 @@ mod tests {
         let high = program("", &DRILLED.replace("R-2.", "R-98.").replace("Z-25.", "Z-125."))
             .replace("H1 Z25.", "H1 Z-50.");
         check_rule(&RULE, "haas-mill", &high, &expect![[""]]);
+    }
+
+    /// Two pockets of 10 mm, 80 mm apart from middle to middle, milled with a cutter; then a hole in each.
+    fn pockets(before: &str, between: &str, cycle: &str) -> String {
+        let pocket = |x: u32| {
+            format!("G0 X{x}. Y0.\nZ2.\nG1 Z-4. F90.\nX{}. F200.\nY8.\nX{x}.\nY0.\nG0 Z25.\n", x + 8)
+        };
+        format!(
+            "T1 M6\nG21 G90 G54 G0 X0. Y0. S900 M3\nG43 H1 Z25.\n{before}{}{}{between}T2 M6\nG54 G0 X4. Y4. S900 M3\nG43 H2 Z25.\n{cycle}\nX84.\nG80\nM30\n",
+            pocket(0),
+            pocket(80)
+        )
+    }
+
+    /// The drill is narrower than the cutter that has milled the pocket.
+    #[test]
+    fn a_pocket_of_a_wider_cutter() {
+        let text = pockets("", "", "G98 G81 X4. Y4. Z-12. R-3. F90.").replace("T2 M6", "T2 M6 (3 MM DRILL)");
+        check_rule(&RULE, "haas-mill", &text, &expect![[""]]);
+    }
+
+    #[test]
+    fn from_pocket_to_pocket() {
+        let face = "G0 X-20. Y4.\nZ2.\nG1 Z0. F90.\nX120. F300.\nG0 Z25.\n";
+        check_rule(
+            &RULE,
+            "haas-mill",
+            &pockets(face, "", "G99 G81 X4. Y4. Z-12. R-3. F90."),
+            &expect![[r#"
+                29 | X84.
+                   | ^^^^ warning[cycle-r-in-material] the cycle goes at rapid from hole to hole through the part
+            "#]],
+        );
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            &pockets("", "", "G99 G81 X4. Y4. Z-12. R-3. F90."),
+            &expect![[r#"
+                24 | X84.
+                   | ^^^^ info[cycle-r-in-material] the cycle goes at rapid from hole to hole through the part
+            "#]],
+        );
+        let slot = "G0 X0. Y4.\nZ2.\nG1 Z-4. F90.\nX80. F200.\nG0 Z25.\n";
+        for (between, cycle) in [
+            ("", "G98 G81 X4. Y4. Z-12. R-3. F90."),
+            ("", "G99 G81 X4. Y4. Z-12. R2. F90."),
+            (slot, "G99 G81 X4. Y4. Z-12. R-3. F90."),
+            ("", "G99 G81 X4. Y4. Z-12. R-3. F90.\nX8.\nG98 X4. Y4.\nG99"),
+        ] {
+            check_rule(&RULE, "haas-mill", &pockets(face, between, cycle), &expect![[""]]);
+        }
+        // On a floor that was there before, the tools do not come down to the zero.
+        let low = pockets("", "", "G99 G81 X4. Y4. Z-12. R-3. F90.").replace("Z2.", "Z-2.");
+        check_rule(&RULE, "haas-mill", &low, &expect![[""]]);
     }
 
     #[test]

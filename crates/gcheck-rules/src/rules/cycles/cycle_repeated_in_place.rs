@@ -1,15 +1,19 @@
-//! A canned cycle that is repeated at one place.
+//! A canned cycle, or a subprogram, that is repeated at one place.
 
-use gcheck_controls::{CodeIx, Effect, Letter};
-use gcheck_engine::{Event, Fact, Role};
+use gcheck_controls::{CodeIx, Effect, Letter, LetterSet};
+use gcheck_engine::{At, Event, Fact, Role};
+use gcheck_program::{BlockFlags, Place};
 
 use crate::declare::declare_rule;
-use crate::facts::cycles::{is_cycle, is_round_pocket};
+use crate::facts::cycles::{is_cycle, is_drilling, is_round_pocket};
 use crate::facts::offset_schemes::whole;
-use crate::{PathCx, PathRule, Report, Run, Severity, Uses, Watch};
+use crate::{Finding, PathCx, PathRule, Remembers, Report, Run, Severity, Uses, Watch, remembers};
 
 declare_rule! {
     /// A canned cycle repeats (`L`, `K`) while positions are absolute (`G90`).
+    ///
+    /// It is an information where a call repeats a subprogram three times or more that cuts, and all of whose moves go to absolute
+    /// positions. A subprogram that does anything else (a stop, a bar feed, a shift, arithmetic) is not judged.
     ///
     /// ## Why it matters
     /// The same hole is drilled again and again: a tap cuts its thread away, a drill rubs. A row of holes by a repeat
@@ -21,6 +25,18 @@ declare_rule! {
     /// G81 X10. Z-5. R2. K5 F100.
     /// G80
     /// M30
+    /// ```
+    /// ```nc,reported,haas-mill
+    /// O1
+    /// G21 G90 G54 G0 X0. Y0. Z2. S900 M3
+    /// M98 P100 L5
+    /// M30
+    /// O100
+    /// G1 Z-1. F100.
+    /// X20.
+    /// G0 Z2.
+    /// X0.
+    /// M99
     /// ```
     /// ## Not reported
     /// ```nc,quiet,fanuc-mill
@@ -34,15 +50,51 @@ declare_rule! {
         severity: Warning,
         tier: Path,
         since: "0.1.0",
-        run: Run::Path { watch: Watch::BLOCKS.union(Watch::RAPIDS), make: || Box::new(CycleRepeatedInPlace) },
+        run: Run::Path {
+            watch: Watch::BLOCKS.union(Watch::RAPIDS).union(Watch::CUTS),
+            make: || Box::new(CycleRepeatedInPlace::default()),
+        },
     }
 }
 
-struct CycleRepeatedInPlace;
+#[derive(Default, Clone, PartialEq)]
+struct CycleRepeatedInPlace {
+    /// The call whose subprogram was looked at last.
+    call: Option<At>,
+}
+
+remembers!(CycleRepeatedInPlace: call);
+
+/// So often a cut is repeated for its surface.
+const FEW: u32 = 2;
+/// Blocks of a subprogram that are looked at.
+const MOST_BLOCKS: u32 = 2000;
 
 impl PathRule for CycleRepeatedInPlace {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn concerns(&self, program: &Uses<'_>) -> bool {
-        program.may(|effect| is_cycle(effect) || is_round_pocket(effect))
+        program.may(|effect| is_cycle(effect) || is_round_pocket(effect) || effect.calls())
+    }
+
+    /// The first cut of a subprogram.
+    fn cut(&mut self, cx: &PathCx<'_>, _: &Event, report: &mut Report<'_>) {
+        let Some(frame) = cx.state().frames().last().filter(|_| cx.depth() > 1) else { return };
+        let times = frame.repeats().map_or(0, |further| further.saturating_add(1));
+        let (call, entry) = (frame.caller, frame.entry);
+        if times <= FEW || call.file != 0 || entry.file != 0 || self.call.replace(call) == Some(call) {
+            return;
+        }
+        let is_absolute = cx.state().is_incremental(cx.model) == Some(false);
+        if is_absolute
+            && cx.is_certain()
+            && does_the_same_again(cx, entry)
+            && let Some(finding) = repeated_call(cx, call, times)
+        {
+            report.add(finding);
+        }
     }
 
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
@@ -55,6 +107,56 @@ impl PathRule for CycleRepeatedInPlace {
             judge(cx, report);
         }
     }
+}
+
+/// Does a subprogram go to absolute positions alone, so that it does the same again?
+fn does_the_same_again(cx: &PathCx<'_>, entry: At) -> bool {
+    let Some(file) = cx.program.file(entry.file) else { return false };
+    let part = file.loaded.flow_graph().part_of(entry.block);
+    let blocks = entry.block..part.end;
+    blocks.end.saturating_sub(blocks.start) <= MOST_BLOCKS
+        && blocks
+            .clone()
+            .all(|block| cx.place_of(At { block, ..entry }).is_some_and(|place| is_plain(cx, &place)))
+}
+
+/// Does a block do nothing but move to positions, drill, or switch the spindle or coolant?
+fn is_plain(cx: &PathCx<'_>, place: &Place) -> bool {
+    let odd = BlockFlags::STATEMENT | BlockFlags::EXPRESSION | BlockFlags::ERROR | BlockFlags::BLOCK_DELETE;
+    let block = place.block();
+    if block.flags.intersects(odd) || block.letters.intersects(LetterSet::of("TUVW")) {
+        return false;
+    }
+    let is_code = |letter: Letter| matches!(letter.ascii(), b'G' | b'M');
+    let codes = || place.table.words(block).iter().filter(|word| is_code(word.letter));
+    codes().all(|word| {
+        let effect = cx.model.effect(word.code);
+        effect.is_plain_move()
+            || effect.starts_spindle()
+            || effect.switches_coolant()
+            || is_drilling(effect)
+            || matches!(
+                effect,
+                Effect::Absolute
+                    | Effect::Return
+                    | Effect::SpindleStop
+                    | Effect::CycleCancel
+                    | Effect::ReturnToInitial
+                    | Effect::ReturnToR
+                    | Effect::CompensationLeft
+                    | Effect::CompensationRight
+                    | Effect::CompensationOff
+            )
+    })
+}
+
+fn repeated_call(cx: &PathCx<'_>, call: At, times: u32) -> Option<Finding> {
+    let range = cx.find_word(call, |word| word.letter == Letter::of('L')).or_else(|| cx.range_of(call))?;
+    let finding = Finding::new(&META, range, format!("the subprogram runs {times} times at one place"))
+        .label("every pass does the same: all its moves go to absolute positions")
+        .help("move the start of each pass on, with increments or a shift, or remove the repeats")
+        .at_most(Severity::Info);
+    Some(finding)
 }
 
 fn judge(cx: &PathCx<'_>, report: &mut Report<'_>) {
@@ -130,6 +232,51 @@ mod tests {
             "G90 G54 G0 X0. Y0. Z1.\nG81 X1. Z-1. R.1 L1 F10.\nG83 X2. Z-1. R.1 Q.1 L0\nG80\nM30\n",
             &expect![[""]],
         );
+    }
+
+    #[test]
+    fn a_subprogram_that_does_the_same_again() {
+        let program = |call: &str, moves: &str| {
+            format!("O1\nG21 G90 G54 G0 X0. Y0. Z2. S900 M3\n{call}\nM30\nO100\n{moves}\nM99\n")
+        };
+        let cut = "G1 Z-1. F100.\nX20.\nG0 Z2.\nX0.";
+        check_rule(
+            &RULE,
+            "haas-mill",
+            &program("M98 P100 L5", cut),
+            &expect![[r#"
+                3 | M98 P100 L5
+                  |          ^^ info[cycle-repeated-in-place] the subprogram runs 5 times at one place
+            "#]],
+        );
+        check_rule(
+            &RULE,
+            "haas-mill",
+            &program("M98 P100 L3", "G99 G81 X10. Z-5. R2. F100.\nX20.\nG80"),
+            &expect![[r#"
+                3 | M98 P100 L3
+                  |          ^^ info[cycle-repeated-in-place] the subprogram runs 3 times at one place
+            "#]],
+        );
+        for (call, moves) in [
+            ("M98 P100", cut),
+            ("M98 P100 L2", cut),
+            ("M98 P100 L5", "G91 G1 Z-1. F100.\nG90 X20.\nX0."),
+            ("G91\nM98 P100 L5", cut),
+            ("M98 P100 L5", "G1 Z#500 F100.\nX20.\nG0 Z2.\nX0."),
+            ("M98 P100 L5", "#500=#500-1.\nG1 Z-1. F100.\nX20.\nG0 Z2.\nX0."),
+            ("M98 P100 L5", "G1 Z-1. F100.\nX20.\nG0 Z2.\nX0.\nM0"),
+            ("M98 P100 L5", "G1 Z-1. F100.\nX20.\nG0 Z2.\nX0.\nG52 X30."),
+            ("M98 P100 L5", "G1 Z-1. F100.\nX20.\nG0 Z2.\nX0.\nM21"),
+            ("M98 P100 L5", "G1 Z-1. F100.\nX20.\nG0 Z2.\nX0.\nG91 G0 A60.\nG90"),
+            ("M98 P100 L5", "G0 X10.\nX0."),
+            ("M98 P100 L5", "T2 M6\nG1 Z-1. F100.\nX20.\nG0 Z2.\nX0."),
+        ] {
+            check_rule(&RULE, "haas-mill", &program(call, moves), &expect![[""]]);
+        }
+        // A part from a bar in each pass.
+        let part = "O1\nG21 G99 T0101\nG97 S900 M3\nM98 P100 L20\nM30\nO100\nG0 X20. Z2.\nG1 Z-20. F.2\nX30.\nG0 Z2.\nG105\nM99\n";
+        check_rule(&RULE, "haas-lathe", part, &expect![[""]]);
     }
 
     #[test]

@@ -10,8 +10,8 @@ use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// A cycle that drills in pecks (`G83`, `G73`; `G74` of lathes) makes more than 500 of them in one hole, or a grooving cycle (`G75`) more
-    /// than 500 plunges side by side.
+    /// A cycle that drills in pecks (`G83`, `G73`; `G74` of lathes) makes more than 500 of them in one hole, or a grooving cycle (`G75`, `G74`
+    /// with a way in X) more than 500 plunges side by side. So does a grooving cycle whose pecks are shorter than 0.015 mm.
     ///
     /// ## Why it matters
     /// Each peck rubs more than it cuts, and the hole takes very long. Mostly the number has another unit: without a decimal point
@@ -50,8 +50,10 @@ declare_rule! {
 struct PeckVeryShort {
     /// The block that pecks, and how often so far in the hole; with the bottom that was reached.
     pecks: Option<(At, u32, f64)>,
-    /// The block that cuts grooves, how many plunges so far, and where the last one is along Z.
+    /// The block that cuts grooves, how many plunges so far, and where the last one is from side to side.
     plunges: Option<(At, u32, f64)>,
+    /// The pecks of the plunge so far, and how deep the last one went.
+    strokes: Option<(u32, f64)>,
     /// A hole was reported. One finding is enough for a program: mostly all holes have the same `Q`.
     is_told: bool,
 }
@@ -60,6 +62,9 @@ remembers!(PeckVeryShort: pecks, plunges);
 
 /// No drill pecks as often.
 const MOST: u32 = 500;
+/// A grooving tool rubs in pecks that are shorter: millimetres. As many are more than the rest of a groove.
+const TINY: f64 = 0.015;
+const MANY: u32 = 20;
 
 impl PathRule for PeckVeryShort {
     fn memory(&mut self) -> Remembers<'_> {
@@ -76,7 +81,23 @@ impl PathRule for PeckVeryShort {
             return;
         }
         if cx.has_effect(|effect| effect == Effect::GrooveDiameter) {
-            self.plunge(cx, travel, report);
+            self.groove(
+                cx,
+                travel,
+                Along { deep: Axis::X, side: Axis::Z, peck: ['P', 'I'], step: ['Q', 'K'] },
+                report,
+            );
+            return;
+        }
+        if cx.has_effect(|effect| effect == Effect::GrooveFace) {
+            self.groove(
+                cx,
+                travel,
+                Along { deep: Axis::Z, side: Axis::X, peck: ['Q', 'K'], step: ['P', 'I'] },
+                report,
+            );
+        }
+        if self.is_told {
             return;
         }
         let cycle = cx.state().active_cycle(cx.model).filter(|code| code.is_some());
@@ -112,27 +133,58 @@ impl PathRule for PeckVeryShort {
     }
 }
 
+/// Which way a grooving cycle goes, and the words of its steps: as most controls have them, and as others do.
+#[derive(Clone, Copy)]
+struct Along {
+    deep: Axis,
+    side: Axis,
+    peck: [char; 2],
+    step: [char; 2],
+}
+
 impl PeckVeryShort {
-    /// A plunge of a grooving cycle, which steps along Z.
-    fn plunge(&mut self, cx: &PathCx<'_>, travel: &Travel, report: &mut Report<'_>) {
-        let Some(z) = travel.to.get(Axis::Z) else { return };
+    /// A peck of a grooving cycle, which plunges and then goes to the side.
+    fn groove(&mut self, cx: &PathCx<'_>, travel: &Travel, along: Along, report: &mut Report<'_>) {
+        let (Some(deep), Some(side)) = (travel.to.get(along.deep), travel.to.get(along.side)) else { return };
         let at = cx.origin().at;
+        let is_same = |last: f64| side.to_bits() == last.to_bits();
         let (count, step) = match self.plunges {
-            Some((before, count, last)) if before == at && z.to_bits() == last.to_bits() => (count, 0.0),
-            Some((before, count, last)) if before == at => (count + 1, (z - last).abs()),
+            Some((before, count, last)) if before == at && is_same(last) => (count, 0.0),
+            Some((before, count, last)) if before == at => (count + 1, (side - last).abs()),
             _ => (1, 0.0),
         };
-        self.plunges = Some((at, count, z));
-        if count != MOST + 1 {
-            return;
+        let is_one_plunge = self.plunges.is_some_and(|(before, _, last)| before == at && is_same(last));
+        self.plunges = Some((at, count, side));
+        let (pecks, peck) = match self.strokes.filter(|_| is_one_plunge) {
+            Some((pecks, last)) => (pecks + 1, (deep - last).abs()),
+            None => (1, 0.0),
+        };
+        self.strokes = Some((pecks, deep));
+        let written = |[usual, other]: [char; 2]| if cx.word(usual).is_some() { usual } else { other };
+        if count == MOST + 1 && step > 0.0 {
+            let letter = written(along.step);
+            self.is_told = true;
+            report.add(
+                cx.finding(&META, word_range(cx, letter), format!("more than {MOST} plunges for one groove"))
+                    .label(format!("each is {} beside the one before", cx.shown(Mm(step))))
+                    .help(format!(
+                        "check the unit and the decimal point of `{letter}`: mostly the step is a little less than the tool is wide")),
+            );
+        } else if pecks == MANY && peck > 0.0 && peck < TINY {
+            let letter = written(along.peck);
+            self.is_told = true;
+            report.add(
+                cx.finding(&META, word_range(cx, letter), "the cycle pecks by next to nothing")
+                    .label(format!("a peck goes {peck:.3} mm deeper"))
+                    .help(format!("check the unit and the decimal point of `{letter}`")),
+            );
         }
-        self.is_told = true;
-        report.add(
-            cx.finding(&META, cx.letter_range('Q'), format!("more than {MOST} plunges for one groove"))
-                .label(format!("each is {} beside the one before", cx.shown(Mm(step))))
-                .help("check the unit and the decimal point of `Q`: the step is less than the width of the tool, but not much"),
-        );
     }
+}
+
+/// The word of the block, or the block where it has another one in its place.
+fn word_range(cx: &PathCx<'_>, letter: char) -> std::ops::Range<u32> {
+    if cx.word(letter).is_some() { cx.letter_range(letter) } else { cx.range() }
 }
 
 fn pecks(effect: Effect) -> bool {
@@ -164,6 +216,37 @@ mod tests {
         );
         for q in ["Q2500", "Q500"] {
             check_rule(&RULE, "fanuc-lathe", &program(q), &expect![[""]]);
+        }
+    }
+
+    #[test]
+    fn pecks_of_a_groove_in_the_smallest_step() {
+        let program =
+            |cycle: &str| format!("G21 G99 T0404\nG97 S700 M3\nG0 X52. Z3.\n{cycle} F.08\nG0 X60.\nM30\n");
+        for (cycle, place) in [
+            ("G75 R.5\nG75 X48. Z-15. P5 Q2500", "P5"),
+            ("G75 X40. P10", "P10"),
+            ("G74 R.5\nG74 Z-2. Q8", "Q8"),
+            ("G74 R.5\nG74 X20. Z-6. P10 Q2000", "P10"),
+        ] {
+            let text = program(cycle);
+            let found = findings(&only(&RULE), "fanuc-lathe", &text, &World::default());
+            let [finding] = found.as_slice() else { panic!("{cycle}: {found:#?}") };
+            assert_eq!(
+                text[finding.range.start as usize..finding.range.end as usize].trim(),
+                place,
+                "{cycle}"
+            );
+        }
+        for cycle in [
+            "G75 R.5\nG75 X48. Z-15. P500 Q2500",
+            "G75 X40. P1000",
+            "G75 X40. P50",
+            "G75 R.2\nG75 X51.8 Z-15. P20 Q2000",
+            "G74 R.5\nG74 Z-2. Q50",
+            "G74 R.5\nG74 X20. Z-6. P2000 Q2000",
+        ] {
+            check_rule(&RULE, "fanuc-lathe", &program(cycle), &expect![[""]]);
         }
     }
 

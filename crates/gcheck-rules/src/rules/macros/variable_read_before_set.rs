@@ -1,9 +1,14 @@
 //! A local variable that is read before it is set.
 
 use std::collections::HashSet;
+use std::ops::RangeInclusive;
+
+use gcheck_engine::Ending;
+use gcheck_program::{BlockFlags, OKeyword, OLabel, Op, Place, StatementKind};
 
 use crate::declare::declare_rule;
 use crate::facts::empty_variables::{Use, argument_of, is_assigned_before, is_in_macro, usage};
+use crate::facts::usage::blocks_with;
 use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
 use crate::{Remembers, remembers};
 
@@ -12,6 +17,9 @@ declare_rule! {
     ///
     /// ## Why it matters
     /// It is null. In arithmetic null counts as zero, and the control ignores a word with it: `G1 Z#3` does not move Z.
+    ///
+    /// Where such a variable is zero, one case is an information: a subroutine reads an argument that its call does not give, and nothing in
+    /// the file sets or tests it.
     ///
     /// ## Reported
     /// ```nc,reported,fanuc-mill
@@ -28,6 +36,14 @@ declare_rule! {
     /// #30= #24 + #26
     /// G0 Z#30
     /// M99
+    /// ```
+    /// ```nc,reported,linuxcnc
+    /// o100 sub
+    /// G0 X[#1] Y[#2]
+    /// G1 Z[#3] F100
+    /// o100 endsub
+    /// o100 call [10] [20]
+    /// M2
     /// ```
     /// ## Not reported
     /// A test for null, arguments that are passed on, and a program that is called from elsewhere.
@@ -50,7 +66,10 @@ declare_rule! {
         severity: Warning,
         tier: Path,
         since: "0.1.0",
-        run: Run::Path { watch: Watch::READS, make: || Box::new(VariableReadBeforeSet::default()) },
+        run: Run::Path {
+            watch: Watch::READS.union(Watch::ENDS),
+            make: || Box::new(VariableReadBeforeSet::default()),
+        },
     }
 }
 
@@ -64,6 +83,10 @@ remembers!(VariableReadBeforeSet);
 impl PathRule for VariableReadBeforeSet {
     fn memory(&mut self) -> Remembers<'_> {
         Remembers::All(self)
+    }
+
+    fn ended(&mut self, cx: &PathCx<'_>, _: Ending, report: &mut Report<'_>) {
+        short_calls(cx, report);
     }
 
     fn vacant_read(&mut self, cx: &PathCx<'_>, variable: u32, report: &mut Report<'_>) {
@@ -108,6 +131,95 @@ impl PathRule for VariableReadBeforeSet {
             None => format!("set `#{variable}` before this block"),
         };
         report.add(cx.finding(&META, range, message).label(label).help(help).at_most(severity));
+    }
+}
+
+/// A subroutine of the file, and the local variables that it reads and tests, one bit each.
+struct Subroutine {
+    label: OLabel,
+    reads: u64,
+    tests: u64,
+}
+
+/// Calls that give less than their subroutine reads. What is not given is as in the caller, where nothing has set it.
+fn short_calls(cx: &PathCx<'_>, report: &mut Report<'_>) {
+    let is_called = cx.file_index.is_called_from_elsewhere();
+    if cx.file_index.o_words.is_empty() || is_called || cx.is_called_only() {
+        return;
+    }
+    let [first, last] = cx.model.semantics().locals;
+    let mut subs: Vec<Subroutine> = Vec::new();
+    let mut calls = Vec::new();
+    let mut open: Option<Subroutine> = None;
+    let flags = BlockFlags::STATEMENT | BlockFlags::EXPRESSION;
+    for (_, place) in blocks_with(cx.program, cx.environment, flags) {
+        let mut is_test = false;
+        for statement in place.table.statements(place.ix) {
+            is_test |= tests(&statement.kind);
+            let StatementKind::OWord { label, keyword, arguments } = &statement.kind else { continue };
+            match keyword {
+                OKeyword::Sub => open = Some(Subroutine { label: label.clone(), reads: 0, tests: 0 }),
+                OKeyword::EndSub => subs.extend(open.take()),
+                OKeyword::Call if open.is_none() && label.expressions() == 0 => {
+                    calls.push((label.clone(), arguments.len(), place.range()));
+                }
+                _ => {}
+            }
+        }
+        if let Some(sub) = &mut open {
+            let read = read_in(&place, first..=last);
+            sub.reads |= read;
+            sub.tests |= if is_test { read } else { 0 };
+        }
+    }
+    for (label, count, range) in calls {
+        let mut same = subs.iter().filter(|sub| sub.label == label);
+        let (Some(sub), None) = (same.next(), same.next()) else { continue };
+        let count = u32::try_from(count).unwrap_or(u32::MAX);
+        let is_missing = |number: &u32| {
+            let bit = 1 << (number - first);
+            let is_set = || cx.file_index.assigned.iter().any(|(assigned, _)| assigned == number);
+            sub.reads & bit != 0 && sub.tests & bit == 0 && !is_set()
+        };
+        let from = first.saturating_add(count);
+        let Some(missing) = (from..=last.min(first + 62)).find(is_missing) else { continue };
+        let arguments = if count == 1 { "1 argument".to_owned() } else { format!("{count} arguments") };
+        report.add(
+            cx.finding(
+                &META,
+                range,
+                format!("the call gives {arguments}, and the subroutine reads `#{missing}`"),
+            )
+            .label(format!("`#{missing}` is zero in the subroutine"))
+            .note("an argument that is not given is as in the caller, and nothing in this file sets it")
+            .help(format!("give the value for `#{missing}` in the call"))
+            .at_most(Severity::Info),
+        );
+    }
+}
+
+/// The variables of this range that a block reads, one bit each.
+fn read_in(place: &Place, range: RangeInclusive<u32>) -> u64 {
+    let mut read = 0;
+    for op in place.expressions().flat_map(|expr| place.table.ops(place.table.expr(expr)).to_vec()) {
+        match op {
+            Op::Variable(number) if range.contains(&number) && number - range.start() < 63 => {
+                read |= 1 << (number - range.start());
+            }
+            _ => {}
+        }
+    }
+    read
+}
+
+/// Does the statement test a value?
+fn tests(kind: &StatementKind) -> bool {
+    match kind {
+        StatementKind::If { .. } | StatementKind::Guard { .. } => true,
+        StatementKind::OWord { keyword, .. } => {
+            matches!(keyword, OKeyword::If | OKeyword::ElseIf | OKeyword::While | OKeyword::Repeat)
+        }
+        _ => false,
     }
 }
 
@@ -169,6 +281,38 @@ mod tests {
     #[test]
     fn a_control_where_unset_variables_are_zero() {
         check_rule(&RULE, "linuxcnc", "G0 X#1\nM2\n", &expect![[""]]);
+    }
+
+    #[test]
+    fn a_call_that_gives_less_than_its_subroutine_reads() {
+        let program = |body: &str, call: &str| {
+            format!("o100 sub\nG0 X[#1] Y[#2]\n{body}\no100 endsub\nG21 G90\n{call}\nM2\n")
+        };
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            &program("G1 Z[#3] F100", "o100 call [10] [20]"),
+            &expect![[r#"
+                6 | o100 call [10] [20]
+                  | ^^^^^^^^^^^^^^^^^^^ info[variable-read-before-set] the call gives 2 arguments, and the subroutine reads `#3`
+            "#]],
+        );
+        for (body, call) in [
+            ("G1 Z[#3] F100", "o100 call [10] [20] [-3]"),
+            ("G1 Z-3 F100", "o100 call [10] [20]"),
+            ("#3=[#1+1]\nG1 Z[#3] F100", "o100 call [10] [20]"),
+            ("G1 Z[#3] F100", "#3=-4\no100 call [10] [20]"),
+            ("o101 if [#3 NE 0]\nG1 Z[#3] F100\no101 endif", "o100 call [10] [20]"),
+            ("G1 Z[#31] F100", "o100 call [10] [20]"),
+            ("G1 Z[#<depth>] F100", "#<depth>=-3\no100 call [10] [20]"),
+            ("G1 Z[#3] F100", "o[#4] call [10] [20]"),
+        ] {
+            check_rule(&RULE, "linuxcnc", &program(body, call), &expect![[""]]);
+        }
+        // What one subroutine gives another may come from its own caller.
+        let nested =
+            "o1 sub\nG0 X[#1] Y[#2]\no1 endsub\no2 sub\no1 call [#1]\no2 endsub\no2 call [1] [2]\nM2\n";
+        check_rule(&RULE, "linuxcnc", nested, &expect![[""]]);
     }
 
     #[test]

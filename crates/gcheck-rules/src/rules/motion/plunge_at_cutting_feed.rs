@@ -137,7 +137,7 @@ impl PlungeAtCuttingFeed {
         }
         let Some(fed) = fed(cx).filter(|_| z < SURFACE) else { return };
         let Some(cuts) = cx.shared::<Cuts>().filter(|cuts| cuts.knows(cx, event)) else { return };
-        if cuts.reach(cuts.len(), [x, y], z, Clear::of(cx).radius) {
+        if cuts.reach(cuts.len(), [x, y], z, Clear::among(cx, cuts).radius) {
             return;
         }
         match self.slow.filter(|slow| slow.mode == fed.mode) {
@@ -174,7 +174,9 @@ fn finding(cx: &PathCx<'_>, slow: Fed, fed: Fed) -> crate::Finding {
     let mut finding = cx
         .finding(&META, cx.range(), "plunge at the feed of the cut before it")
         .label(format!("straight down at {}, and an earlier plunge had {}", in_words(fed), in_words(slow)))
-        .help("give the plunge its own feed (`F`)")
+        .help(
+            "give the plunge its own feed (`F`), or leave the Z word out if the tool is to stay at its depth",
+        )
         .at_most(if fed.rate > slow.rate * MUCH_FASTER { Severity::Warning } else { Severity::Info });
     for (given, what) in [(fed.given, "the feed of the cut"), (slow.given, "the feed of the earlier plunge")]
     {
@@ -254,7 +256,7 @@ mod tests {
               here: straight down at 25 in per minute, and an earlier plunge had 10 in per minute
               there: the feed of the cut
               there: the feed of the earlier plunge
-              help: give the plunge its own feed (`F`)
+              help: give the plunge its own feed (`F`), or leave the Z word out if the tool is to stay at its depth
         "#]]
         .assert_eq(&found.iter().map(words).collect::<String>());
     }

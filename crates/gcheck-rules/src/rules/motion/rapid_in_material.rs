@@ -143,7 +143,7 @@ impl RapidInMaterial {
                 z: high,
                 before: cuts.len(),
                 bytes: cx.range(),
-                clear: Clear::of(cx),
+                clear: Clear::among(cx, cuts),
             });
         }
     }

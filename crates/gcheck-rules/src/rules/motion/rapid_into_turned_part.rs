@@ -24,7 +24,8 @@ declare_rule! {
     /// leaves as little.
     ///
     /// So is one that goes on at rapid where a cut along Z has ended, at the same diameter, while the part is wider there; and a turning
-    /// cycle whose first pass goes at rapid into a faced part, below its face.
+    /// cycle whose first pass goes at rapid into a faced part, below its face. A threading pass (`G92`) that begins on a turned
+    /// diameter, and not in front of it or in a neck, goes at rapid into the part too.
     ///
     /// A part that was faced to its centre is solid, as far as no hole was made. A retract that goes out of the part and inwards at
     /// once is reported too where it ends under an outside surface that it passes: axes that leave together need not arrive
@@ -188,6 +189,10 @@ impl RapidIntoTurnedPart {
         to: Spot,
         report: &mut Report<'_>,
     ) {
+        if cx.state().effect(Role::Motion, cx.model) == Some(Effect::ThreadingPass) {
+            self.judge_thread(cx, turned, from, to, report);
+            return;
+        }
         let is_turning = cx.state().effect(Role::Motion, cx.model) == Some(Effect::TurningPass);
         if !is_turning && !cx.has_effect(|effect| effect == Effect::RoughAlongZ) {
             return;
@@ -210,6 +215,41 @@ impl RapidIntoTurnedPart {
                 .also(face.bytes.clone(), "the part is faced here")
                 .assuming("the part is as wide below its face as it was faced")
                 .help("start the cycle in front of the face: check the sign of Z"),
+        );
+    }
+}
+
+impl RapidIntoTurnedPart {
+    /// The rapid way of a threading pass to its depth.
+    fn judge_thread(
+        &mut self,
+        cx: &PathCx<'_>,
+        turned: &Turned,
+        from: Spot,
+        to: Spot,
+        report: &mut Report<'_>,
+    ) {
+        let Some(cut) = turned.outside_entered(from, to).filter(|_| !ToolWords::of(cx).may_bore()) else {
+            return;
+        };
+        if self.is_told_of(cut) {
+            return;
+        }
+        self.told = Some(cx.origin().at);
+        self.face = Some(cut.bytes.clone());
+        report.add(
+            cx.finding(&META, cx.range(), "the threading pass begins in the part")
+                .label(format!(
+                    "goes at rapid to X {} at Z {}, where nothing was cut as deep",
+                    shown_radius(cx, to[0]),
+                    cx.shown(Mm(to[1]))
+                ))
+                .also(
+                    cut.bytes.clone(),
+                    format!("the outside is turned to X {} here", shown_radius(cx, cut.radius())),
+                )
+                .assuming("there was no neck before the program started")
+                .help("start the pass in front of the thread, or in its neck: check the sign of Z"),
         );
     }
 }
@@ -339,6 +379,35 @@ mod tests {
             &World::default(),
         );
         assert_eq!(found.len(), 1, "without the stop between: {found:#?}");
+    }
+
+    /// A second part comes from the same bar; what holds or moves the bar is the machine builder's, or the bar is pulled out by a tool.
+    #[test]
+    fn the_next_part_of_a_bar() {
+        let part = |between: &str| {
+            format!(
+                "G54\nG0 X52. Z2.\nX48.\nG1 Z-30. F.2\nX52.\nG0 X100. Z50.\n{between}T0202\nG54\nG97 S900 M3\nG0 X52. Z-20.\nG0 X30.\nG1 Z-25. F.1\nG0 X52.\n"
+            )
+        };
+        let count = |control: &str, between: &str| {
+            findings(&only(&RULE), control, &program("", &part(between)), &World::default()).len()
+        };
+        for control in ["fanuc-lathe", "haas-lathe"] {
+            assert_eq!(count(control, ""), 1, "{control}");
+            assert_eq!(count(control, "M5\nM3\n"), 1, "{control}");
+            for between in [
+                "M5\nM57 (BAR FEED)\n",
+                "M5\nT0909 (BAR PULLER)\nG0 X0. Z-28.\nG98 G1 Z-40. F3000.\nG99\n",
+                "M5\nT0909\nG0 X0. Z1.\nG98 G1 Z40. F3000.\nG99\n",
+                "G10 L2 P1 Z-40.\n",
+                "#5222=#5222-40.\n",
+                "M5\nM11\nM10\n",
+            ] {
+                assert_eq!(count(control, between), 0, "{control} {between}");
+            }
+        }
+        assert_eq!(count("haas-lathe", "M36\nG4 P1.\nM37\n"), 0);
+        assert_eq!(count("haas-lathe", "G105 J40.\n"), 0);
     }
 
     #[test]
@@ -483,6 +552,37 @@ mod tests {
         "#]],
         );
         check_rule(&RULE, "fanuc-lathe", &program("", &profile("2.")), &expect![[""]]);
+    }
+
+    #[test]
+    fn a_thread_that_begins_in_the_part() {
+        let thread = |neck: &str, z: &str, cycle: &str| {
+            program(
+                "",
+                &format!(
+                    "G0 X32. Z2.\nX24.\nG1 Z-30. F.2\nX32.\nG0 Z2.\n{neck}G0 X100. Z50.\nT0303\nG97 S500 M3\nG0 X28. Z{z}\n{cycle}"
+                ),
+            )
+        };
+        let cycle = "G92 X23.2 Z-25. F1.5\nX22.8\nX22.4";
+        check_rule(
+            &RULE,
+            "fanuc-lathe",
+            &thread("", "-5.", cycle),
+            &expect![[r#"
+                13 | G92 X23.2 Z-25. F1.5
+                   | ^^^^^^^^^^^^^^^^^^^^ warning[rapid-into-turned-part] the threading pass begins in the part
+            "#]],
+        );
+        for (neck, z) in [("", "5."), ("", "0.5"), ("G0 X32.\nZ-5.\nG1 X20. F.1\nX32.\nG0 Z2.\n", "-5.")] {
+            check_rule(&RULE, "fanuc-lathe", &thread(neck, z, cycle), &expect![[""]]);
+        }
+        // Of a cycle of several passes another rule tells it.
+        let passes = "G76 P010060 Q80 R.03\nG76 X22.16 Z-25. P920 Q250 F1.5";
+        check_rule(&RULE, "fanuc-lathe", &thread("", "-5.", passes), &expect![[""]]);
+        let neck = "G0 X32. Z2.\nX24.\nG1 Z-10. F.2\nX20. Z-12.\nZ-16.\nX24.\nZ-30.\nX32.\nG0 Z2.\n";
+        let left = program("", &format!("{neck}G0 X28.\nZ-14.\nG92 X23.2 Z5. F1.5"));
+        check_rule(&RULE, "fanuc-lathe", &left, &expect![[""]]);
     }
 
     #[test]

@@ -355,7 +355,7 @@ impl RapidPlunge {
         if z >= surface - LEVEL || !above && straight_down(travel).is_none() {
             return None;
         }
-        let clear = Clear::of(cx);
+        let clear = Clear::among(cx, cuts);
         if may_hide_cuts(cx) || cuts.reach(cuts.len(), [x, y], z, clear.radius) {
             return None;
         }

@@ -7,7 +7,7 @@ use gcheck_engine::{At, Axis, Event, Fact, Role, Spindle, TravelKind};
 
 use crate::declare::declare_rule;
 use crate::facts::boundary::is_before;
-use crate::facts::live_tool::may_be_live;
+use crate::facts::live_tool::Executed;
 use crate::facts::tool_words::ToolWords;
 use crate::facts::turning::{is_turned, turns_the_part};
 use crate::{Finding, PathCx, PathRule, Report, Run, Uses, Watch};
@@ -59,7 +59,7 @@ declare_rule! {
         tier: Path,
         since: "0.1.0",
         run: Run::Path {
-            watch: Watch::MOVES.union(Watch::BLOCKS),
+            watch: Watch::MOVES.union(Watch::ALL_BLOCKS).union(Watch::CHANGES),
             make: || Box::new(DrillAtSurfaceSpeed::default()),
         },
     }
@@ -73,9 +73,10 @@ struct DrillAtSurfaceSpeed {
     waiting: Option<Waiting>,
     /// The block that last limited the speed.
     limited: Option<At>,
+    executed: Executed,
 }
 
-remembers!(DrillAtSurfaceSpeed: told, waiting, limited);
+remembers!(DrillAtSurfaceSpeed: told, waiting, limited, executed);
 
 #[derive(Clone, PartialEq)]
 struct Waiting {
@@ -107,6 +108,11 @@ impl PathRule for DrillAtSurfaceSpeed {
         if cx.has_effect(limits) && cx.origin().letters.contains(Letter::of('S')) {
             self.limited = Some(cx.origin().at);
         }
+        self.executed.block(cx);
+    }
+
+    fn changed(&mut self, cx: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
+        self.executed.changed(cx, event);
     }
 
     fn moved(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
@@ -144,7 +150,8 @@ impl DrillAtSurfaceSpeed {
         let is_told = tool.is_some() && tool == self.told;
         let is_by_surface = state.effect(Role::SpindleMode, cx.model) == Some(Effect::SurfaceSpeed);
         let is_set = cx.definitions().set_by(fact).is_some();
-        if !is_by_surface || !is_set || is_told || !turns || !turns_the_part(cx) || may_be_live(cx) {
+        let may_be_live = self.executed.may_be_live(cx);
+        if !is_by_surface || !is_set || is_told || !turns || !turns_the_part(cx) || may_be_live {
             return None;
         }
         let is_own_limit = self.limited.zip(tool).is_some_and(|(limited, tool)| is_before(tool, limited));
@@ -244,5 +251,8 @@ mod tests {
             check_rule(&RULE, "fanuc-lathe", &program("G96 S150", contour), &expect![[""]]);
         }
         check_rule(&RULE, "fanuc-lathe", &program("G96 S150\nM45", "G1 Z-10. F.1"), &expect![[""]]);
+        // The C axis is engaged in a called program.
+        let called = program("G96 S150", "M98 P200\nG1 Z-10. F.1");
+        check_rule(&RULE, "fanuc-lathe", &format!("O1\n{called}O200\nM45\nM99\n"), &expect![[""]]);
     }
 }

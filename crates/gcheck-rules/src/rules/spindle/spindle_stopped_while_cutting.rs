@@ -4,14 +4,15 @@ use gcheck_controls::{Code, CodeIx, Effect};
 use gcheck_engine::{Abstract, At, Domain, Event, Fact, Fault, FeedMode, Role, Spindle, TravelKind, Truth};
 
 use crate::declare::declare_rule;
+use crate::facts::broaching::{Shows, Strokes};
 use crate::facts::cutting::{is_cut, starts_spindle};
 use crate::facts::cycles::cycle_code;
 use crate::facts::feed::goes_by_feed;
-use crate::facts::live_tool::{LiveTool, live_tool};
+use crate::facts::live_tool::{Executed, LiveTool};
 use crate::facts::probing::{is_measurement, is_near, is_probing_move, touches_work};
 use crate::facts::program_calls::calls_other_files;
 use crate::facts::tool_words::ToolWords;
-use crate::{Finding, PathCx, PathRule, Report, Run, Severity, Watch, limit};
+use crate::{Finding, FollowedCx, PathCx, PathRule, Report, Run, Severity, Watch, limit};
 use crate::{Remembers, remembers};
 
 declare_rule! {
@@ -81,7 +82,12 @@ declare_rule! {
         tier: Path,
         since: "0.1.0",
         run: Run::Path {
-            watch: Watch::BLOCKS.union(Watch::CUTS).union(Watch::CHANGES).union(Watch::FAULTS),
+            watch: Watch::BLOCKS
+                .union(Watch::MOVES)
+                .union(Watch::CUTS)
+                .union(Watch::CHANGES)
+                .union(Watch::FAULTS)
+                .union(Watch::FOLLOWED),
             make: || Box::new(SpindleStoppedWhileCutting::default()),
         },
     }
@@ -93,9 +99,23 @@ struct SpindleStoppedWhileCutting {
     told: Vec<Option<At>>,
     /// Stopped at an angle: for a probe or a boring bar.
     is_oriented: bool,
+    executed: Executed,
+    /// A stroke along Z, which may be the first of a broach.
+    waiting: Option<Waiting>,
 }
 
-remembers!(SpindleStoppedWhileCutting: told);
+remembers!(SpindleStoppedWhileCutting: told, executed, waiting);
+
+/// A finding of a stroke along Z, until the next moves show what the tool does.
+#[derive(Clone, PartialEq)]
+struct Waiting {
+    strokes: Strokes,
+    finding: Finding,
+    /// The program holds the spindle at an angle, or by the C axis.
+    is_held: bool,
+}
+
+remembers!(Waiting: strokes, finding);
 
 /// A cut while the spindle is stopped.
 #[expect(clippy::struct_excessive_bools, reason = "independent facts of the cut and its program")]
@@ -114,6 +134,17 @@ struct CutAtRest {
 }
 
 impl SpindleStoppedWhileCutting {
+    fn works_with_live_tool(&self, cx: &PathCx<'_>) -> bool {
+        !cx.is_mill() && has_live_tool(cx, self.executed.live_tool(cx))
+    }
+
+    /// Tells what waited for the next moves: they show no broach.
+    fn tell(&mut self, report: &mut Report<'_>) {
+        if let Some(waiting) = self.waiting.take() {
+            report.add(waiting.finding);
+        }
+    }
+
     /// What is wrong with a cut, if it needs a spindle that is stopped and was not reported for that stop.
     fn judge(&self, cx: &PathCx<'_>, event: &Event) -> Option<CutAtRest> {
         let stands = cx.state().spindle() == Some(Spindle::Stopped) && cx.state().live_tool() == Truth::False;
@@ -140,7 +171,7 @@ impl SpindleStoppedWhileCutting {
         // a switch for the spindle.
         let has_length = !cx.model.semantics().strict && cx.file_uses(|effect| effect == Effect::LengthPlus);
         let has_speed = cx.definitions().set_by(Fact::Speed).is_some();
-        if !is_ever_started && !needs_turns && !has_speed && !has_length && !works_with_live_tool(cx) {
+        if !is_ever_started && !needs_turns && !has_speed && !has_length && !self.works_with_live_tool(cx) {
             return None;
         }
         if self.told.contains(&stopped_by) || !is_ever_started && !self.told.is_empty() {
@@ -153,7 +184,7 @@ impl SpindleStoppedWhileCutting {
         {
             return None;
         }
-        let live = live_tool(cx);
+        let live = self.executed.live_tool(cx);
         if live == LiveTool::MayTurn {
             return None;
         }
@@ -176,12 +207,19 @@ impl CutAtRest {
                 cx.name_of_effect(Effect::SpindleClockwise).unwrap_or_else(|| "M3".to_owned()),
                 stop_code(cx, at)
             ),
+            (Some(_), false) if has_live_tool(cx, self.live) => {
+                let name = cx.name_of_effect(Effect::LiveToolOn).unwrap_or_default();
+                format!("cut, and the live tool does not turn (no `{name}`)")
+            }
             (Some(at), false) => format!("cut after the spindle was stopped (`{}`)", stop_code(cx, at)),
             (None, false) if self.live == LiveTool::Stands => match cx.name_of_effect(Effect::LiveToolOn) {
                 Some(name) => format!("cut, and the live tool was not started (no `{name}`)"),
                 None => "cut, and neither the spindle nor a live tool was started".to_owned(),
             },
             (None, false) => "cut, and the spindle was not started (no `M3`)".to_owned(),
+            (Some(at), true) if self.live == LiveTool::Stands => {
+                format!("feed per turn of the main spindle, which was stopped (`{}`)", stop_code(cx, at))
+            }
             (Some(at), true) => {
                 format!("feed per turn of a spindle that was stopped (`{}`)", stop_code(cx, at))
             }
@@ -197,7 +235,7 @@ impl CutAtRest {
         let is_mill = self.is_ever_started
             || self.has_length
             || has_speed
-            || self.live == LiveTool::Stands && works_with_live_tool(cx)
+            || has_live_tool(cx, self.live)
             || cx.file_uses(|effect| effect == Effect::ToolChange);
         // Held at an angle, a tool may broach.
         // What starts the spindle may be in a program of another file.
@@ -215,6 +253,7 @@ impl PathRule for SpindleStoppedWhileCutting {
     }
 
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
+        self.executed.block(cx);
         let semantics = cx.model.semantics();
         if !semantics.strict || !semantics.cycles.tap_needs_spindle || !cx.has_effect(needs_turning_spindle) {
             return;
@@ -243,7 +282,29 @@ impl PathRule for SpindleStoppedWhileCutting {
         report.add(refused(cx, since(cx, finding, stopped_by)));
     }
 
-    fn changed(&mut self, cx: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
+    fn moved(&mut self, _: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
+        let Some(waiting) = &mut self.waiting else { return };
+        match waiting.strokes.moved(event) {
+            Shows::Nothing => {}
+            Shows::Broaching => {
+                let is_held = waiting.is_held;
+                if let Some(waiting) = self.waiting.take().filter(|_| !is_held) {
+                    report.add(waiting.finding.note(BROACHING).at_most(Severity::Info));
+                }
+            }
+            Shows::Other => self.tell(report),
+        }
+    }
+
+    fn followed(&mut self, _: &FollowedCx<'_>, report: &mut Report<'_>) {
+        self.tell(report);
+    }
+
+    fn changed(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
+        self.executed.changed(cx, event);
+        if matches!(event, Event::Spindle(_) | Event::ToolChange(_)) {
+            self.tell(report);
+        }
         match event {
             // A boring cycle orients the spindle on its way, and cuts with it as it was before.
             Event::OrientSpindle { .. } => self.is_oriented = !cycle_code(cx).is_some_and(bores),
@@ -271,7 +332,9 @@ impl PathRule for SpindleStoppedWhileCutting {
             .finding(&META, cx.range(), cut.message(cx, self.is_oriented))
             .label(match (needs_turns || cut.threads, is_ever_started) {
                 (true, _) => "the axes wait for the spindle, which does not turn",
-                (false, _) if live == LiveTool::Stands => "neither the spindle nor a live tool turns here",
+                (false, _) if live == LiveTool::Stands => {
+                    "neither the main spindle nor a live tool turns here"
+                }
                 (false, true) => "the spindle does not turn here",
                 (false, false) => "the program never starts the spindle",
             })
@@ -283,7 +346,15 @@ impl PathRule for SpindleStoppedWhileCutting {
         if needs_turns && let Some(name) = cx.code_name(Role::FeedMode) {
             finding = cx.resting_on(finding, Fact::Mode(Role::FeedMode), &format!("`{name}`"));
         }
-        report.add(since(cx, finding, stopped_by));
+        let finding = since(cx, finding, stopped_by);
+        match Strokes::begin(event).filter(|_| !needs_turns && !cut.threads) {
+            Some(strokes) => {
+                self.tell(report);
+                let is_held = self.is_oriented || live == LiveTool::Stands;
+                self.waiting = Some(Waiting { strokes, finding, is_held });
+            }
+            None => report.add(finding),
+        }
     }
 
     fn fault(&mut self, cx: &PathCx<'_>, fault: &Fault, report: &mut Report<'_>) {
@@ -304,10 +375,8 @@ impl PathRule for SpindleStoppedWhileCutting {
 }
 
 /// Does the C axis hold the part of a lathe whose control has a code that starts live tools? Then only such a tool cuts.
-fn works_with_live_tool(cx: &PathCx<'_>) -> bool {
-    !cx.is_mill()
-        && cx.control_has(|effect| effect == Effect::LiveToolOn)
-        && live_tool(cx) == LiveTool::Stands
+fn has_live_tool(cx: &PathCx<'_>, live: LiveTool) -> bool {
+    live == LiveTool::Stands && !cx.is_mill() && cx.control_has(|effect| effect == Effect::LiveToolOn)
 }
 
 /// Does a pass of a thread wait for the angle of the spindle? Taps that a cycle drives start and stop it themselves.
@@ -350,6 +419,10 @@ fn help(cx: &PathCx<'_>, live: LiveTool, needs_turns: bool) -> String {
     format!("{start}{mode}; the spindle holds the part as the C axis, so `M3` does not help")
 }
 
+/// Of strokes to one depth that go a little further across each time.
+const BROACHING: &str =
+    "the tool goes along Z again and again, a little further across each time, as a broach does";
+
 /// Blocks between a touch and a speed, and between a speed and the cut that it is for.
 const FEW: u32 = 50;
 /// Blocks after a move in which a touch shows that it was the way there.
@@ -391,7 +464,8 @@ fn since(cx: &PathCx<'_>, finding: Finding, stopped_by: Option<At>) -> Finding {
     };
     let range = cx.find_word(at, |word| stops(cx.model.effect(word.code))).or_else(|| cx.range_of(at));
     match range {
-        Some(range) => finding.also(range, "stopped here"),
+        Some(range) if cx.is_mill() => finding.also(range, "stopped here"),
+        Some(range) => finding.also(range, "the main spindle is stopped here"),
         None => finding,
     }
 }
@@ -675,16 +749,16 @@ mod tests {
         let program = "G21 G98 T0303\nG97 S900 M3\nG1 X20. F99.\nM5\nM154\nG0 C90.\nG1 X10. F60.\nM30\n";
         let found = findings(&only(&RULE), "haas-lathe", program, &World::default());
         expect![[r#"
-            cut after the spindle was stopped (`M5`)
-              here: neither the spindle nor a live tool turns here
-              there: stopped here
+            cut, and the live tool does not turn (no `M133`)
+              here: neither the main spindle nor a live tool turns here
+              there: the main spindle is stopped here
               help: start the live tool with `M133` and its speed; the spindle holds the part as the C axis, so `M3` does not help
         "#]].assert_eq(&found.iter().map(words).collect::<String>());
         let found = findings(&only(&RULE), "fanuc-lathe", &program.replace("M154\n", ""), &World::default());
         expect![[r#"
             cut after the spindle was stopped (`M5`)
-              here: neither the spindle nor a live tool turns here
-              there: stopped here
+              here: neither the main spindle nor a live tool turns here
+              there: the main spindle is stopped here
               help: start the live tool with the code of the machine builder and its speed; the spindle holds the part as the C axis, so `M3` does not help
         "#]].assert_eq(&found.iter().map(words).collect::<String>());
         // A function of the machine builder with a speed.
@@ -695,6 +769,77 @@ mod tests {
             "G21 G98 T0303\nG97 S900\nM33 S1500\nG0 X20. C0\nG1 X10. F60.\nM30\n",
             &expect![[""]],
         );
+    }
+
+    #[test]
+    fn a_tool_that_broaches_under_another_name() {
+        let stroke = |x: &str| format!("G0 X{x}\nG1 Z-20. F2500.\nG0 X9.\nZ3.\n");
+        let keyway = |hold: &str, strokes: &str| {
+            format!(
+                "G21 G98 T0303\nG97 S900 M3\nG0 X20. Z2.\nG1 Z-5. F99.\nG0 X50.\nT0909 (SLOT BAR 6)\n{hold}\nG0 X9. Z3.\n{strokes}M30\n"
+            )
+        };
+        let strokes = format!("{}{}{}{}", stroke("20."), stroke("20.2"), stroke("20.4"), stroke("20.4"));
+        for hold in ["M19", "M5\nM19 R90.", "M5\nM154\nG0 C0."] {
+            check_rule(&RULE, "haas-lathe", &keyway(hold, &strokes), &expect![[""]]);
+        }
+        check_rule(
+            &RULE,
+            "haas-lathe",
+            &keyway("M5", &strokes),
+            &expect![[r#"
+                10 | G1 Z-20. F2500.
+                   | ^^^^^^^^^^^^^^^ info[spindle-stopped-while-cutting] cut after the spindle was stopped (`M5`)
+            "#]],
+        );
+        // In a loop, and fed in with increments.
+        let looped =
+            "#1=20.\nWHILE [#1 LT 23.] DO1\nG0 X#1\nG1 Z-20. F2500.\nG1 U-1.\nG0 Z3.\n#1=#1+.2\nEND1\n";
+        check_rule(&RULE, "haas-lathe", &keyway("M19", looped), &expect![[""]]);
+        check_rule(&RULE, "fanuc-lathe", &keyway("M19", looped), &expect![[""]]);
+        let mill = "G21 G90 G54 T5 M6 (SHAPER)\nS900 M3\nG1 X1. F9.\nT6 M6 (HSS BLANK)\nG43 H6 Z5.\nM19\nG0 X10. Y0.\nG1 Z-20. F3000.\nG0 Y-1.\nZ5.\nY.1\nG1 Z-20.\nG0 Y-1.\nZ5.\nY.2\nG1 Z-20.\nG0 Z50.\nM30\n";
+        check_rule(&RULE, "haas-mill", mill, &expect![[""]]);
+    }
+
+    /// Holes around a part, far apart or at several angles, a hole in pecks, and one stroke alone do not broach.
+    #[test]
+    fn strokes_that_drill() {
+        let holes = |moves: &str| {
+            format!(
+                "G21 G98 T0303\nG97 S900 M3\nG0 X20. Z2.\nG1 Z-5. F99.\nG0 X50.\nM5\nM154\nT0909\nG0 X30. Z3. C0.\n{moves}M30\n"
+            )
+        };
+        for moves in [
+            "G1 Z-20. F250.\nG0 Z3.\nC120.\nG1 Z-20.\nG0 Z3.\nC240.\nG1 Z-20.\nG0 Z3.\n",
+            "G1 Z-20. F250.\nG0 Z3.\nX36.\nG1 Z-20.\nG0 Z3.\nX42.\nG1 Z-20.\nG0 Z3.\n",
+            "G1 Z-5. F250.\nG0 Z3.\nG1 Z-10.\nG0 Z3.\nG1 Z-15.\nG0 Z3.\n",
+            "G1 Z-20. F250.\nG0 Z3.\n",
+            "G1 Z-2. F250.\nX20.\nG0 Z3.\n",
+        ] {
+            let found = findings(&only(&RULE), "haas-lathe", &holes(moves), &World::default());
+            let [finding] = found.as_slice() else { panic!("{moves}: {found:#?}") };
+            assert_eq!(finding.message, "cut, and the live tool does not turn (no `M133`)", "{moves}");
+        }
+    }
+
+    #[test]
+    fn a_called_program_may_start_the_live_tool() {
+        let program = |started: &str| {
+            format!(
+                "O1\nG21 G98 T0303\nG97 S900\nM98 P200\nG0 X20. Z2.\nG1 X10. F60.\nM30\nO200\n{started}M99\n"
+            )
+        };
+        check_rule(&RULE, "fanuc-lathe", &program("M45\nM33 S1500\n"), &expect![[""]]);
+        check_rule(
+            &RULE,
+            "haas-lathe",
+            &program("M154\nG0 C0.\n"),
+            &expect![[r#"
+                6 | G1 X10. F60.
+                  | ^^^^^^^^^^^^ warning[spindle-stopped-while-cutting] cut, and the live tool was not started (no `M133`)
+            "#]],
+        );
+        check_rule(&RULE, "haas-lathe", &program("M154\nP1500 M133\nG0 C0.\n"), &expect![[""]]);
     }
 
     #[test]

@@ -7,6 +7,8 @@ use crate::declare::declare_rule;
 use crate::facts::five_axis::is_along_tool;
 use crate::facts::offset_schemes::whole;
 use crate::facts::probing::is_near;
+use crate::facts::tool_comment::{HEAD, comments_in};
+use crate::facts::work_offset::{file_writes_zero, writes_zero_at};
 use crate::{Finding, FollowedCx, PathCx, PathRule, Report, Run, Severity, Watch};
 use crate::{Remembers, remembers};
 
@@ -187,7 +189,8 @@ impl ToolLengthMissing {
         }
         let finding = finding.help(format!("give the length with the first move along Z: `{on} H1 Z…`"));
         if is_ever_used {
-            report.add(if is_touching { finding.at_most(Severity::Info) } else { finding });
+            let may_be_meant = is_touching || has_own_zero(cx, at);
+            report.add(if may_be_meant { finding.at_most(Severity::Info) } else { finding });
         } else {
             self.uncompensated = Some(Uncompensated {
                 finding: finding.note(format!(
@@ -195,7 +198,10 @@ impl ToolLengthMissing {
                 )),
                 tool: Abstract::known(cx.state().tool()).and_then(whole),
                 zero: zero(cx),
-                is_one_zero: has_changer(cx) && !cx.file_uses(writes_zero),
+                is_one_zero: has_changer(cx)
+                    && !cx.file_uses(writes_zero)
+                    && !file_writes_zero(cx)
+                    && !are_set_to_one_length(cx),
                 has_other: false,
             });
         }
@@ -219,6 +225,29 @@ fn zero(cx: &PathCx<'_>) -> Option<(u16, u64)> {
 /// May the program give each tool a zero of its own?
 fn writes_zero(effect: Effect) -> bool {
     matches!(effect, Effect::WriteOffsets | Effect::SetPosition | Effect::SpeedLimitOrSetPosition)
+}
+
+/// Was a zero written since the tool came: its own, with its length in it?
+fn has_own_zero(cx: &PathCx<'_>, changed: At) -> bool {
+    let here = cx.origin().at;
+    let writes = |at: At| {
+        let is_code = |word: &gcheck_program::Word| writes_zero(cx.model.effect(word.code));
+        writes_zero_at(cx, at) || cx.find_word(at, is_code).is_some()
+    };
+    changed.file == here.file && (changed.block..=here.block).any(|block| writes(At { block, ..here }))
+}
+
+/// Does a comment at the head of the program say that the tools are set to one length?
+fn are_set_to_one_length(cx: &PathCx<'_>) -> bool {
+    let is = |comment: String| {
+        let comment = comment.to_ascii_uppercase();
+        let has = |names: &[&str]| {
+            comment.split(|c: char| !c.is_ascii_alphanumeric()).any(|word| names.contains(&word))
+        };
+        let is_one = has(&["SAME", "EQUAL", "ONE", "IDENTICAL", "ALL", "SET", "NO"]);
+        has(&["PRESET", "PRESETS"]) || is_one && has(&["LENGTH", "LENGTHS", "G43", "HEIGHT", "HEIGHTS"])
+    };
+    (0..HEAD).filter_map(|block| comments_in(cx, At { file: 0, block })).any(is)
 }
 
 /// Does the machine change tools by itself? A strict control is one of machines that people build themselves, whose tools are mostly
@@ -327,7 +356,8 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::testing::check_rule;
+    use crate::Severity;
+    use crate::testing::{World, check_rule, findings, only};
 
     #[test]
     fn a_length_without_a_number_is_of_the_tool_before() {
@@ -376,6 +406,44 @@ mod tests {
                 "#]],
             );
         }
+    }
+
+    /// The zero of each tool has its length in it, or a comment tells that all have one.
+    #[test]
+    fn tools_with_a_zero_of_their_own() {
+        let program = |head: &str, first: &str, second: &str| {
+            format!(
+                "O1\n{head}T1 M6\n{first}G90 G54 G0 X0. Y0. S3000 M3\nZ1.\nG81 Z-.5 R.1 F9.\nG80 G0 Z1.\nT2 M6\n{second}G0 X0. Y0.\nZ1.\nG81 Z-.5 R.1 F9.\nG80\nM30\n"
+            )
+        };
+        let severity = |control: &str, text: &str| {
+            let found = findings(&only(&RULE), control, text, &World::default());
+            found.iter().map(|finding| finding.severity).collect::<Vec<_>>()
+        };
+        assert_eq!(severity("haas-mill", &program("", "", "")), [Severity::Warning]);
+        for control in ["haas-mill", "fanuc-mill"] {
+            for (head, first, second) in [
+                ("", "#5223=-287.1\n", "#5223=-301.4\n"),
+                ("", "", "#5223=#5223-14.3\n"),
+                ("", "G55\n", "G55\n#5243=-12.\n"),
+                ("", "G10 L2 P1 Z-287.1\n", "G10 L2 P1 Z-301.4\n"),
+                ("(ALL TOOLS SET TO ONE LENGTH)\n", "", ""),
+                ("(PRESET HOLDERS, NO G43)\n", "", ""),
+            ] {
+                let found = severity(control, &program(head, first, second));
+                assert!(
+                    found.iter().all(|severity| *severity <= Severity::Info),
+                    "{control} {first}{second}: {found:?}"
+                );
+            }
+        }
+        // One tool with its length, and another with a zero of its own.
+        let mixed = |own: &str| {
+            format!("O1\nT1 M6\nG90 G54 G0 G43 H1 Z1.\nG49 G28 Z0\nT2 M6\n{own}G0 X0. Y0.\nZ1.\nM30\n")
+        };
+        assert_eq!(severity("fanuc-mill", &mixed("")), [Severity::Warning]);
+        assert_eq!(severity("fanuc-mill", &mixed("#5223=-301.4\n")), [Severity::Info]);
+        assert_eq!(severity("fanuc-mill", &mixed("#500=-301.4\n")), [Severity::Warning]);
     }
 
     #[test]
