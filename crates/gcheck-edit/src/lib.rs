@@ -7,7 +7,6 @@
 //! with its proof: the acts of a run before, changed as the change claims ([`expected`]), are compared with those of a run
 //! after it by [`gcheck_toolpath::compare`].
 
-mod apart;
 mod change;
 mod course;
 mod distance;
@@ -20,6 +19,7 @@ mod holes;
 mod meaning;
 mod modal;
 mod number;
+mod order;
 mod places;
 mod plan;
 mod rates;

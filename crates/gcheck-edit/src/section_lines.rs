@@ -19,6 +19,12 @@ const N: Letter = Letter::of('N');
 const T: Letter = Letter::of('T');
 const STATED: BlockFlags = BlockFlags::STATEMENT.union(BlockFlags::TAPE_MARK).union(BlockFlags::ERROR);
 
+/// A section of the text.
+pub(crate) struct Section {
+    pub(crate) tool: u32,
+    pub(crate) bytes: Range<u32>,
+}
+
 /// The blocks of the main program, down to the one that ends it.
 pub(crate) struct Lines<'l, 'p> {
     pub(crate) loaded: &'l Loaded<'p>,
@@ -147,7 +153,7 @@ impl<'l, 'p> Lines<'l, 'p> {
         self.blocks.get(number.checked_sub(self.first)? as usize).map(|line| line.start)
     }
 
-    /// Where the last section ends, and what is said of its last lines.
+    /// Where the last section ends, and a note about its last lines.
     ///
     /// It ends with its last move, or with the last line that other sections end with as well. What is after that closes the
     /// program.

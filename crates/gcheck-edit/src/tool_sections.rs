@@ -10,11 +10,11 @@ use gcheck_controls::{Letter, Machine};
 use gcheck_engine::{At, Event, Model, Program};
 use gcheck_program::{Loaded, Place, Word};
 
-use crate::apart::Order;
 use crate::change::Destination;
+use crate::order::Order;
 use crate::refusal::Refusal;
 use crate::scope::Scope;
-use crate::section_lines::{Lines, number_of};
+use crate::section_lines::{Lines, Section, number_of};
 use crate::sheet::Sheet;
 
 const T: Letter = Letter::of('T');
@@ -32,12 +32,6 @@ pub(crate) struct ToolSections<'c> {
     changes: BTreeMap<u32, (Range<u32>, u32)>,
     /// The blocks in which the runs before ended.
     ends: BTreeSet<u32>,
-}
-
-/// A section of the text.
-pub(crate) struct Section {
-    pub(crate) tool: u32,
-    pub(crate) bytes: Range<u32>,
 }
 
 /// A word that calls a tool while another one works.
@@ -123,7 +117,7 @@ impl<'c> ToolSections<'c> {
         Ok(notes)
     }
 
-    /// The sections in the order of the text, and what is said of the last lines of the last one.
+    /// The sections in the order of the text, and a note about the last lines of the last one.
     fn sections(&self, lines: &Lines<'_, '_>) -> Result<(Vec<Section>, Option<String>), Refusal> {
         let mut starts: Vec<(usize, u32)> = Vec::new();
         for (number, (range, tool)) in &self.changes {

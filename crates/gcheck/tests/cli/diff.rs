@@ -49,8 +49,18 @@ fn another_limit_of_the_surface_speed_is_a_difference() {
         shop.gcheck("diff a.nc b.nc --control haas-lathe -q")
     };
     assert_eq!(run("G50 S1200\n", "G50 S1200\n").code, 0);
-    expect![[r#""#]].assert_eq(&run("G50 S1200\n", "G50 S9000\n").stdout);
-    expect![[r#""#]].assert_eq(&run("G50 S1200\n", "").stdout);
+    expect![[r#"
+        the spindle differs, once
+          - a.nc:8  clockwise, 200 m/min, at most 1200 rpm   | G1 X0. F0.2
+          + b.nc:8  clockwise, 200 m/min, at most 9000 rpm   | G1 X0. F0.2
+        a.nc and b.nc move along the same path, within 0.001 mm, with differences
+    "#]].assert_eq(&run("G50 S1200\n", "G50 S9000\n").stdout);
+    expect![[r#"
+        the spindle differs, once
+          - a.nc:8  clockwise, 200 m/min, at most 1200 rpm   | G1 X0. F0.2
+          + b.nc:7  clockwise, 200 m/min without a limit   | G1 X0. F0.2
+        a.nc and b.nc move along the same path, within 0.001 mm, with differences
+    "#]].assert_eq(&run("G50 S1200\n", "").stdout);
 }
 
 #[test]

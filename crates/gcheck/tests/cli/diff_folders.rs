@@ -67,7 +67,7 @@ fn a_changed_tool_is_one_difference_and_the_next_tool_is_compared_again() {
     ]);
     let run = diff(&shop, "");
     expect![[r#"
-        plate.nc  differs: path, feed  [digest fcb387a8]
+        plate.nc  differs: path, feed  [digest 1e045be3]
             tool section T1 changed: the paths part at X50 Y20 Z-1
               - old/plate.nc:10  to X50 Y20 Z50   | G0 Z50.
               + new/plate.nc:9  to X50 Y20.5 Z-1   | Y20.5
@@ -91,7 +91,7 @@ fn a_retract_of_another_height_is_a_difference_of_that_tool_alone() {
         .map(|end| program(1, SIDE, HOLE).replacen("Y20.\nG0 Z50.", &format!("Y20.\n{end}"), 1));
     let run = diff(&shop(&[("old/plate.nc", &stays), ("new/plate.nc", &moves)]), "");
     expect![[r#"
-        plate.nc  differs: path  [digest 05457a67]
+        plate.nc  differs: path  [digest aef908b7]
             tool section T1 changed: the paths part at X50 Y20 Z50
               - old/plate.nc:13  to X0 Y0 Z50   | G0 X0. Y0. S900 M3
               + new/plate.nc:11  to X50 Y20 Z40   | G0 Z40.
@@ -160,7 +160,7 @@ fn an_accepted_difference_says_what_was_not_compared_after_it() {
     shop.file("ok.toml", "[[accepted]]\nfile = \"plate.nc\"\nreason = \"seen\"\n");
     let run = diff(&shop, "--accepted ok.toml");
     expect![[r#"
-        plate.nc  accepted: path (seen); from there to the next tool change they are not compared  [digest 40c89663]
+        plate.nc  accepted: path (seen); from there to the next tool change they are not compared  [digest 961de347]
         1 pair of programs compared, within 0.001 mm: 0 the same, 1 accepted, of which a part was not compared
     "#]].assert_eq(&run.stdout);
     assert_eq!(run.code, 0);

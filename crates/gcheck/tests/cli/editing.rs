@@ -2051,9 +2051,12 @@ fn sections_that_depend_on_their_order_stay() {
         "IF [#500 EQ 1] GOTO 3\n(DRILL)",
         "move-section --tool 2 --up --set #500=0",
         &expect![[r#"
-            error: invalid value ''#500=0'' for '--set <VARIABLE=VALUE>': `0'` is not a number
-
-            For more information, try '--help'.
+            error: part.nc:17:16: cannot move the section of a tool: this jump leads from one section to another, or out of all
+               |
+            17 | IF [#500 EQ 1] GOTO 3
+               |                ^^^^^^
+              help: sections move only where the program runs them one after the other, each by itself
+            part.nc: nothing is changed
         "#]],
     );
     refused(
@@ -2075,12 +2078,13 @@ fn sections_that_depend_on_their_order_stay() {
         "haas-mill",
         "move-section --tool 3 --up",
         &expect![[r#"
-        error: part.nc:11:1: cannot move the section of a tool: this loop begins in another section than it ends
-           |
-        11 | END1
-           | ^^^^
-        part.nc: nothing is changed
-    "#]],
+            error: part.nc:11:1: cannot move the section of a tool: this loop begins in another section than it ends
+               |
+            11 | END1
+               | ^^^^
+              help: sections move only where the program runs them one after the other, each by itself
+            part.nc: nothing is changed
+        "#]],
     );
     let limited = "%\nO1\nG21 G18 G40 G99\nG28 U0. W0.\nT0101\nG50 S2500\nG96 S200 M3\nG0 X50. Z2.\nG1 Z-20. F0.2\nG28 U0. W0.\nT0303\nG50 S1200\nG96 S150 M3\nG0 X52. Z-10.\nG1 X40. F0.1\nG28 U0. W0.\nT0505\nG96 S100 M3\nG0 X52. Z-15.\nG1 X48. F0.1\nG28 U0. W0.\nM30\n%\n";
     refuses(
@@ -2088,13 +2092,15 @@ fn sections_that_depend_on_their_order_stay() {
         "haas-lathe",
         "move-section --tool 3 --up",
         &expect![[r#"
-        error: part.nc:6:1: cannot move the section of a tool: the limit of the spindle speed is given here, and T5 takes it from the section above it
-          |
-        6 | G50 S2500
-          | ^^^^^^^^^
-          help: give the limit in the section of T5 too
-        part.nc: nothing is changed
-    "#]],
+            error: part.nc: cannot move the section of a tool: the proof failed
+            tool section T3 moved from place 2 (part.nc, lines 11 to 16) to place 1 (part.nc (changed), lines 5 to 10)
+            the spindle differs, once
+              - part.nc:20  clockwise, 100 m/min, at most 1200 rpm   | G1 X48. F0.1
+              + part.nc (changed):20  clockwise, 100 m/min, at most 2500 rpm   | G1 X48. F0.1
+              note: `-` is what the change promises, `+` is what the changed program does
+              help: let the section give all that it needs after its tool change: work offset, length, modes, feed, speed and a first point
+            part.nc: nothing is changed
+        "#]],
     );
 }
 

@@ -9,8 +9,7 @@ use gcheck_controls::{Effect, Letter};
 use gcheck_program::{BlockFlags, OKeyword};
 
 use crate::refusal::Refusal;
-use crate::section_lines::{Line, Lines};
-use crate::tool_sections::Section;
+use crate::section_lines::{Line, Lines, Section};
 
 /// Sections of which some come in another order.
 pub(crate) struct Order<'o, 'p> {
