@@ -7,7 +7,10 @@ use gcheck_toolpath::{Act, Differences, Outline, Rest, Sections, compare};
 use crate::change::Change;
 
 /// The acts of a run.
-pub type Acts<'a> = &'a mut dyn Iterator<Item = Act>;
+type Acts<'a> = &'a mut dyn Iterator<Item = Act>;
+
+/// Takes the acts that a change promises, and those of the changed program.
+pub type Holder<'a> = &'a mut dyn FnMut(Acts<'_>, Acts<'_>);
 
 /// Compares the acts that a change promises with those of the changed program. `both` runs both programs and hands their acts
 /// on; it is called again for each pass that sections in another order need.
@@ -17,7 +20,7 @@ pub type Acts<'a> = &'a mut dyn Iterator<Item = Act>;
 pub fn hold<E>(
     change: &Change,
     tolerance: f64,
-    both: &mut dyn FnMut(&mut dyn FnMut(Acts<'_>, Acts<'_>)) -> Result<(), E>,
+    both: &mut dyn FnMut(Holder<'_>) -> Result<(), E>,
 ) -> Result<Differences, E> {
     let mut differences = Differences::default();
     if change.moves_sections() {

@@ -39,7 +39,7 @@ mod witness;
 pub use change::{Amount, Change, Destination};
 pub use expand::is_moves_and_dwells;
 pub use expecting::{Expected, expected, plainly};
-pub use holding::{Acts, hold, is_as_claimed};
+pub use holding::{Holder, hold, is_as_claimed};
 pub use plan::{Plan, gaps, plan};
 pub use refusal::Refusal;
 pub use scope::Scope;

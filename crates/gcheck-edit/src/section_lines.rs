@@ -162,7 +162,7 @@ impl<'l, 'p> Lines<'l, 'p> {
         let lines = |range: Range<usize>| self.blocks.iter().enumerate().take(range.end).skip(range.start);
         let tail = |range: Range<usize>| {
             let is_work = |line: &Line| matches!(line.kind, Kind::Work | Kind::Call(_));
-            let work = lines(range.clone()).filter(|(_, line)| is_work(line)).last();
+            let work = lines(range.clone()).rfind(|(_, line)| is_work(line));
             work.map_or(range.start, |(index, _)| index + 1)..range.end
         };
         let Some((last, tool)) = starts.last() else { return (end, None) };
@@ -172,16 +172,13 @@ impl<'l, 'p> Lines<'l, 'p> {
         }
         let own = tail(*last..end);
         let after = |is_last: &dyn Fn(&Line) -> bool| {
-            lines(own.clone())
-                .filter(|(_, line)| is_last(line))
-                .last()
-                .map_or(own.start, |(index, _)| index + 1)
+            lines(own.clone()).rfind(|(_, line)| is_last(line)).map_or(own.start, |(index, _)| index + 1)
         };
         let usual_end = after(&|line| line.kind != Kind::Blank && usual.contains(&self.words(line)));
         let end = after(&|line| line.goes_home).max(usual_end);
         let mut unusual = lines(usual_end..end).filter(|(_, line)| line.kind != Kind::Blank);
         let first = unusual.next().map(|(_, line)| self.loaded.line_number(line.start));
-        let last = unusual.last().map(|(_, line)| self.loaded.line_number(line.start));
+        let last = unusual.next_back().map(|(_, line)| self.loaded.line_number(line.start));
         let note = first.map(|first| {
             let (lines, goes, they) = match last {
                 Some(last) => (format!("lines {first} to {last}"), "go", "them by hand if they close"),

@@ -3,6 +3,7 @@
 //! Knows: files on disk, unified differences. Must not know: why a program is changed.
 
 use std::collections::HashMap;
+use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
 
@@ -37,8 +38,11 @@ pub(crate) fn difference(shown: &str, before: &[u8], after: &[u8]) -> String {
         if out.is_empty() {
             out = format!("--- a/{shown}\n+++ b/{shown}\n");
         }
-        out += &format!("{}\n", UnifiedHunkHeader::new(&hunk));
-        hunk.iter().for_each(|operation| show(operation, &lines, &mut out));
+        // Writing to a string cannot fail.
+        let _ = writeln!(out, "{}", UnifiedHunkHeader::new(&hunk));
+        for operation in &hunk {
+            show(operation, &lines, &mut out);
+        }
     }
     out
 }
@@ -65,7 +69,7 @@ fn operations(lines: &[Vec<&str>; 2]) -> Vec<DiffOp> {
 fn show(operation: &DiffOp, [old, new]: &[Vec<&str>; 2], out: &mut String) {
     let mut write = |sign: ChangeTag, lines: Option<&[&str]>| {
         for line in lines.unwrap_or_default() {
-            *out += &format!("{sign}{line}");
+            let _ = write!(out, "{sign}{line}");
             if !line.ends_with(['\n', '\r']) {
                 *out += "\n\\ No newline at end of file\n";
             }

@@ -13,7 +13,7 @@ use gcheck_controls::{Effect, Machine as MachineKind};
 use gcheck_db::{Cancelled, Snapshot};
 use gcheck_diagnostics::{Edit, apply};
 use gcheck_edit::{
-    Acts, Amount, Change, Destination, Refusal, Scope, Witness, assume_cutters, assume_places, expected,
+    Amount, Change, Destination, Holder, Refusal, Scope, Witness, assume_cutters, assume_places, expected,
     gaps, hold, is_as_claimed, is_moves_and_dwells, plainly, plan, witness,
 };
 use gcheck_engine::{Assumption, Axis, Ending, Machine, Options, Role, RunResult, Stopped, Units};
@@ -348,7 +348,7 @@ impl Proving<'_> {
         if let Some(reason) = self.end(&ran.result) {
             return Ok(Err(reason));
         }
-        let mut both = |with: &mut dyn FnMut(Acts<'_>, Acts<'_>)| {
+        let mut both = |with: Holder<'_>| {
             with(&mut promised.acts.iter().cloned(), &mut made.acts.iter().cloned());
             Ok::<_, Infallible>(())
         };

@@ -54,13 +54,15 @@ fn another_limit_of_the_surface_speed_is_a_difference() {
           - a.nc:8  clockwise, 200 m/min, at most 1200 rpm   | G1 X0. F0.2
           + b.nc:8  clockwise, 200 m/min, at most 9000 rpm   | G1 X0. F0.2
         a.nc and b.nc move along the same path, within 0.001 mm, with differences
-    "#]].assert_eq(&run("G50 S1200\n", "G50 S9000\n").stdout);
+    "#]]
+    .assert_eq(&run("G50 S1200\n", "G50 S9000\n").stdout);
     expect![[r#"
         the spindle differs, once
           - a.nc:8  clockwise, 200 m/min, at most 1200 rpm   | G1 X0. F0.2
           + b.nc:7  clockwise, 200 m/min without a limit   | G1 X0. F0.2
         a.nc and b.nc move along the same path, within 0.001 mm, with differences
-    "#]].assert_eq(&run("G50 S1200\n", "").stdout);
+    "#]]
+    .assert_eq(&run("G50 S1200\n", "").stdout);
 }
 
 #[test]

@@ -1930,6 +1930,11 @@ fn the_section_of_a_tool_goes_to_another_place() {
             exit 0
         "#]],
     );
+}
+
+#[test]
+fn a_section_that_cannot_move_says_why() {
+    let with_feed = THREE_TOOLS.replace("G1 Z-1.\nX20.", "G1 Z-1. F80.\nX20.");
     // T3 cuts at the feed of T2.
     refuses(
         THREE_TOOLS,

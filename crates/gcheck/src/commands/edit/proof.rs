@@ -7,7 +7,7 @@ use std::sync::Arc;
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread;
 
-use gcheck_edit::{Acts, Change, Refusal, Scope, expected, hold, is_as_claimed, plainly};
+use gcheck_edit::{Change, Holder, Refusal, Scope, expected, hold, is_as_claimed, plainly};
 use gcheck_engine::{Options, RunResult, Units};
 use gcheck_syntax::SourceText;
 use gcheck_toolpath::{Act, Differences};
@@ -139,7 +139,7 @@ fn held(
     options: Options,
 ) -> Result<(Differences, Ran), Problem> {
     let mut ran = Ran::default();
-    let mut both = |with: &mut dyn FnMut(Acts<'_>, Acts<'_>)| {
+    let mut both = |with: Holder<'_>| {
         ran = run_both(before, after, asked, options, with)?;
         Ok(())
     };
@@ -153,7 +153,7 @@ fn run_both(
     after: &Prepared,
     asked: &Asked<'_>,
     options: Options,
-    with: &mut dyn FnMut(Acts<'_>, Acts<'_>),
+    with: Holder<'_>,
 ) -> Result<Ran, Problem> {
     let Asked { change, scope, .. } = *asked;
     thread::scope(|scope_of_threads| {
