@@ -212,7 +212,9 @@ impl<'l, 'p> Lines<'l, 'p> {
             return Ok(end + (at + len) as u32);
         };
         let before = self.text.get(..line.start as usize).unwrap_or_default();
-        let start = before.rfind(['\n', '\r']).map_or(0, |end| end + 1);
+        // A byte order mark stays at the top of the file.
+        let top = if self.text.starts_with('\u{feff}') { '\u{feff}'.len_utf8() } else { 0 };
+        let start = before.rfind(['\n', '\r']).map_or(top, |end| end + 1);
         if before.get(start..).unwrap_or_default().trim().is_empty() {
             Ok(start as u32)
         } else {

@@ -34,10 +34,11 @@ impl Clear {
         }
     }
 
-    /// Of the tool in the spindle, unless one of unknown size has cut before it.
+    /// Of the tool in the spindle, with what cuts of tools of unknown size rest on.
     pub(crate) fn among(cx: &PathCx<'_>, cuts: &Cuts) -> Self {
         let own = Self::of(cx);
-        if cuts.has_unknown && own.radius < WIDE { Self::unknown() } else { own }
+        let of_others = || cuts.has_unknown.then(Self::unknown)?.assumption;
+        Self { assumption: own.assumption.or_else(of_others), ..own }
     }
 
     fn unknown() -> Self {
@@ -86,20 +87,25 @@ fn frame(cx: &PathCx<'_>) -> Option<Frame> {
 
 /// A straight cut.
 #[derive(Clone, PartialEq)]
-struct Cut {
+pub(crate) struct Cut {
     from: [f64; 2],
     to: [f64; 2],
     /// The lower end.
     z: f64,
     /// How far beside it the tool may have cut: a path beside the programmed one, by a size that is not known.
     beside: f64,
-    /// The radius of the tool that has cut; zero if that is unknown.
+    /// The radius of the tool that has cut. Of one of unknown size it is zero in a hole, and as wide as any where it goes sideways.
     radius: f64,
 }
 
 impl Cut {
+    /// Is it as deep as a level, or deeper?
+    pub(crate) fn is_below(&self, z: f64) -> bool {
+        self.z <= z + LEVEL
+    }
+
     /// Did its tool, or one of this radius, come to a place?
-    fn reaches(&self, at: [f64; 2], radius: f64) -> bool {
+    pub(crate) fn reaches(&self, at: [f64; 2], radius: f64) -> bool {
         distance_to_line(at, self.from, self.to) <= radius.max(self.radius) + self.beside
     }
 }
@@ -182,7 +188,7 @@ impl Cuts {
         if !cuts {
             return;
         }
-        let radius = self.radius(cx);
+        let own = self.radius(cx);
         let depth = |position: &Position| position.get(Axis::Z);
         let z = match (depth(from), depth(to)) {
             (Some(a), Some(b)) => Some(a.min(b)),
@@ -190,6 +196,10 @@ impl Cuts {
             (None, b) => b,
             (Some(_), None) => None,
         };
+        // A cutter of unknown size may clear as much beside its way as any.
+        let goes_sideways = flat(from).zip(flat(to)).is_none_or(|(a, b)| distance(a, b) > LEVEL)
+            || matches!(event, Event::Arc(_));
+        let radius = if own <= 0.0 && goes_sideways { WIDE } else { own };
         let (Some(a), Some(b), Some(z)) = (flat(from), flat(to), z) else {
             match (began, programmed, bulge(cx, event)) {
                 (Some([x0, y0, z0]), Some([x1, y1, z1]), Some(bulge)) if was_beside || is_compensated(cx) => {
@@ -245,16 +255,28 @@ impl Cuts {
         }
     }
 
+    /// The cuts that come near the way from one point to another, at this depth or lower.
+    pub(crate) fn near_way(&self, from: [f64; 2], to: [f64; 2], z: f64, radius: f64) -> Vec<Cut> {
+        let is_apart = |cut: &Cut, axis: usize| {
+            let [low, high] = bounds([from, to], axis);
+            let [cut_low, cut_high] = bounds([cut.from, cut.to], axis);
+            let more = radius.max(cut.radius) + cut.beside;
+            cut_low - more > high || cut_high + more < low
+        };
+        let is_near = |cut: &&Cut| cut.is_below(z) && !is_apart(cut, 0) && !is_apart(cut, 1);
+        self.list.iter().filter(is_near).cloned().collect()
+    }
+
     /// Did one of the first `count` cuts reach within `radius` of a point, or its own tool come there, at this depth or lower?
     pub(crate) fn reach(&self, count: usize, at: [f64; 2], z: f64, radius: f64) -> bool {
         let mut cuts = self.list.iter().take(count);
-        cuts.any(|cut| cut.z <= z + LEVEL && cut.reaches(at, radius))
+        cuts.any(|cut| cut.is_below(z) && cut.reaches(at, radius))
     }
 
     /// The same of the cuts that go sideways: no holes.
     pub(crate) fn reach_sideways(&self, at: [f64; 2], z: f64, radius: f64) -> bool {
         let mut cuts = self.list.iter().filter(|cut| distance(cut.from, cut.to) > LEVEL || cut.beside > 0.0);
-        cuts.any(|cut| cut.z <= z + LEVEL && cut.reaches(at, radius))
+        cuts.any(|cut| cut.is_below(z) && cut.reaches(at, radius))
     }
 
     /// Does an earlier straight cut pass over a point, less deep than this level, and not near the ends of the cut? Near its
@@ -290,6 +312,12 @@ impl Cuts {
     pub(crate) fn len(&self) -> usize {
         self.list.len()
     }
+}
+
+/// The lower and the higher one of two coordinates along an axis of the plane.
+fn bounds(points: [[f64; 2]; 2], axis: usize) -> [f64; 2] {
+    let [a, b] = points.map(|point| if axis == 0 { point[0] } else { point[1] });
+    [a.min(b), a.max(b)]
 }
 
 /// How far an arc as it is written may bulge over the chord between its ends: its diameter. `None` where it is not written so.

@@ -15,7 +15,7 @@ use crate::{PathCx, remembers};
 /// What blocks have shown of a live tool, in the order in which they are executed: a called program works between two blocks that
 /// are next to each other in the text, or far from them.
 ///
-/// A rule keeps one, and shows it every block and every event that is not a move.
+/// A rule keeps one, and shows it every block, every rapid move and every event that is not a move.
 #[derive(Debug, Default, Clone, PartialEq)]
 #[expect(clippy::struct_excessive_bools, reason = "independent facts of what was executed")]
 pub(crate) struct Executed {

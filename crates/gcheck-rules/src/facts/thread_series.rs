@@ -64,7 +64,7 @@ const FRACTIONS: [(&str, [u32; 2]); 14] = [
 ];
 
 /// The same of sizes by number; no thread in a series is 0.
-const NUMBERED: [(u32, [u32; 2]); 11] = [
+const NUMBERED: [(u32, [u32; 2]); 10] = [
     (0, [0, 80]),
     (1, [64, 72]),
     (2, [56, 64]),
@@ -75,7 +75,6 @@ const NUMBERED: [(u32, [u32; 2]); 11] = [
     (8, [32, 36]),
     (10, [24, 32]),
     (12, [24, 28]),
-    (14, [20, 24]),
 ];
 
 /// A series of inch threads.

@@ -48,13 +48,24 @@ impl Thread {
     /// The diameter of an outside thread at its crest, as its name gives it (`M20X1.5`, `3/8-16`): millimetres.
     pub(crate) fn crest(&self) -> Option<f64> {
         let name = self.name.to_ascii_uppercase();
-        let size = name.split(['X', '-', '*']).next()?;
+        let size = name.split(['X', '*', ' ']).next()?;
+        let (whole, size) = whole_and_part(size);
         if let Some(size) = size.strip_prefix('M') {
             return size.parse().ok().filter(|size: &f64| *size > 0.0);
         }
         let (above, below) = size.split_once('/')?;
-        let inches = above.parse::<f64>().ok()? / below.parse::<f64>().ok()?;
+        let inches = whole + above.parse::<f64>().ok()? / below.parse::<f64>().ok()?;
         Some(inches * 25.4).filter(|size| *size > 0.0 && size.is_finite())
+    }
+}
+
+/// `1-1/4-7` is one and a quarter, `3/8-16` a part of one: the whole inches, and the rest of the size.
+fn whole_and_part(size: &str) -> (f64, &str) {
+    let mut parts = size.split('-');
+    let (first, second) = (parts.next().unwrap_or_default(), parts.next().unwrap_or_default());
+    match first.parse::<f64>() {
+        Ok(whole) if second.contains('/') => (whole, second),
+        _ => (0.0, first),
     }
 }
 
@@ -384,6 +395,10 @@ fn of_series(pieces: &[&str], ix: usize) -> Option<(String, f64)> {
         own => Series::named(own),
     };
     let series = series.filter(|_| !(is_count(before) || own.is_empty() && is_count(after)))?;
+    // `TOOL 10 UNC`: the number is that of the tool.
+    if ["TOOL", "T", "STATION", "POS", "POCKET", "STA", "TURRET"].contains(&before) {
+        return None;
+    }
     let threads = threads_in(size, series)?;
     let name = if series == Series::Coarse { "UNC" } else { "UNF" };
     Some((format!("{size} {name}"), 25.4 / f64::from(threads)))

@@ -152,6 +152,12 @@ impl ToolWords {
         self.has(&POWERED) && !is_centre
     }
 
+    /// Does the tool turn while it cuts, as its comment tells: a mill, a drill, a live tool? Such a one broaches nothing.
+    pub(crate) fn turns_to_cut(&self) -> bool {
+        let mills = ["MILL", "MILLING", "ENDMILL", "FACEMILL", "EM", "BALLMILL", "BULLNOSE"];
+        self.has(&mills) || self.drills() || self.is_powered()
+    }
+
     /// Does the tool cut a thread by its own shape, so that it is fed by the pitch: a tap, a die, a chaser?
     pub(crate) fn follows_its_pitch(&self) -> bool {
         self.has(&["TAP", "TAPS", "TAPPING", "TAPPER", "DIE", "DIEHEAD", "DIESTOCK", "CHASER", "CHASERS"])

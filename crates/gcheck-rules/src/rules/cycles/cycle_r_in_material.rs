@@ -162,6 +162,8 @@ const CLEARANCE: f64 = 6.35;
 const CLOSE: f64 = 3.0;
 /// A plane that is deeper is in a pocket: millimetres.
 const DEEP: f64 = 0.5;
+/// The way between two holes is looked at in pieces of this length, half as long as the widest cutter is: millimetres.
+const PIECE: f64 = 6.0;
 /// A tool comes down to a pocket no farther from the holes in it: millimetres.
 const AROUND: f64 = 60.0;
 /// The tip of a tap fits into its hole so far: millimetres.
@@ -263,15 +265,16 @@ impl CycleRInMaterial {
             return None;
         }
         #[expect(clippy::cast_sign_loss, reason = "a length below 100 m")]
-        let pieces = length.min(1e5) as u32;
+        let pieces = (length / PIECE).clamp(2.0, 2_000.0) as u32;
         let on_the_way = (1..pieces).map(|piece| {
             let part = f64::from(piece) / f64::from(pieces);
             [x0 + (x1 - x0) * part, y0 + (y1 - y0) * part]
         });
-        let closed: Vec<[f64; 2]> =
-            on_the_way.filter(|at| !cuts.reach(cuts.len(), *at, z, WIDE)).take(MOST).collect();
+        let near = cuts.near_way([x0, y0], [x1, y1], -SURFACE, WIDE);
+        let is_cut = |at: [f64; 2], z: f64| near.iter().any(|cut| cut.is_below(z) && cut.reaches(at, WIDE));
+        let closed: Vec<[f64; 2]> = on_the_way.filter(|at| !is_cut(*at, z)).take(MOST).collect();
         let first = closed.first()?;
-        let is_milled = closed.iter().any(|at| cuts.reach(cuts.len(), *at, -SURFACE, WIDE));
+        let is_milled = closed.iter().any(|at| is_cut(*at, -SURFACE));
         let return_level = cx.name_of_effect(Effect::ReturnToInitial)?;
         let place = first.map(|coordinate| cx.shown(Mm(coordinate))).join(", ");
         let finding = cx

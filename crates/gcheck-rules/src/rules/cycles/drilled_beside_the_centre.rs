@@ -176,7 +176,10 @@ impl DrilledBesideTheCentre {
         if is_level && is_into && is_beside && cx.state().live_tool() == Truth::True {
             // Turning tools that are driven, as for thread whirling, go along the part too.
             let turns = cx.state().spindle().is_some_and(Spindle::turns);
-            if turns && ToolWords::of(cx).drills() && !turns_c_next(cx) {
+            let tool = cx.definitions().set_by(Fact::Tool);
+            let is_told = tool.is_some() && self.told == tool;
+            if turns && !is_told && ToolWords::of(cx).drills() && !turns_c_next(cx) {
+                self.told = tool;
                 let message = "the live drill is fed in beside the centre while the spindle turns the part";
                 self.with_live_tool(cx, message, report);
             }

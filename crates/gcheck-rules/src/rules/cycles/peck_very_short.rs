@@ -62,7 +62,7 @@ remembers!(PeckVeryShort: pecks, plunges);
 
 /// No drill pecks as often.
 const MOST: u32 = 500;
-/// A grooving tool rubs in pecks that are shorter: millimetres. As many are more than the rest of a groove.
+/// A grooving tool rubs in pecks that are shorter: millimetres. As many one after the other are more than the rest of a groove.
 const TINY: f64 = 0.015;
 const MANY: u32 = 20;
 
@@ -156,7 +156,9 @@ impl PeckVeryShort {
         let is_one_plunge = self.plunges.is_some_and(|(before, _, last)| before == at && is_same(last));
         self.plunges = Some((at, count, side));
         let (pecks, peck) = match self.strokes.filter(|_| is_one_plunge) {
-            Some((pecks, last)) => (pecks + 1, (deep - last).abs()),
+            // One peck after the other: what is left for the last one may be as little.
+            Some((pecks, last)) if (deep - last).abs() < TINY => (pecks + 1, (deep - last).abs()),
+            Some((_, last)) => (1, (deep - last).abs()),
             None => (1, 0.0),
         };
         self.strokes = Some((pecks, deep));
@@ -223,6 +225,8 @@ mod tests {
     fn pecks_of_a_groove_in_the_smallest_step() {
         let program =
             |cycle: &str| format!("G21 G99 T0404\nG97 S700 M3\nG0 X52. Z3.\n{cycle} F.08\nG0 X60.\nM30\n");
+        // What is left for the twentieth peck is no step of the cycle.
+        check_rule(&RULE, "fanuc-lathe", &program("G75 R.5\nG75 X13.98 P1000"), &expect![[""]]);
         for (cycle, place) in [
             ("G75 R.5\nG75 X48. Z-15. P5 Q2500", "P5"),
             ("G75 X40. P10", "P10"),

@@ -209,16 +209,15 @@ fn is_round(cx: &PathCx<'_>) -> bool {
         "TUBE", "TUBING", "WELLE",
     ];
     // What a tool is called says nothing of the part: `BORING BAR`, `ROUND INSERT`.
-    const TOOLS: [&str; 12] = [
-        "BORE", "BORING", "BULL", "CORNER", "INSERT", "MILL", "NOSE", "PULLER", "SHANK", "TOOL", "HEX",
-        "SQUARE",
-    ];
+    const TOOLS: [&str; 9] =
+        ["BORE", "BORING", "BULL", "CORNER", "INSERT", "NOSE", "PULLER", "SHANK", "SQUARE"];
     let is = |comment: String| {
         let comment = comment.to_ascii_uppercase();
         let has = |names: &[&str]| {
             comment.split(|c: char| !c.is_ascii_alphanumeric()).any(|word| names.contains(&word))
         };
-        has(&ROUND) && !has(&TOOLS)
+        let is_mill = has(&["END", "BALL", "FACE"]) && has(&["MILL"]);
+        has(&ROUND) && !has(&TOOLS) && !is_mill
     };
     (0..HEAD).filter_map(|block| comments_in(cx, At { file: 0, block })).any(is)
 }
@@ -282,7 +281,8 @@ impl IndexBeforeRetract {
             let to = letters.contains(axis.letter()).then(|| cx.known_number(axis.name())).flatten();
             to.zip(at.get(axis)).is_some_and(|(to, from)| (to - from).abs() > TURN)
         });
-        if !is_rapid || !is_plain || !turns || is_central(cx, at) || is_round(cx) {
+        let is_central = is_central(cx, at);
+        if !is_rapid || !is_plain || !turns || !is_central && is_round(cx) {
             return None;
         }
         let z = at.get(Axis::Z)?;
@@ -291,7 +291,7 @@ impl IndexBeforeRetract {
             return Some(in_cut(cx, z, cut));
         }
         let has_cut = self.cut_in == Some(work);
-        (has_cut && (0.0..=CLOSE).contains(&z))
+        (has_cut && !is_central && (0.0..=CLOSE).contains(&z))
             .then(|| close(cx, z).also(next, "the next side of the part has a zero of its own"))
     }
 }
@@ -395,7 +395,10 @@ mod tests {
                   |        ^^^^ warning[index-before-retract] the part is turned at rapid with the tool close above its face
             "#]],
         );
-        check_rule(&RULE, "fanuc-mill", &program("G0 G55 A90."), &expect![[""]]);
+        check_rule(&RULE, "fanuc-mill", &program("G0 G55 A90."), &expect![[r#"
+            7 | G0 G55 A90.
+              |        ^^^^ warning[index-before-retract] the part is turned at rapid while the tool is in its cut
+        "#]]);
         check_rule(
             &RULE,
             "fanuc-mill",

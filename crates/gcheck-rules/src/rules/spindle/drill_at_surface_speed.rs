@@ -118,6 +118,9 @@ impl PathRule for DrillAtSurfaceSpeed {
     fn moved(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
         let waiting = self.waiting.take();
         let Event::Travel(travel) = event else { return };
+        if travel.kind == TravelKind::Rapid {
+            self.executed.rapid(cx);
+        }
         let (from, to) = (&travel.from, &travel.to);
         let is_centre = |x: f64| x.abs() < CENTRE;
         // A place that is not known is not the centre.

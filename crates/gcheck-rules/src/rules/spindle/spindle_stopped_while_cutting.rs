@@ -347,7 +347,8 @@ impl PathRule for SpindleStoppedWhileCutting {
             finding = cx.resting_on(finding, Fact::Mode(Role::FeedMode), &format!("`{name}`"));
         }
         let finding = since(cx, finding, stopped_by);
-        match Strokes::begin(event).filter(|_| !needs_turns && !cut.threads) {
+        let may_broach = !needs_turns && !cut.threads && !ToolWords::of(cx).turns_to_cut();
+        match Strokes::begin(event).filter(|_| may_broach) {
             Some(strokes) => {
                 self.tell(report);
                 let is_held = self.is_oriented || live == LiveTool::Stands;
@@ -792,6 +793,10 @@ mod tests {
                    | ^^^^^^^^^^^^^^^ info[spindle-stopped-while-cutting] cut after the spindle was stopped (`M5`)
             "#]],
         );
+        // What turns to cut plunges so, and does not broach.
+        let plunged = keyway("M5\nM154\nG0 C0.", &strokes).replace("SLOT BAR 6", "LIVE END MILL 6");
+        let found = findings(&only(&RULE), "haas-lathe", &plunged, &World::default());
+        assert!(found.iter().any(|finding| finding.severity == crate::Severity::Warning), "{found:#?}");
         // In a loop, and fed in with increments.
         let looped =
             "#1=20.\nWHILE [#1 LT 23.] DO1\nG0 X#1\nG1 Z-20. F2500.\nG1 U-1.\nG0 Z3.\n#1=#1+.2\nEND1\n";

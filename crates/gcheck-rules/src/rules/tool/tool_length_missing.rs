@@ -241,11 +241,15 @@ fn has_own_zero(cx: &PathCx<'_>, changed: At) -> bool {
 fn are_set_to_one_length(cx: &PathCx<'_>) -> bool {
     let is = |comment: String| {
         let comment = comment.to_ascii_uppercase();
-        let has = |names: &[&str]| {
-            comment.split(|c: char| !c.is_ascii_alphanumeric()).any(|word| names.contains(&word))
+        let words: Vec<&str> = comment.split(|c: char| !c.is_ascii_alphanumeric()).collect();
+        let has = |names: &[&str]| words.iter().any(|word| names.contains(word));
+        let is_beside = |first: &[&str], second: &[&str]| {
+            words.windows(2).any(|pair| matches!(pair, [a, b] if first.contains(a) && second.contains(b)))
         };
-        let is_one = has(&["SAME", "EQUAL", "ONE", "IDENTICAL", "ALL", "SET", "NO"]);
-        has(&["PRESET", "PRESETS"]) || is_one && has(&["LENGTH", "LENGTHS", "G43", "HEIGHT", "HEIGHTS"])
+        let lengths = ["LENGTH", "LENGTHS", "HEIGHT", "HEIGHTS"];
+        let is_one = is_beside(&["SAME", "EQUAL", "IDENTICAL", "ONE"], &lengths);
+        // A comment that asks for offsets says the opposite.
+        (is_one || is_beside(&["NO"], &["G43"])) && !has(&["OFFSET", "OFFSETS", "H"])
     };
     (0..HEAD).filter_map(|block| comments_in(cx, At { file: 0, block })).any(is)
 }
@@ -436,6 +440,12 @@ mod tests {
                     "{control} {first}{second}: {found:?}"
                 );
             }
+        }
+        for head in
+            ["(SET LENGTH OFFSETS FOR ALL TOOLS)\n", "(PRESET TOOLS IN H OFFSETS)\n", "(STOCK LENGTH 100)\n"]
+        {
+            let found = severity("haas-mill", &program(head, "", ""));
+            assert!(found.contains(&Severity::Warning), "{head}: {found:?}");
         }
         // One tool with its length, and another with a zero of its own.
         let mixed = |own: &str| {
