@@ -225,7 +225,7 @@ mod tests {
     fn pecks_of_a_groove_in_the_smallest_step() {
         let program =
             |cycle: &str| format!("G21 G99 T0404\nG97 S700 M3\nG0 X52. Z3.\n{cycle} F.08\nG0 X60.\nM30\n");
-        // What is left for the twentieth peck is no step of the cycle.
+        // The twentieth peck is what is left, not a step of the cycle.
         check_rule(&RULE, "fanuc-lathe", &program("G75 R.5\nG75 X13.98 P1000"), &expect![[""]]);
         for (cycle, place) in [
             ("G75 R.5\nG75 X48. Z-15. P5 Q2500", "P5"),

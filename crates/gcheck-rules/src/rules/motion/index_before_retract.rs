@@ -395,10 +395,15 @@ mod tests {
                   |        ^^^^ warning[index-before-retract] the part is turned at rapid with the tool close above its face
             "#]],
         );
-        check_rule(&RULE, "fanuc-mill", &program("G0 G55 A90."), &expect![[r#"
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            &program("G0 G55 A90."),
+            &expect![[r#"
             7 | G0 G55 A90.
               |        ^^^^ warning[index-before-retract] the part is turned at rapid while the tool is in its cut
-        "#]]);
+        "#]],
+        );
         check_rule(
             &RULE,
             "fanuc-mill",
