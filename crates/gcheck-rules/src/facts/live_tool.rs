@@ -27,6 +27,8 @@ pub(crate) struct Executed {
     is_live: bool,
     /// In the same time, a code of the machine builder with a speed was executed.
     may_turn: bool,
+    /// The file calls programs of other files; none before a block asked.
+    calls_elsewhere: Option<bool>,
 }
 
 remembers!(Executed);
@@ -46,7 +48,8 @@ impl Executed {
         let Some(place) = cx.place() else { return };
         let words = place.table.words(place.block());
         // What a program of another file does is not shown.
-        let is_elsewhere = cx.has_effect(Effect::calls) && calls_other_files(cx.file_index);
+        let is_elsewhere = cx.has_effect(Effect::calls)
+            && *self.calls_elsewhere.get_or_insert_with(|| calls_other_files(cx.file_index));
         let turns_c = place.block().letters.intersects(LetterSet::of("CH")) && cx.has_effect(is_rapid);
         let has_speed = place.block().letters.intersects(LetterSet::of("SP"));
         let has_c_axis = words.iter().any(|word| is_of(cx, word.code, &[C_AXIS]));
@@ -67,7 +70,8 @@ impl Executed {
     /// An event that is not a move.
     pub(crate) fn changed(&mut self, cx: &PathCx<'_>, event: &Event) {
         if matches!(event, Event::ToolChange(_)) {
-            *self = Self { may_hold_part: self.may_hold_part, ..Self::default() };
+            let Self { may_hold_part, calls_elsewhere, .. } = *self;
+            *self = Self { may_hold_part, calls_elsewhere, ..Self::default() };
             self.block(cx);
         }
     }

@@ -48,11 +48,12 @@ impl<'a> Programs<'a> {
 
 /// Is a program called by a number that no program and no block of the file has?
 pub(crate) fn calls_other_files(file_index: &FileIndex) -> bool {
-    let is_here = |number: u32| {
-        let is = |known: u32| known == number || known == number % PACKED;
-        file_index.programs.iter().filter_map(|program| program.number).any(is)
-            || file_index.labels.iter().any(|label| is(label.number))
-    };
+    if file_index.calls.is_empty() {
+        return false;
+    }
+    let programs = file_index.programs.iter().filter_map(|program| program.number);
+    let here: BTreeSet<u32> = programs.chain(file_index.labels.iter().map(|label| label.number)).collect();
+    let is_here = |number: u32| here.contains(&number) || here.contains(&(number % PACKED));
     file_index.calls.iter().any(|call| matches!(call.target, CallKind::Program(number) if !is_here(number)))
 }
 
