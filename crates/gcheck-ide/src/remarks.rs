@@ -1,4 +1,4 @@
-//! What the comment of a line calls what the line begins. The line may be of a program on disk, of which there is no tree.
+//! The name that a comment gives to what begins in its line. The line may be in a program on disk, which has no tree.
 //!
 //! Knows: comments, and which of them are directives of ours. Must not know: what is named.
 

@@ -148,22 +148,25 @@ impl PathRule for DrilledBesideTheCentre {
 }
 
 impl DrilledBesideTheCentre {
-    /// A live tool drills beside the centre, and the spindle turns the part under it.
-    fn with_live_tool(&self, cx: &PathCx<'_>, message: &str, report: &mut Report<'_>) {
-        let Some(started) = cx.definitions().set_by(Fact::Spindle).filter(|at| at.file == 0) else { return };
+    /// A live tool drills beside the centre, and the spindle turns the part under it. True if that is reported.
+    fn with_live_tool(&self, cx: &PathCx<'_>, message: &str, report: &mut Report<'_>) -> bool {
+        let Some(started) = cx.definitions().set_by(Fact::Spindle).filter(|at| at.file == 0) else {
+            return false;
+        };
         // Without a code for it, the machine builder's codes make the spindle an axis.
         if !cx.control_has(|effect| effect == Effect::LiveToolOn)
             || !cx.is_certain()
             || works_on_second(cx)
             || self.executed.may_hold_part(cx, started)
         {
-            return;
+            return false;
         }
         let finding = cx
             .finding(&META, cx.range(), message)
             .label("the part turns past the live tool")
             .help("stop the spindle and engage the C axis before the live tool drills");
         report.add(cx.resting_on(finding, Fact::Spindle, "the spindle"));
+        true
     }
 
     /// A drill that is fed along Z into the part.
@@ -173,15 +176,18 @@ impl DrilledBesideTheCentre {
         let is_level = (from.raw(Axis::X) - radius).abs() < f64::EPSILON;
         let is_into = from.raw(Axis::Z) > -UNDER && to.raw(Axis::Z) < -UNDER;
         let is_beside = !radius.is_nan() && radius.abs() > OFF_CENTRE;
+        let tool = cx.definitions().set_by(Fact::Tool);
+        if tool.is_some() && self.told == tool {
+            return;
+        }
         if is_level && is_into && is_beside && cx.state().live_tool() == Truth::True {
             // Turning tools that are driven, as for thread whirling, go along the part too.
             let turns = cx.state().spindle().is_some_and(Spindle::turns);
-            let tool = cx.definitions().set_by(Fact::Tool);
-            let is_told = tool.is_some() && self.told == tool;
-            if turns && !is_told && ToolWords::of(cx).drills() && !turns_c_next(cx) {
-                self.told = tool;
+            if turns && ToolWords::of(cx).drills() && !turns_c_next(cx) {
                 let message = "the live drill is fed in beside the centre while the spindle turns the part";
-                self.with_live_tool(cx, message, report);
+                if self.with_live_tool(cx, message, report) {
+                    self.told = tool;
+                }
             }
             return;
         }
@@ -206,10 +212,6 @@ impl DrilledBesideTheCentre {
                 .shared::<Turned>()
                 .is_none_or(|turned| turned.depth_at_centre(None) < -UNDER || !turned.knows(cx))
         {
-            return;
-        }
-        let tool = cx.definitions().set_by(Fact::Tool);
-        if tool.is_some() && self.told == tool {
             return;
         }
         self.told = tool;
