@@ -2,7 +2,7 @@
 
 #![expect(clippy::unwrap_used, reason = "a test that meets the unexpected is to fail")]
 
-use gcheck_lint::{Environment, Execution, Job, MachineFacts, NoPrograms, Selection, check};
+use gcheck_lint::{ControlBasis, Environment, Execution, Job, MachineFacts, NoPrograms, Selection, check};
 use gcheck_program::Dialect;
 use gcheck_rules::RULES;
 use gcheck_syntax::SourceText;
@@ -20,7 +20,7 @@ fn check_everywhere(bytes: Vec<u8>) {
             dialect: &dialect,
             machine: &machine,
             programs: &NoPrograms,
-            control_is_guessed: true,
+            control_basis: ControlBasis::Guessed,
             unsupported: None,
         };
         let outcome = check(&Job {

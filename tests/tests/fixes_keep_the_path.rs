@@ -10,7 +10,9 @@ use std::fs;
 use std::path::Path;
 
 use gcheck_diagnostics::{Finding, FixKinds};
-use gcheck_lint::{Environment, Execution, Job, MachineFacts, NoPrograms, Selection, check, fix_all};
+use gcheck_lint::{
+    ControlBasis, Environment, Execution, Job, MachineFacts, NoPrograms, Selection, check, fix_all,
+};
 use gcheck_program::Dialect;
 use gcheck_rules::RULES;
 use gcheck_syntax::SourceText;
@@ -31,7 +33,7 @@ fn mended(program: &[u8], control: &str, kinds: FixKinds) -> Option<Vec<u8>> {
             dialect: &dialect,
             machine: &machine,
             programs: &NoPrograms,
-            control_is_guessed: false,
+            control_basis: ControlBasis::Chosen,
             unsupported: None,
         };
         check(&Job {

@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use gcheck_controls::Control;
 use gcheck_diagnostics::Finding;
-use gcheck_lint::{Environment, Execution, Job, MachineFacts, NoPrograms, Selection, check};
+use gcheck_lint::{ControlBasis, Environment, Execution, Job, MachineFacts, NoPrograms, Selection, check};
 use gcheck_program::{Dialect, lower, lower_tree};
 use gcheck_rules::RULES;
 use gcheck_syntax::{Document, SourceText, cut, parse};
@@ -99,7 +99,7 @@ fn findings(control: &Control, source: &SourceText) -> Vec<Finding> {
         dialect: &dialect,
         machine: &machine,
         programs: &NoPrograms,
-        control_is_guessed: false,
+        control_basis: ControlBasis::Chosen,
         unsupported: None,
     };
     let mut selection = Selection::recommended(RULES);

@@ -2,6 +2,11 @@
 //!
 //! Knows: codes by number, groups, addresses, variables, settings. Must not know: files, TOML, or which control it is.
 
+use std::any::Any;
+use std::fmt;
+use std::panic::{RefUnwindSafe, UnwindSafe};
+use std::sync::OnceLock;
+
 use crate::execution::{Effect, LastingWords, Semantics};
 use crate::motion::MotionRules;
 use crate::schema::{
@@ -70,6 +75,28 @@ pub struct Control {
     pub(crate) semantics: Semantics,
     pub(crate) motion: MotionRules,
     pub(crate) lasting: Vec<LastingWords>,
+    pub(crate) prepared: PreparedSlot,
+}
+
+/// What another crate made of a control; a copy, which may be changed, has none.
+#[derive(Default)]
+pub(crate) struct PreparedSlot(OnceLock<Box<dyn AnyPrepared>>);
+
+/// What another crate may make of a control.
+pub trait AnyPrepared: Any + Send + Sync + UnwindSafe + RefUnwindSafe {}
+
+impl<T: Any + Send + Sync + UnwindSafe + RefUnwindSafe> AnyPrepared for T {}
+
+impl Clone for PreparedSlot {
+    fn clone(&self) -> Self {
+        Self::default()
+    }
+}
+
+impl fmt::Debug for PreparedSlot {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_tuple("PreparedSlot").field(&self.0.get().is_some()).finish()
+    }
 }
 
 /// The alarm for what a rule finds: of some codes and addresses, or of all others.
@@ -223,6 +250,16 @@ pub enum Variable<'c> {
 }
 
 impl Control {
+    /// What the crate that executes programs makes of the control, made once for all programs.
+    ///
+    /// # Panics
+    /// When two types are asked of one control: there is one such crate.
+    pub fn prepared<T: AnyPrepared>(&self, prepare: impl FnOnce(&Self) -> T) -> &T {
+        let prepared: &dyn Any = &**self.prepared.0.get_or_init(|| Box::new(prepare(self)));
+        #[expect(clippy::expect_used, reason = "one crate prepares controls, as one type")]
+        prepared.downcast_ref().expect("a control is prepared as one type")
+    }
+
     /// Identifier: the folder's name.
     pub fn name(&self) -> &str {
         &self.name

@@ -60,31 +60,47 @@ pub struct Score {
 
 /// What the evidence is worth for each control, the best first. Controls without any hint found are left out.
 pub fn scores(evidence: &Evidence) -> Vec<Score> {
-    scores_with(evidence, &Comments::of(evidence))
+    Weighed::new(evidence).scores
 }
 
-fn scores_with(evidence: &Evidence, comments: &Comments<'_>) -> Vec<Score> {
-    let of_control = |file: &'static ControlFile| score(&file.name, &file.detect, evidence, comments);
-    let mut scores: Vec<Score> = all_control_files().filter_map(of_control).collect();
-    scores.sort_by(|a, b| b.points.cmp(&a.points).then_with(|| a.guess.control.cmp(&b.guess.control)));
-    scores
+/// Evidence, and what it is worth for each control.
+pub struct Weighed<'e> {
+    evidence: &'e Evidence,
+    comments: Comments<'e>,
+    /// The best first.
+    scores: Vec<Score>,
 }
 
 /// The comments of a program, made ready for many words to be looked for.
 struct Comments<'e> {
-    all: Vec<(&'e str, Words)>,
+    all: &'e [String],
+    /// Where each begins in the text of all.
+    starts: Vec<usize>,
+    /// All of them, each on a line of its own.
+    words: Words,
     forms: &'e [SyntaxForm],
 }
 
 impl<'e> Comments<'e> {
     fn of(evidence: &'e Evidence) -> Self {
-        let all = evidence.comments.iter().map(|comment| (comment.as_str(), Words::of(comment))).collect();
-        Self { all, forms: &evidence.forms }
+        let starts = evidence.comments.iter().scan(0, |end, comment| {
+            let start = *end;
+            *end += comment.len() + 1;
+            Some(start)
+        });
+        Self {
+            all: &evidence.comments,
+            starts: starts.collect(),
+            words: Words::of(&evidence.comments.join("\n")),
+            forms: &evidence.forms,
+        }
     }
 
     /// The first one that has a word, as written.
     fn with(&self, word: &str) -> Option<&'e str> {
-        self.all.iter().find(|(_, words)| words.have(word)).map(|(comment, _)| *comment)
+        let at = self.words.find(word)?;
+        let after = self.starts.partition_point(|start| *start <= at);
+        self.all.get(after.checked_sub(1)?).map(String::as_str)
     }
 
     /// The foreign control that one of them names, unless its programs are read as those of `control`.
@@ -135,42 +151,69 @@ const LEAD: i32 = 2;
 /// With so many points a guess is clear: more than one weak hint.
 const CLEAR_POINTS: i32 = 5;
 
-/// The control that the evidence speaks for, or `None` when it says too little, or the same of two, or when the program is
-/// for something that no control here reads.
+impl<'e> Weighed<'e> {
+    /// Weighs the evidence.
+    pub fn new(evidence: &'e Evidence) -> Self {
+        let comments = Comments::of(evidence);
+        let of_control = |file: &'static ControlFile| score(&file.name, &file.detect, evidence, &comments);
+        let mut scores: Vec<Score> = all_control_files().filter_map(of_control).collect();
+        scores.sort_by(|a, b| b.points.cmp(&a.points).then_with(|| a.guess.control.cmp(&b.guess.control)));
+        Self { evidence, comments, scores }
+    }
+
+    /// The control that the evidence speaks for, or `None` when it says too little, or the same of two, or when the program
+    /// is for something that no control here reads.
+    pub fn guess(&self) -> Option<Guess> {
+        if self.evidence.unsupported.is_some() {
+            return None;
+        }
+        let first = self.scores.first().filter(|first| first.points >= ENOUGH_POINTS)?;
+        let second = self.scores.get(1);
+        let lead = second.map_or(i32::MAX, |second| first.points - second.points);
+        if lead == 0 || self.comments.foreign_unlike(&first.guess.control).is_some() {
+            return None;
+        }
+        let rival = second.filter(|_| lead < LEAD).map(|second| second.guess.control.clone());
+        let is_clear = rival.is_none() && first.points >= CLEAR_POINTS;
+        Some(Guess { rival, is_clear, ..first.guess.clone() })
+    }
+
+    /// The control or builder that a comment names and that no control here is for.
+    pub fn foreign(&self) -> Option<Foreign> {
+        self.comments.foreign_unlike("")
+    }
+
+    /// May the program be for a control that its neighbours are for? Not where anything in it speaks against that, or more for
+    /// another one.
+    pub fn may_be_for(&self, control: &str) -> bool {
+        let of_control = self.scores.iter().find(|score| score.guess.control == control);
+        let points = of_control.map_or(0, |score| score.points);
+        let speaks_against = of_control.is_some_and(|score| score.against > 0);
+        let speaks_for_another = self.scores.first().is_some_and(|first| first.points >= points + LEAD);
+        self.evidence.unsupported.is_none()
+            && !speaks_against
+            && !speaks_for_another
+            && self.comments.foreign_unlike(control).is_none()
+    }
+}
+
+/// The control that the evidence speaks for: [`Weighed::guess`].
 pub fn guess(evidence: &Evidence) -> Option<Guess> {
-    if evidence.unsupported.is_some() {
-        return None;
-    }
-    let comments = Comments::of(evidence);
-    let scores = scores_with(evidence, &comments);
-    let first = scores.first().filter(|first| first.points >= ENOUGH_POINTS)?;
-    let second = scores.get(1);
-    let lead = second.map_or(i32::MAX, |second| first.points - second.points);
-    if lead == 0 || comments.foreign_unlike(&first.guess.control).is_some() {
-        return None;
-    }
-    let rival = second.filter(|_| lead < LEAD).map(|second| second.guess.control.clone());
-    let is_clear = rival.is_none() && first.points >= CLEAR_POINTS;
-    Some(Guess { rival, is_clear, ..first.guess.clone() })
-}
-
-/// The control or builder that a comment names and that no control here is for.
-pub fn foreign(evidence: &Evidence) -> Option<Foreign> {
-    Comments::of(evidence).foreign_unlike("")
-}
-
-/// May a program be for a control that its neighbours are for? Not where anything in it speaks against that.
-pub fn may_be_for(evidence: &Evidence, control: &str) -> bool {
-    let speaks_against = |score: &Score| score.guess.control == control && score.against > 0;
-    let comments = Comments::of(evidence);
-    evidence.unsupported.is_none()
-        && comments.foreign_unlike(control).is_none()
-        && !scores_with(evidence, &comments).iter().any(speaks_against)
+    // Before any word is looked for: most of what has no control here is a dialect that none reads.
+    if evidence.unsupported.is_some() { None } else { Weighed::new(evidence).guess() }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Evidence, SyntaxForm, foreign, guess, may_be_for};
+    use super::{Evidence, Foreign, SyntaxForm, Weighed, guess};
+
+    fn foreign(evidence: &Evidence) -> Option<Foreign> {
+        Weighed::new(evidence).foreign()
+    }
+
+    fn may_be_for(evidence: &Evidence, control: &str) -> bool {
+        Weighed::new(evidence).may_be_for(control)
+    }
 
     fn with_comment(text: &str, forms: &[SyntaxForm]) -> Evidence {
         Evidence { comments: vec![text.to_owned()], forms: forms.to_vec(), ..Evidence::default() }
@@ -235,5 +278,7 @@ mod tests {
         assert!(!may_be_for(&named, "fanuc-mill"));
         assert!(may_be_for(&named, "linuxcnc"));
         assert!(may_be_for(&Evidence::default(), "fanuc-mill"));
+        let fanuc = with_comment("FANUC 31I", &[]);
+        assert!(may_be_for(&fanuc, "fanuc-mill") && !may_be_for(&fanuc, "haas-mill"), "it names another");
     }
 }

@@ -29,8 +29,8 @@ mod wording;
 
 pub use bar_feeder::BarFeederRules;
 pub use code_number::CodeNumber;
-pub use control::{Code, CodeIx, Control, DataOpening, GroupIx, UserCode, Variable};
-pub use detect::{Evidence, Foreign, Guess, Score, foreign, guess, may_be_for, scores};
+pub use control::{AnyPrepared, Code, CodeIx, Control, DataOpening, GroupIx, UserCode, Variable};
+pub use detect::{Evidence, Foreign, Guess, Score, Weighed, guess, scores};
 pub use effect_facts::EffectGroup;
 pub use execution::{
     AlongTool, ArcRules, CompensationRefusals, CompensationRules, CompensationStyle, CycleRules,

@@ -6,7 +6,7 @@ use std::collections::{BTreeMap, HashMap};
 use std::fmt;
 use std::sync::{Arc, LazyLock, Mutex, PoisonError};
 
-use crate::control::{AlarmOfRule, CodeFacts};
+use crate::control::{AlarmOfRule, CodeFacts, PreparedSlot};
 use crate::execution::{Effect, ExecutionFile, LastingWords, Semantics};
 use crate::motion::MotionRules;
 use crate::schema::{
@@ -291,6 +291,7 @@ fn finish(layers: Layers) -> Result<Control, LoadError> {
         semantics: layers.semantics.ok_or_else(|| missing("semantics"))?,
         motion: layers.motion.ok_or_else(|| missing("motion"))?,
         lasting: layers.lasting,
+        prepared: PreparedSlot::default(),
     };
     let mut codes = layers.codes;
     codes.sort_by_cached_key(|c| CodeNumber::parse(&c.code));

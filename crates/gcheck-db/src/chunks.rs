@@ -241,7 +241,7 @@ pub(crate) fn environment<'s>(settings: &'s Settings, dialect: &'s Dialect<'s>) 
         dialect,
         machine: &settings.machine,
         programs: &*settings.programs,
-        control_is_guessed: settings.control_is_guessed,
+        control_basis: settings.control_basis,
         unsupported: settings.unsupported,
     }
 }

@@ -6,7 +6,7 @@ use std::fmt;
 use std::sync::Arc;
 
 use gcheck_controls::{Control, UnsupportedDialect};
-use gcheck_lint::{Execution, MachineFacts, NoPrograms, Programs, RuleTable, Selection};
+use gcheck_lint::{ControlBasis, Execution, MachineFacts, NoPrograms, Programs, RuleTable, Selection};
 
 /// Programs that calls may bring in, as several threads ask for them.
 pub type SharedPrograms = Arc<dyn Programs + Send + Sync>;
@@ -16,8 +16,8 @@ pub type SharedPrograms = Arc<dyn Programs + Send + Sync>;
 pub struct Settings {
     /// The control.
     pub control: Arc<Control>,
-    /// The user did not choose the control: it was guessed from the program, or is the default.
-    pub control_is_guessed: bool,
+    /// Why the document is taken to be for this control.
+    pub control_basis: ControlBasis,
     /// The dialect, where no control here reads it and the user did not choose one.
     pub unsupported: Option<&'static UnsupportedDialect>,
     /// The user's machine.
@@ -37,7 +37,7 @@ impl Settings {
     pub fn new(control: Arc<Control>, rules: RuleTable) -> Self {
         Self {
             control,
-            control_is_guessed: false,
+            control_basis: ControlBasis::Chosen,
             unsupported: None,
             machine: Arc::default(),
             selection: Arc::new(Selection::recommended(rules)),

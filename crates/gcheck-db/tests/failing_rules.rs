@@ -8,8 +8,8 @@ use gcheck_db::{Database, Settings};
 use gcheck_diagnostics::{Finding, Fixability, RuleMeta, Severity, Tier};
 use gcheck_engine::Event;
 use gcheck_lint::{
-    BlockCx, Environment, Execution, FileCx, Job, MachineFacts, NoPrograms, Outcome, PathCx, PathRule,
-    Report, RuleEntry, RuleTable, Run, Selection, Watch, check,
+    BlockCx, ControlBasis, Environment, Execution, FileCx, Job, MachineFacts, NoPrograms, Outcome, PathCx,
+    PathRule, Report, RuleEntry, RuleTable, Run, Selection, Watch, check,
 };
 use gcheck_program::{BlockFlags, Dialect};
 use gcheck_syntax::SourceText;
@@ -93,7 +93,7 @@ fn checked(text: &str) -> Outcome {
             dialect: &Dialect::new(&control),
             machine: &MachineFacts::default(),
             programs: &NoPrograms,
-            control_is_guessed: false,
+            control_basis: ControlBasis::Chosen,
             unsupported: None,
         },
         selection: &Selection::recommended(TABLE),
@@ -184,7 +184,7 @@ fn a_panic_outside_of_a_rule_is_not_laid_on_one() {
                 dialect: &Dialect::new(&control),
                 machine: &MachineFacts::default(),
                 programs: &Broken,
-                control_is_guessed: false,
+                control_basis: ControlBasis::Chosen,
                 unsupported: None,
             },
             selection: &Selection::recommended(TABLE),

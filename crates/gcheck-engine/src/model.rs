@@ -6,6 +6,8 @@ pub(crate) mod contract;
 pub(crate) mod corner_words;
 mod role;
 
+use std::ops::Deref;
+
 use gcheck_controls::{
     Code, CodeIx, CodeNumber, Control, Effect, GroupIx, Handling, HelixFeed, LastingFrom, Letter, LetterSet,
     Need, Semantics, SystemVariable, Unpointed, WordEntry, WordKind,
@@ -45,9 +47,15 @@ pub(crate) struct CodeModel {
 const HELIX_BY_PATH: &str = "path";
 
 /// A control prepared for execution.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Copy)]
 pub struct Model<'c> {
     control: &'c Control,
+    prepared: &'c Prepared,
+}
+
+/// What the engine makes of a control, once for all programs.
+#[derive(Debug)]
+pub struct Prepared {
     codes: Vec<CodeModel>,
     /// By code: what it demands of its block.
     pub(crate) contracts: Vec<CodeContract>,
@@ -157,9 +165,17 @@ impl MachineAxes {
     }
 }
 
-impl<'c> Model<'c> {
-    /// Prepares a control.
-    pub fn new(control: &'c Control) -> Self {
+impl Deref for Model<'_> {
+    type Target = Prepared;
+
+    #[inline]
+    fn deref(&self) -> &Prepared {
+        self.prepared
+    }
+}
+
+impl Prepared {
+    fn of(control: &Control) -> Self {
         let semantics = control.semantics();
         let rank = |name: &str| rank(control, name);
         let axes = MachineAxes::of(control);
@@ -168,8 +184,7 @@ impl<'c> Model<'c> {
             .iter()
             .filter_map(|(letter, number)| Some((Letter::parse(letter)?, u32::from(*number))))
             .collect();
-        let mut model = Self {
-            control,
+        let mut prepared = Self {
             contracts: control.codes().map(|code| CodeContract::of(code, control)).collect(),
             contract: BlockContract::of(control),
             feed_rank: rank("feed"),
@@ -192,37 +207,67 @@ impl<'c> Model<'c> {
             cycles_are_motion: false,
             codes: codes_of(control),
         };
-        model.index_system_variables(&semantics.system_variables);
-        model.cycle_cancel = model.code_with(Effect::CycleCancel);
-        if let Some(cut) = control.code_at(model.code_with(Effect::Linear)) {
-            model.corners = CornerWords::of(&cut.entry().words, model.axis_letters);
+        prepared.index_system_variables(&semantics.system_variables);
+        prepared.cycle_cancel = code_with(control, Effect::CycleCancel);
+        if let Some(cut) = control.code_at(code_with(control, Effect::Linear)) {
+            prepared.corners = CornerWords::of(&cut.entry().words, prepared.axis_letters);
         }
-        model.cycles_are_motion = model.has_cycles_as_motion();
+        prepared.cycles_are_motion = prepared.has_cycles_as_motion(control);
         let code_of =
             |name: &String| CodeNumber::parse(name).map(|n| control.code_ix(n)).filter(|ix| ix.is_some());
-        model.at_end = semantics.at_end.iter().filter_map(code_of).collect();
+        prepared.at_end = semantics.at_end.iter().filter_map(code_of).collect();
         let starts = control.groups().iter().filter_map(|group| group.default.as_ref());
         for ix in starts.chain(&semantics.at_start).filter_map(code_of) {
-            if let Some(role) = model.code(ix).and_then(|code| code.role)
-                && let Some(slot) = model.defaults.get_mut(role.index())
+            if let Some(role) = prepared.code(ix).and_then(|code| code.role)
+                && let Some(slot) = prepared.defaults.get_mut(role.index())
             {
                 *slot = ix;
             }
         }
-        model
+        prepared
+    }
+
+    fn index_system_variables(&mut self, variables: &[SystemVariable]) {
+        for (index, variable) in variables.iter().enumerate() {
+            if let Some(first) = variable.first {
+                self.numbered.push((first, index));
+            }
+            if let Some(name) = &variable.name {
+                self.named.insert(name.to_ascii_lowercase(), index);
+            }
+        }
+        self.numbered.sort_unstable();
     }
 
     /// Are canned cycles and motion one modal group?
-    fn has_cycles_as_motion(&self) -> bool {
-        let group = |effect| self.code(self.code_with(effect)).map(|code| code.group);
+    fn has_cycles_as_motion(&self, control: &Control) -> bool {
+        let group = |effect| self.code(code_with(control, effect)).map(|code| code.group);
         match group(Effect::CycleDrill) {
             Some(drilling) => Some(drilling) == group(Effect::Linear),
             // A control without cycles says by its cancelling code alone that no motion mode is left.
             None => {
-                let cancel = self.control.code_at(self.cycle_cancel);
+                let cancel = control.code_at(self.cycle_cancel);
                 cancel.is_some_and(|code| code.entry().cancels.iter().any(|item| item == "@motion"))
             }
         }
+    }
+
+    #[inline]
+    pub(crate) fn code(&self, code: CodeIx) -> Option<&CodeModel> {
+        self.codes.get(code.index())
+    }
+}
+
+/// The first code that has an effect.
+fn code_with(control: &Control, effect: Effect) -> CodeIx {
+    let found = control.codes().find(|code| code.effect() == effect);
+    found.map_or(CodeIx::NONE, |code| control.code_ix(code.number()))
+}
+
+impl<'c> Model<'c> {
+    /// Prepares a control.
+    pub fn new(control: &'c Control) -> Self {
+        Self { control, prepared: control.prepared(Prepared::of) }
     }
 
     /// The control.
@@ -298,15 +343,9 @@ impl<'c> Model<'c> {
         self.code(code)?.role
     }
 
-    #[inline]
-    pub(crate) fn code(&self, code: CodeIx) -> Option<&CodeModel> {
-        self.codes.get(code.index())
-    }
-
     /// The first code that has an effect.
     pub(crate) fn code_with(&self, effect: Effect) -> CodeIx {
-        let found = self.control.codes().find(|code| code.effect() == effect);
-        found.map_or(CodeIx::NONE, |code| self.control.code_ix(code.number()))
+        code_with(self.control, effect)
     }
 
     /// The setting that decides how numbers of an address without decimal point count, where it is one of its own.
@@ -333,18 +372,6 @@ impl<'c> Model<'c> {
     /// Does the control read numbers without decimal point as least increments, as far as data alone says?
     pub(crate) fn unpointed(&self) -> Unpointed {
         self.control.numbers().unpointed
-    }
-
-    fn index_system_variables(&mut self, variables: &[SystemVariable]) {
-        for (index, variable) in variables.iter().enumerate() {
-            if let Some(first) = variable.first {
-                self.numbered.push((first, index));
-            }
-            if let Some(name) = &variable.name {
-                self.named.insert(name.to_ascii_lowercase(), index);
-            }
-        }
-        self.numbered.sort_unstable();
     }
 
     /// The system variable of a number: its entry, row and column.

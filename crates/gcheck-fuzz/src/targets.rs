@@ -17,7 +17,9 @@ pub(crate) mod stored;
 pub(crate) mod tokens;
 pub(crate) mod tree;
 
-use gcheck_lint::{Environment, Execution, Job, MachineFacts, NoPrograms, Outcome, Selection, check};
+use gcheck_lint::{
+    ControlBasis, Environment, Execution, Job, MachineFacts, NoPrograms, Outcome, Selection, check,
+};
 use gcheck_program::Dialect;
 use gcheck_rules::RULES;
 use gcheck_syntax::SourceText;
@@ -47,7 +49,7 @@ fn checked(source: &SourceText, dialect: &Dialect<'_>) -> Outcome {
                     dialect,
                     machine,
                     programs: &NoPrograms,
-                    control_is_guessed: false,
+                    control_basis: ControlBasis::Chosen,
                     unsupported: None,
                 },
                 selection,

@@ -7,8 +7,8 @@ use gcheck_controls::Control;
 use gcheck_diagnostics::{Finding, RuleMeta, Severity, Tier};
 use gcheck_program::FileIndex;
 
-use crate::Environment;
 use crate::block_delete::Positions;
+use crate::{ControlBasis, Environment};
 
 /// Findings of one file that are kept; the rest are counted by rule.
 pub const MAX_FINDINGS: usize = 10_000;
@@ -54,7 +54,9 @@ impl Omitted {
 pub(crate) struct Collector<'c> {
     control: &'c Control,
     /// Nobody chose the control, and nothing in the program speaks for it: it may be the wrong one.
-    is_unsure: bool,
+    is_unknown: bool,
+    /// The program may be for another control.
+    is_guessed: bool,
     findings: Vec<Finding>,
     omitted: Omitted,
 }
@@ -64,7 +66,8 @@ impl<'c> Collector<'c> {
         let control = environment.control();
         Self {
             control,
-            is_unsure: environment.control_is_unknown(),
+            is_unknown: environment.control_is_unknown(),
+            is_guessed: environment.control_basis == ControlBasis::Guessed,
             findings: Vec::new(),
             omitted: Omitted::default(),
         }
@@ -86,10 +89,12 @@ impl<'c> Collector<'c> {
     }
 
     pub(crate) fn add(&mut self, severity: Option<Severity>, finding: Finding) {
-        let most = match (self.is_unsure, finding.rule.control_specific) {
-            (false, _) => Severity::Error,
-            (true, false) => Severity::Warning,
-            (true, true) => Severity::Info,
+        let most = if self.is_unknown && finding.rule.control_specific {
+            Severity::Info
+        } else if self.is_guessed {
+            Severity::Warning
+        } else {
+            Severity::Error
         };
         let mut finding = finding.at_most(most);
         // Only what is certainly a mistake predicts an alarm.

@@ -5,6 +5,7 @@
 use std::collections::BTreeMap;
 
 use gcheck_controls::{Control, LetterSet, UnsupportedDialect};
+use gcheck_diagnostics::Severity;
 use gcheck_engine::{Library, SourceFile};
 use gcheck_program::Dialect;
 
@@ -53,6 +54,17 @@ impl Programs for NoPrograms {
     }
 }
 
+/// Why a program is taken to be for its control.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum ControlBasis {
+    /// The user chose it.
+    Chosen,
+    /// The program shows it clearly.
+    Shown,
+    /// The program shows it weakly, or the programs beside it do, or nothing does.
+    Guessed,
+}
+
 /// What every rule may ask.
 #[derive(Clone, Copy)]
 pub struct Environment<'a> {
@@ -62,8 +74,8 @@ pub struct Environment<'a> {
     pub machine: &'a MachineFacts,
     /// Other programs.
     pub programs: &'a dyn Programs,
-    /// The user did not choose the control: it was guessed from the program, or is the default.
-    pub control_is_guessed: bool,
+    /// Why the program is taken to be for this control.
+    pub control_basis: ControlBasis,
     /// The dialect, where no control here reads it and the user did not choose one: the end of the file's name may show it,
     /// which rules do not see.
     pub unsupported: Option<&'static UnsupportedDialect>,
@@ -75,9 +87,19 @@ impl<'a> Environment<'a> {
         self.dialect.control()
     }
 
+    /// Did the user choose the control?
+    pub fn control_is_chosen(&self) -> bool {
+        self.control_basis == ControlBasis::Chosen
+    }
+
     /// Nobody chose the control, and nothing in the program speaks for it: it may be any.
     pub fn control_is_unknown(&self) -> bool {
-        self.control_is_guessed && self.control().name() == gcheck_controls::fallback()
+        !self.control_is_chosen() && self.control().name() == gcheck_controls::fallback()
+    }
+
+    /// The most that a finding may be which holds for this control and not for all.
+    pub fn most_for_this_control(&self) -> Severity {
+        if self.control_is_chosen() { Severity::Error } else { Severity::Warning }
     }
 
     /// A setting's value: configured, or the default that the knowledge base assumes.

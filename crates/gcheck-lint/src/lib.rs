@@ -43,7 +43,7 @@ pub use assumptions::{describe, describe_all, in_picture, work_offset_name};
 pub use block_context::{BlockCx, WordFacts};
 pub use check::{Assumptions, Execution, Job, Outcome, check};
 pub use collector::{MAX_FINDINGS, Omitted};
-pub use environment::{Environment, MachineFacts, NoPrograms, Programs};
+pub use environment::{ControlBasis, Environment, MachineFacts, NoPrograms, Programs};
 pub use file_context::{FileCx, FileFact};
 pub use fix::{Fixed, fix_all};
 pub use incremental::{

@@ -108,7 +108,8 @@ function words(list, more) {
 const BECAUSE = {
   chosen: () => "",
   comment: (because) => `, named by ${because}`,
-  guessed: (because) => `, guessed from ${because}`,
+  shown: (because) => `, detected from ${because}`,
+  guessed: (because) => `, guessed from ${because}: no finding is above a warning`,
   usual: () => ", the usual one: the program does not show its control",
 };
 

@@ -41,7 +41,9 @@ pub enum Source {
     Chosen,
     /// A comment of the program.
     Comment,
-    /// The codes and the words of the program.
+    /// The codes and the words of the program, clearly.
+    Shown,
+    /// The codes and the words of the program, weakly.
     Guessed,
     /// Nobody: it is the usual one.
     Usual,

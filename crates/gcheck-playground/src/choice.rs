@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use gcheck_controls::Control;
 use gcheck_db::Settings;
-use gcheck_lint::Selection;
+use gcheck_lint::{ControlBasis, Selection};
 use gcheck_program::{collect_evidence, control_comment};
 
 use crate::answers::{Choice, Refused, Source};
@@ -49,7 +49,8 @@ fn in_text(text: &str) -> Found {
                 Some(rival) => format!("{}; {rival} fits nearly as well", guess.because),
                 None => guess.because,
             };
-            Found::new(&guess.control, Source::Guessed, Some(because))
+            let source = if guess.is_clear { Source::Shown } else { Source::Guessed };
+            Found::new(&guess.control, source, Some(because))
         }
         None => Found::new(gcheck_controls::fallback(), Source::Usual, None),
     }
@@ -58,8 +59,12 @@ fn in_text(text: &str) -> Found {
 /// What is in force for a program: a control, its recommended rules, and no machine that is known.
 pub(crate) fn settings(text: &str, choice: &Choice, control: Arc<Control>) -> Settings {
     let mut settings = Settings::new(control, gcheck_rules::RULES);
-    settings.control_is_guessed = matches!(choice.source, Source::Guessed | Source::Usual);
-    if settings.control_is_guessed {
+    settings.control_basis = match choice.source {
+        Source::Chosen | Source::Comment => ControlBasis::Chosen,
+        Source::Shown => ControlBasis::Shown,
+        Source::Guessed | Source::Usual => ControlBasis::Guessed,
+    };
+    if settings.control_basis != ControlBasis::Chosen {
         settings.unsupported = gcheck_controls::unsupported_dialect(text, None);
     }
     if settings.unsupported.is_some() {

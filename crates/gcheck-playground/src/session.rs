@@ -195,7 +195,7 @@ mod tests {
     fn the_program_decides_where_nobody_chooses() {
         let mut session = Session::new();
         let found = session.check("#<depth> = 1\no100 sub\no100 endsub\nM2\n", "").unwrap();
-        assert_eq!((found.control.name.as_str(), found.control.source), ("linuxcnc", Source::Guessed));
+        assert_eq!((found.control.name.as_str(), found.control.source), ("linuxcnc", Source::Shown));
         assert!(found.control.because.is_some());
         // The same session, another program.
         let found = session.check("G0 X1.\n", "").unwrap();

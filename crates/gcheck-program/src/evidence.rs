@@ -9,7 +9,7 @@ use gcheck_controls::{CodeNumber, Evidence, Letter, LetterSet, SyntaxForm};
 /// Lines whose comments count: the machine is named at the top.
 const COMMENT_LINES: usize = 300;
 /// Bytes whose codes and forms count, and the rest of their last line: what a program uses at all, it uses early.
-pub const EVIDENCE_BYTES: usize = 256 << 10;
+pub const EVIDENCE_BYTES: usize = 64 << 10;
 
 /// Bytes of a line that are looked at: for each `;` and each `#<` the rest of them is looked through.
 const MAX_LINE: usize = 1_024;
@@ -247,8 +247,8 @@ impl Scan {
 
     /// A keyword, or an address with its number.
     fn letters<'t>(&mut self, rest: &'t str, seen: &mut Seen) -> &'t str {
-        let (word, after) =
-            rest.split_at(rest.find(|c: char| !c.is_ascii_alphabetic()).unwrap_or(rest.len()));
+        let letters = rest.bytes().take_while(u8::is_ascii_alphabetic).count();
+        let (word, after) = rest.split_at_checked(letters).unwrap_or((rest, ""));
         if word.len() > 1 {
             seen.is_head = false;
             if is_one_of(word, &["IF", "WHILE", "GOTO", "DO", "END", "DPRNT", "BPRNT", "POPEN", "PCLOS"]) {
@@ -395,9 +395,12 @@ fn after_brackets<'t>(rest: &'t str, scan: &mut Scan) -> &'t str {
 /// Length of the number at the head, with its sign and point, and how many digits it has.
 fn number(text: &str) -> (usize, usize) {
     let sign = usize::from(text.starts_with(['-', '+']));
-    let body = text.get(sign..).unwrap_or_default();
-    let len = body.find(|c: char| !c.is_ascii_digit() && c != '.').unwrap_or(body.len());
-    let digits = body.bytes().take(len).filter(u8::is_ascii_digit).count();
+    let body = text.as_bytes().get(sign..).unwrap_or_default();
+    let (mut len, mut digits) = (0, 0);
+    for byte in body.iter().take_while(|byte| byte.is_ascii_digit() || **byte == b'.') {
+        len += 1;
+        digits += usize::from(*byte != b'.');
+    }
     if digits == 0 { (0, 0) } else { (sign + len, digits) }
 }
 

@@ -25,15 +25,25 @@ pub enum ControlSource {
     Option,
     /// `(gcheck: control=…)` in the program.
     Comment,
-    /// The program looks like it.
+    /// The program shows it clearly.
     Detected,
+    /// The program shows it weakly, or nearly as much of another one.
+    Guessed,
+    /// The program shows none, and those beside it show this one.
+    Neighbours,
     /// Nothing said otherwise.
     Default,
 }
 
+/// What follows from a guess.
+const NO_ERRORS: &str = "no finding is above a warning";
+
 impl ControlSource {
-    pub(crate) fn phrase(self, reasons: &str) -> String {
+    /// The choice and its reasons in words, for one file or for several.
+    pub(crate) fn phrase(self, reasons: &str, files: usize) -> String {
         let told = !reasons.is_empty();
+        let programs = if files > 1 { "the programs" } else { "the program" };
+        let neighbours = if files > 1 { "their neighbours" } else { "its neighbours" };
         match self {
             Self::Configuration if told => format!("set in {reasons}"),
             Self::Configuration => "set by the configuration".to_owned(),
@@ -42,7 +52,11 @@ impl ControlSource {
             Self::Comment if told => format!("set by the comment {reasons}"),
             Self::Comment => "set by a comment".to_owned(),
             Self::Detected if told => format!("detected from {reasons}"),
-            Self::Detected => "detected from the program".to_owned(),
+            Self::Detected => format!("detected from {programs}"),
+            Self::Guessed if told => format!("guessed from {reasons}: {NO_ERRORS}"),
+            Self::Guessed => format!("guessed from {programs}: {NO_ERRORS}"),
+            Self::Neighbours if told => format!("guessed from {neighbours} ({reasons}): {NO_ERRORS}"),
+            Self::Neighbours => format!("guessed from {neighbours}: {NO_ERRORS}"),
             Self::Default if told => format!("by default: {reasons}"),
             Self::Default => "by default".to_owned(),
         }

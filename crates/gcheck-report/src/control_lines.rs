@@ -31,19 +31,24 @@ pub fn control_lines(report: &Report) -> Vec<String> {
 
 fn line(name: &str, source: ControlSource, files: &[(&str, &str)]) -> String {
     let mut reasons: Vec<&str> = files.iter().map(|(_, reason)| *reason).filter(|r| !r.is_empty()).collect();
+    if files.len() > 1 {
+        // What a reason adds after `;` holds for its file, not for all of the line.
+        for reason in &mut reasons {
+            *reason = reason.split(';').next().unwrap_or_default();
+        }
+    }
     reasons.sort_unstable();
-    // What a reason adds after `;` holds for its file, not for all of the line.
-    reasons.dedup_by(|later, first| {
-        later.strip_prefix(*first).is_some_and(|rest| rest.is_empty() || rest.starts_with(';'))
-    });
-    let reasons = if reasons.len() > REASONS { String::new() } else { reasons.join(", ") };
+    reasons.dedup();
+    // How many show it is another number for each file.
+    let is_counted = source == ControlSource::Neighbours && files.len() > 1;
+    let reasons = if is_counted || reasons.len() > REASONS { String::new() } else { reasons.join(", ") };
     let path = files.first().map_or("", |(path, _)| path);
     let more = match files.len() {
         0 | 1 => String::new(),
         2 => " and 1 more file".to_owned(),
         n => format!(" and {} more files", number(n - 1)),
     };
-    one_line(&format!("{path}{more}: control {name}, {}", source.phrase(&reasons))).into_owned()
+    one_line(&format!("{path}{more}: control {name}, {}", source.phrase(&reasons, files.len()))).into_owned()
 }
 
 #[cfg(test)]
@@ -126,12 +131,30 @@ mod tests {
     }
 
     #[test]
+    fn a_guess_is_called_one() {
+        let by = |path, source, because| (path, "haas-mill", source, Some(because));
+        assert_eq!(
+            lines(&[
+                by("a.nc", ControlSource::Guessed, "`G154`; fanuc-mill fits nearly as well"),
+                by("b.nc", ControlSource::Detected, "(VF-2)"),
+                by("c.nc", ControlSource::Neighbours, "5 of 6 show it"),
+                by("d.nc", ControlSource::Neighbours, "7 of 9 show it"),
+            ]),
+            [
+                "a.nc: control haas-mill, guessed from `G154`; fanuc-mill fits nearly as well: no finding is above a warning",
+                "b.nc: control haas-mill, detected from (VF-2)",
+                "c.nc and 1 more file: control haas-mill, guessed from their neighbours: no finding is above a warning",
+            ]
+        );
+    }
+
+    #[test]
     fn many_reasons_are_not_listed() {
         let names: Vec<String> = (0..5).map(|n| format!("{n}.nc")).collect();
         let choices: Vec<_> = names
             .iter()
             .map(|n| (n.as_str(), "haas-mill", ControlSource::Detected, Some(n.as_str())))
             .collect();
-        assert_eq!(lines(&choices), ["0.nc and 4 more files: control haas-mill, detected from the program"]);
+        assert_eq!(lines(&choices), ["0.nc and 4 more files: control haas-mill, detected from the programs"]);
     }
 }

@@ -7,12 +7,13 @@ use std::fmt::Write as _;
 use std::ops::Range;
 
 use expect_test::Expect;
-use gcheck_controls::LetterSet;
+use gcheck_controls::{LetterSet, UnsupportedDialect, unsupported_dialect};
 use gcheck_diagnostics::{DocExample, Finding, RuleMeta, apply};
 use gcheck_engine::{Axis, Cutting, Dynamics, Machine, Position, SourceFile, Tool, WorkOffset};
 use gcheck_geometry::{Mm, MmPerMin, Rpm, Seconds};
 use gcheck_lint::{
-    Environment, Execution, Job, MachineFacts, NoPrograms, Programs, RuleEntry, Selection, check,
+    ControlBasis, Environment, Execution, Job, MachineFacts, NoPrograms, Programs, RuleEntry, Selection,
+    check,
 };
 use gcheck_program::Dialect;
 use gcheck_syntax::SourceText;
@@ -24,6 +25,7 @@ pub(crate) struct World<'w> {
     pub(crate) machine: MachineFacts,
     pub(crate) programs: &'w dyn Programs,
     pub(crate) control_is_guessed: bool,
+    pub(crate) unsupported: Option<&'static UnsupportedDialect>,
     pub(crate) suppressions: bool,
 }
 
@@ -33,6 +35,7 @@ impl Default for World<'_> {
             machine: MachineFacts::default(),
             programs: &NoPrograms,
             control_is_guessed: false,
+            unsupported: None,
             suppressions: true,
         }
     }
@@ -107,14 +110,15 @@ impl World<'_> {
             dialect,
             machine: &self.machine,
             programs: self.programs,
-            control_is_guessed: self.control_is_guessed,
-            unsupported: None,
+            control_basis: if self.control_is_guessed { ControlBasis::Shown } else { ControlBasis::Chosen },
+            unsupported: self.unsupported,
         }
     }
 
     /// What one example holds in.
     pub(crate) fn of_example(rule: &RuleMeta, example: &DocExample) -> Self {
-        Self { control_is_guessed: example.guessed, ..Self::of_examples(rule) }
+        let unsupported = example.guessed.then(|| unsupported_dialect(&example.code, None)).flatten();
+        Self { control_is_guessed: example.guessed, unsupported, ..Self::of_examples(rule) }
     }
 }
 

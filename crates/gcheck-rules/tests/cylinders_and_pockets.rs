@@ -12,7 +12,7 @@ use std::fmt::Write as _;
 
 use expect_test::{Expect, expect};
 use gcheck_diagnostics::Severity;
-use gcheck_lint::{Environment, Execution, Job, MachineFacts, NoPrograms, Selection, check};
+use gcheck_lint::{ControlBasis, Environment, Execution, Job, MachineFacts, NoPrograms, Selection, check};
 use gcheck_program::Dialect;
 use gcheck_rules::RULES;
 use gcheck_syntax::SourceText;
@@ -26,7 +26,7 @@ fn findings(program: &str) -> BTreeSet<String> {
         dialect: &dialect,
         machine: &machine,
         programs: &NoPrograms,
-        control_is_guessed: false,
+        control_basis: ControlBasis::Chosen,
         unsupported: None,
     };
     let source = SourceText::from(program);

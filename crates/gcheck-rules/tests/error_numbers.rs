@@ -3,7 +3,7 @@
 #![expect(clippy::unwrap_used, reason = "a test that meets the unexpected is to fail")]
 
 use gcheck_diagnostics::{Finding, Severity};
-use gcheck_lint::{Environment, Execution, Job, MachineFacts, NoPrograms, Selection, check};
+use gcheck_lint::{ControlBasis, Environment, Execution, Job, MachineFacts, NoPrograms, Selection, check};
 use gcheck_program::Dialect;
 use gcheck_rules::RULES;
 use gcheck_syntax::SourceText;
@@ -16,7 +16,7 @@ fn findings(control: &str, program: &str) -> Vec<Finding> {
         dialect: &dialect,
         machine: &machine,
         programs: &NoPrograms,
-        control_is_guessed: false,
+        control_basis: ControlBasis::Chosen,
         unsupported: None,
     };
     let source = SourceText::from(program);

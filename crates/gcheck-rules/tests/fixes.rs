@@ -7,7 +7,7 @@ use std::fmt::Write as _;
 use expect_test::expect_file;
 use gcheck_diagnostics::{FixKinds, Fixability};
 use gcheck_lint::{
-    Environment, Execution, Job, MachineFacts, NoPrograms, RuleEntry, Selection, check, fix_all,
+    ControlBasis, Environment, Execution, Job, MachineFacts, NoPrograms, RuleEntry, Selection, check, fix_all,
 };
 use gcheck_program::Dialect;
 use gcheck_rules::RULES;
@@ -27,7 +27,7 @@ fn fixed(rule: &RuleEntry, program: &str, control: &str, kinds: FixKinds) -> (St
             dialect: &dialect,
             machine: &machine,
             programs: &NoPrograms,
-            control_is_guessed: false,
+            control_basis: ControlBasis::Chosen,
             unsupported: None,
         };
         let execution = Execution::default();

@@ -2,7 +2,7 @@
 
 use gcheck_controls::Control;
 use gcheck_diagnostics::{Severity, Tier};
-use gcheck_lint::{Environment, Execution, Job, MachineFacts, NoPrograms, Selection, check};
+use gcheck_lint::{ControlBasis, Environment, Execution, Job, MachineFacts, NoPrograms, Selection, check};
 use gcheck_program::Dialect;
 use gcheck_rules::RULES;
 use gcheck_syntax::SourceText;
@@ -28,7 +28,7 @@ fn findings(control: &Control, selection: &Selection, program: &str) -> Vec<Stri
         dialect: &dialect,
         machine: &machine,
         programs: &NoPrograms,
-        control_is_guessed: false,
+        control_basis: ControlBasis::Chosen,
         unsupported: None,
     };
     let source = SourceText::from(program);

@@ -5,7 +5,7 @@
 
 use gcheck_controls::{CodeNumber, Control, Machine, UserCode};
 use gcheck_diagnostics::Finding;
-use gcheck_lint::{Environment, Execution, Job, MachineFacts, Programs, Selection, check};
+use gcheck_lint::{ControlBasis, Environment, Execution, Job, MachineFacts, Programs, Selection, check};
 use gcheck_program::Dialect;
 use gcheck_rules::RULES;
 use gcheck_syntax::SourceText;
@@ -54,7 +54,7 @@ fn findings(control: &Control, program: &str) -> Vec<Finding> {
         dialect: &dialect,
         machine: &machine,
         programs: &Folder,
-        control_is_guessed: false,
+        control_basis: ControlBasis::Chosen,
         unsupported: None,
     };
     let source = SourceText::from(program);

@@ -165,7 +165,7 @@ pub struct InForce {
 pub struct Choice {
     /// Its name.
     pub control: String,
-    /// `option`, `comment`, `configuration`, `detected` or `default`.
+    /// `option`, `comment`, `configuration`, `detected`, `guessed`, `neighbours` or `default`.
     pub source: String,
     /// What made it so: a comment, a file.
     pub because: Option<String>,

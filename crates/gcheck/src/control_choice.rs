@@ -4,15 +4,14 @@
 
 use std::path::Path;
 
-use gcheck_controls::{Evidence, Guess, UnsupportedDialect};
-use gcheck_lint::Selection;
+use gcheck_controls::{Guess, UnsupportedDialect, Weighed};
+use gcheck_lint::{ControlBasis, Selection};
 use gcheck_program::control_comment;
 use gcheck_report::{ControlChoice, ControlSource};
 use gcheck_syntax::SourceText;
 
 use crate::config::validate_control;
-use crate::detection::evidence;
-use crate::neighbours::Neighbours;
+use crate::neighbours::{Majority, Neighbours};
 use crate::{Problem, paths};
 
 /// The control of a program, and what was seen when it was chosen.
@@ -48,65 +47,73 @@ pub(crate) fn choose(
         let because = file.map(paths::shown_from_here);
         return Ok(choice(name, ControlSource::Configuration, because));
     }
-    let evidence = evidence(path, source.text());
-    let guess = gcheck_controls::guess(&evidence);
+    let evidence = neighbours.evidence(path, source.text());
+    let weighed = Weighed::new(&evidence);
+    let guess = weighed.guess();
+    // Only a program that leaves a choice is worth the reading of its neighbours.
+    let depends_on_neighbours =
+        evidence.unsupported.is_none() && guess.as_ref().is_none_or(|guess| !guess.is_clear);
     Ok(Chosen {
-        choice: guessed(guess.as_ref(), &evidence, path, neighbours),
-        depends_on_neighbours: depends_on_neighbours(guess.as_ref(), &evidence),
+        choice: guessed(guess, &weighed, || {
+            depends_on_neighbours.then(|| neighbours.majority(path)).flatten()
+        })
+        .unwrap_or_else(|| fallback(&weighed, evidence.unsupported)),
+        depends_on_neighbours,
         unsupported: evidence.unsupported,
     })
 }
 
-/// Only a program that leaves a choice is worth the reading of its neighbours.
-fn depends_on_neighbours(guess: Option<&Guess>, evidence: &Evidence) -> bool {
-    evidence.unsupported.is_none() && guess.is_none_or(|guess| !guess.is_clear)
+/// The choice that the program shows, or those beside it; `majority` is the control that they show.
+fn guessed(
+    guess: Option<Guess>,
+    weighed: &Weighed<'_>,
+    majority: impl FnOnce() -> Option<Majority>,
+) -> Option<ControlChoice> {
+    let choice =
+        |name: String, source, because: String| Some(ControlChoice { name, source, because: Some(because) });
+    // What a program says of itself counts more than what is beside it.
+    let is_possible = |control: &String| match &guess {
+        Some(guess) => [Some(&guess.control), guess.rival.as_ref()].contains(&Some(control)),
+        None => weighed.may_be_for(control),
+    };
+    let is_clear = guess.as_ref().is_some_and(|guess| guess.is_clear);
+    if !is_clear && let Some(majority) = majority().filter(|majority| is_possible(&majority.control)) {
+        let because = majority.words();
+        return choice(majority.control, ControlSource::Neighbours, because);
+    }
+    let Guess { control, because, rival, is_clear } = guess?;
+    match rival {
+        Some(rival) => {
+            choice(control, ControlSource::Guessed, format!("{because}; {rival} fits nearly as well"))
+        }
+        None if is_clear => choice(control, ControlSource::Detected, because),
+        None => choice(control, ControlSource::Guessed, because),
+    }
 }
 
-/// The choice where nobody made one.
-fn guessed(
-    guess: Option<&Guess>,
-    evidence: &Evidence,
-    path: &Path,
-    neighbours: &Neighbours,
-) -> ControlChoice {
-    let detected = |name: String, because: String| ControlChoice {
-        name,
-        source: ControlSource::Detected,
-        because: Some(because),
-    };
-    if let Some(guess) = guess.filter(|guess| guess.is_clear) {
-        return detected(guess.control.clone(), guess.because.clone());
-    }
-    let is_open = depends_on_neighbours(guess, evidence);
-    let majority = is_open.then(|| neighbours.majority(path)).flatten();
-    let is_possible = |control: &String| {
-        guess.is_some_and(|guess| [Some(&guess.control), guess.rival.as_ref()].contains(&Some(control)))
-            || gcheck_controls::may_be_for(evidence, control)
-    };
-    if let Some(majority) = majority.filter(|majority| is_possible(&majority.control)) {
-        return detected(majority.control.clone(), majority.words());
-    }
-    match guess.cloned() {
-        Some(Guess { control, because, rival: None, .. }) => return detected(control, because),
-        Some(Guess { control, because, rival: Some(rival), .. }) => {
-            return detected(control, format!("{because}; {rival} fits nearly as well"));
-        }
-        None => {}
-    }
-    let named = || gcheck_controls::foreign(evidence);
-    let because = match evidence.unsupported {
+/// The choice where nothing shows a control; the reason names the dialect or the control that is shown and not to be had.
+fn fallback(weighed: &Weighed<'_>, unsupported: Option<&UnsupportedDialect>) -> ControlChoice {
+    let because = match unsupported {
         Some(dialect) => Some(format!("the file is for {}", dialect.name)),
-        None => {
-            named().map(|other| format!("{} names {}, which gcheck does not have", other.comment, other.name))
-        }
+        None => weighed
+            .foreign()
+            .map(|other| format!("{} names {}, which gcheck does not have", other.comment, other.name)),
     };
     ControlChoice { name: gcheck_controls::fallback().to_owned(), source: ControlSource::Default, because }
 }
 
 impl Chosen {
-    /// Did nobody choose it?
-    pub(crate) fn is_guessed(&self) -> bool {
-        matches!(self.choice.source, ControlSource::Detected | ControlSource::Default)
+    /// Why the program is taken to be for it.
+    pub(crate) fn basis(&self) -> ControlBasis {
+        match self.choice.source {
+            ControlSource::Option | ControlSource::Comment | ControlSource::Configuration => {
+                ControlBasis::Chosen
+            }
+            ControlSource::Detected => ControlBasis::Shown,
+            ControlSource::Guessed | ControlSource::Neighbours | ControlSource::Default => {
+                ControlBasis::Guessed
+            }
+        }
     }
 
     /// Refuses a program that no control here reads, where nobody chose one: as a program of another control it would be
@@ -209,17 +216,16 @@ mod tests {
             write(name, "(VF-2)\nG0 X1.\nM30\n");
         }
         let neighbours = Neighbours::default();
-        assert_eq!(of("clear.nc", &neighbours).1, ControlSource::Default, "one of four shows another");
+        assert_eq!(of("clear.nc", &neighbours).1, ControlSource::Default, "one beside it shows another");
         std::fs::remove_file(folder.path().join("other.nc")).unwrap();
         let neighbours = Neighbours::default();
         assert_eq!(
             of("clear.nc", &neighbours),
-            (
-                "haas-mill".to_owned(),
-                ControlSource::Detected,
-                "its neighbours, of which 3 of 3 show it".to_owned()
-            )
+            ("haas-mill".to_owned(), ControlSource::Neighbours, "3 of 3 show it".to_owned())
         );
+        write("fanuc.nc", "(FANUC 31I)\nG0 X1.\nM30\n");
+        let fanuc = of("fanuc.nc", &neighbours);
+        assert_eq!((fanuc.0.as_str(), fanuc.1), ("fanuc-mill", ControlSource::Guessed), "it says so itself");
         write("printed.nc", "G92 E0\nG1 X1 E1.1\nG1 X2 E1.2\nG1 Y2 E1.3\n");
         write("named.nc", "(MAZAK VTC)\nG0 X1.\n");
         let printed = of("printed.nc", &neighbours);

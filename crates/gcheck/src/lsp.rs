@@ -153,7 +153,7 @@ impl Surroundings {
         chosen.narrow(&mut selection);
         in_force.settings = Some(Settings {
             control,
-            control_is_guessed: chosen.is_guessed(),
+            control_basis: chosen.basis(),
             unsupported: chosen.unsupported,
             machine: Arc::new(machine),
             selection: Arc::new(selection),

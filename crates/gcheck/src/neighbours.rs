@@ -8,7 +8,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
-use crate::detection::detected;
+use gcheck_controls::Evidence;
+use twox_hash::XxHash3_64;
+
+use crate::detection::evidence;
 use crate::discovery::is_program_name;
 use crate::{paths, reading};
 
@@ -23,6 +26,8 @@ const ENOUGH: usize = 3;
 #[derive(Debug, Default)]
 pub(crate) struct Neighbours {
     known: Mutex<HashMap<PathBuf, Arc<Vec<Neighbour>>>>,
+    /// What was seen of programs as neighbours of others: each is taken out when its own turn comes, as it was then.
+    ahead: Mutex<HashMap<PathBuf, (u64, Evidence)>>,
 }
 
 /// A program, and the control that it clearly shows.
@@ -43,14 +48,24 @@ pub(crate) struct Majority {
 }
 
 impl Majority {
-    /// The reason, as a line about the control words it.
+    /// The reason, as a line about the control puts it.
     pub(crate) fn words(&self) -> String {
-        format!("its neighbours, of which {} of {} show it", self.count, self.of)
+        format!("{} of {} show it", self.count, self.of)
     }
 }
 
 impl Neighbours {
-    /// The control that most programs in the folder of `path` clearly show, and hardly one of them another.
+    /// What a program and the end of its name show.
+    pub(crate) fn evidence(&self, path: &Path, text: &str) -> Evidence {
+        let ahead = || self.ahead.lock().unwrap_or_else(PoisonError::into_inner);
+        let seen = if ahead().is_empty() { None } else { ahead().remove(&paths::absolute(path)) };
+        match seen.filter(|(hash, _)| *hash == hash_of(text)) {
+            Some((_, evidence)) => evidence,
+            None => evidence(path, text),
+        }
+    }
+
+    /// The control that most programs in the folder of `path` show, and none of them another.
     pub(crate) fn majority(&self, path: &Path) -> Option<Majority> {
         // What comes in by a pipe under a name of its own has no neighbours.
         let path = path.is_file().then(|| paths::absolute(path))?;
@@ -65,12 +80,31 @@ impl Neighbours {
             return Arc::clone(programs);
         }
         // Read without the lock: two threads that read one folder at the same time read the same.
-        let programs = Arc::new(read(folder));
+        let programs = Arc::new(self.read(folder));
         Arc::clone(known().entry(folder.to_owned()).or_insert(programs))
+    }
+
+    fn read(&self, folder: &Path) -> Vec<Neighbour> {
+        let Ok(entries) = fs::read_dir(folder) else { return Vec::new() };
+        let is_small =
+            |path: &PathBuf| fs::metadata(path).is_ok_and(|data| data.is_file() && data.len() <= MAX_FILE);
+        let mut paths: Vec<PathBuf> =
+            entries.flatten().map(|entry| entry.path()).filter(|path| is_program_name(path)).collect();
+        paths.sort();
+        let programs = paths.into_iter().filter(is_small).take(MAX_FILES).filter_map(|path| {
+            let source = reading::file(&path).ok()?;
+            let evidence = evidence(&path, source.text());
+            let guess = gcheck_controls::guess(&evidence).filter(|guess| guess.rival.is_none());
+            let seen = (hash_of(source.text()), evidence);
+            self.ahead.lock().unwrap_or_else(PoisonError::into_inner).insert(path.clone(), seen);
+            Some(Neighbour { path, shows: guess.map(|guess| guess.control) })
+        });
+        programs.collect()
     }
 }
 
-/// The control that more than half of the programs show, and nine of ten of those that show one.
+/// The control that more than half of the programs show, and none of them another: programs of several controls in one folder
+/// say nothing of each other.
 fn agreed<'s>(shown: impl Iterator<Item = Option<&'s str>>) -> Option<Majority> {
     let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
     let mut of = 0;
@@ -80,25 +114,14 @@ fn agreed<'s>(shown: impl Iterator<Item = Option<&'s str>>) -> Option<Majority> 
             *counts.entry(control).or_default() += 1;
         }
     }
-    let clear: usize = counts.values().sum();
-    let (control, count) = counts.into_iter().max_by_key(|(_, count)| *count)?;
-    let is_agreed = count >= ENOUGH && count * 2 > of && count * 10 >= clear * 9;
+    let is_one = counts.len() == 1;
+    let (control, count) = counts.into_iter().next()?;
+    let is_agreed = is_one && count >= ENOUGH && count * 2 > of;
     is_agreed.then(|| Majority { control: control.to_owned(), count, of })
 }
 
-fn read(folder: &Path) -> Vec<Neighbour> {
-    let Ok(entries) = fs::read_dir(folder) else { return Vec::new() };
-    let is_small =
-        |path: &PathBuf| fs::metadata(path).is_ok_and(|data| data.is_file() && data.len() <= MAX_FILE);
-    let mut paths: Vec<PathBuf> =
-        entries.flatten().map(|entry| entry.path()).filter(|path| is_program_name(path)).collect();
-    paths.sort();
-    let programs = paths.into_iter().filter(is_small).take(MAX_FILES).filter_map(|path| {
-        let source = reading::file(&path).ok()?;
-        let guess = detected(&path, source.text()).filter(|guess| guess.rival.is_none());
-        Some(Neighbour { path, shows: guess.map(|guess| guess.control) })
-    });
-    programs.collect()
+fn hash_of(text: &str) -> u64 {
+    XxHash3_64::oneshot(text.as_bytes())
 }
 
 #[cfg(test)]
@@ -115,6 +138,7 @@ mod tests {
     #[test]
     fn most_programs_must_clearly_agree() {
         check(&["a-mill", "a-mill", "a-mill", ""], Some(("a-mill", 3, 4)));
+        check(&[&["a-mill"; 19][..], &["a-lathe"]].concat(), None);
         check(&["a-mill", "a-mill"], None);
         check(&["a-mill", "a-mill", "a-mill", "a-lathe"], None);
         check(&["a-mill", "a-mill", "a-mill", "", "", ""], None);

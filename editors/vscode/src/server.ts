@@ -22,7 +22,7 @@ export interface Status {
   control: string;
   /** What the control is, in words. */
   title: string;
-  /** How it was chosen: `configuration`, `option`, `comment`, `detected` or `default`. */
+  /** How it was chosen: `configuration`, `option`, `comment`, `detected`, `guessed`, `neighbours` or `default`. */
   source: string;
   /** What made it so: a comment, a file. */
   because: string | null;

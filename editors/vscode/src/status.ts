@@ -17,7 +17,11 @@ function how(status: Status): string {
     case "comment":
       return "named by a comment of the program";
     case "detected":
-      return status.because === null ? "guessed from the program" : `guessed from the program: ${status.because}`;
+      return status.because === null ? "detected from the program" : `detected from the program: ${status.because}`;
+    case "guessed":
+      return `guessed from the program (${status.because ?? "little"}): no finding is above a warning`;
+    case "neighbours":
+      return `guessed from its neighbours (${status.because ?? "most"}): no finding is above a warning`;
     case "default":
       return "a guess: nothing in the program names one";
     default:

@@ -54,7 +54,7 @@ fn assert_fresh(
             dialect: &dialect,
             machine: &settings.machine,
             programs: &NoPrograms,
-            control_is_guessed: settings.control_is_guessed,
+            control_basis: settings.control_basis,
             unsupported: settings.unsupported,
         },
         selection: &settings.selection,

@@ -141,7 +141,7 @@ pub(crate) fn finding(cx: &PathCx<'_>, rule: &'static RuleMeta, refused: &Refuse
     } else {
         finding
     };
-    if cx.environment.control_is_guessed { finding.at_most(Severity::Warning) } else { finding }
+    finding.at_most(cx.environment.most_for_this_control())
 }
 
 /// A code as the block writes it, `G04` where it says so.

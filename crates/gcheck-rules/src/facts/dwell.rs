@@ -44,7 +44,7 @@ pub(crate) fn of_another_control(seconds: f64) -> String {
 pub(crate) fn other_reading(cx: &PathCx<'_>, seconds: f64) -> Option<f64> {
     let p = Letter::of('P');
     let kind = cx.model.semantics().dwell.iter().find(|(letter, _)| Letter::parse(letter) == Some(p));
-    let (_, kind) = kind.filter(|_| cx.environment.control_is_guessed && seconds > 0.0)?;
+    let (_, kind) = kind.filter(|_| !cx.environment.control_is_chosen() && seconds > 0.0)?;
     let place = cx.place()?;
     let word = place.table.words(place.block()).iter().find(|word| word.letter == p)?;
     // A time with a decimal point is in seconds wherever it is accepted; what is computed is unit and number in one.

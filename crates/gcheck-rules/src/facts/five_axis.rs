@@ -54,7 +54,7 @@ pub(crate) fn increments_finding(
             increments.number()
         ))
         .at_most(limit(entry.confidence));
-    if cx.environment.control_is_guessed { finding.at_most(Severity::Warning) } else { finding }
+    finding.at_most(cx.environment.most_for_this_control())
 }
 
 /// A mode of five axes and a code that it excludes, in one block.
@@ -197,7 +197,7 @@ pub(crate) fn clash_finding(
             .at_most(limit(mode.entry().confidence))
     };
     let finding = finding.help(format!("end `{name}` with `{cancel}` before `{other}`"));
-    Some(if cx.environment.control_is_guessed { finding.at_most(Severity::Warning) } else { finding })
+    Some(finding.at_most(cx.environment.most_for_this_control()))
 }
 
 /// What a code is, in a machinist's words.

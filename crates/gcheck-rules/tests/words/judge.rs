@@ -6,7 +6,9 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use gcheck_controls::Control;
 use gcheck_diagnostics::Severity;
-use gcheck_lint::{Environment, Execution, Job, MachineFacts, NoPrograms, Outcome, Selection, check};
+use gcheck_lint::{
+    ControlBasis, Environment, Execution, Job, MachineFacts, NoPrograms, Outcome, Selection, check,
+};
 use gcheck_program::Dialect;
 use gcheck_rules::RULES;
 use gcheck_syntax::SourceText;
@@ -80,7 +82,7 @@ impl<'c> Judge<'c> {
             dialect: &self.dialect,
             machine: &self.machine,
             programs: &NoPrograms,
-            control_is_guessed: false,
+            control_basis: ControlBasis::Chosen,
             unsupported: None,
         };
         let source = SourceText::from(program);

@@ -287,7 +287,7 @@ struct Status {
     control: String,
     /// What it is, in words.
     title: String,
-    /// `option`, `comment`, `configuration`, `detected` or `default`.
+    /// `option`, `comment`, `configuration`, `detected`, `guessed`, `neighbours` or `default`.
     source: String,
     /// What made it so.
     because: Option<String>,

@@ -112,8 +112,15 @@ impl Number {
 
     /// The number, if it is whole.
     pub fn integer(&self) -> Option<u32> {
-        self.text().trim_end_matches('.').parse().ok()
+        whole_number(&self.text())
     }
+}
+
+/// The number of these digits, which a point may end.
+pub(super) fn whole_number(text: &str) -> Option<u32> {
+    let digits = text.strip_suffix('.').unwrap_or(text);
+    // `parse` takes a sign too.
+    if digits.starts_with('+') { None } else { digits.parse().ok() }
 }
 
 impl Variable {

@@ -6,7 +6,7 @@ use std::ops::Range;
 
 use rowan::NodeOrToken;
 
-use super::expression::Expr;
+use super::expression::{Expr, whole_number};
 use crate::{SyntaxElement, SyntaxKind, SyntaxNode, SyntaxToken, byte_range};
 
 /// An address and its value: a fused token, or a node where the value is an expression, spaced or missing.
@@ -92,6 +92,6 @@ impl Word {
     /// The number of a word without expression, where it is whole and has no sign; blanks do not count.
     pub fn integer(&self) -> Option<u32> {
         let text = self.text();
-        text.trim_start_matches(',').get(1..)?.trim_end_matches('.').parse().ok()
+        whole_number(text.trim_start_matches(',').get(1..)?)
     }
 }

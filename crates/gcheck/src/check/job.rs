@@ -169,7 +169,7 @@ fn check_file(bench: &Bench<'_>, target: &Target) -> Result<Checked, Problem> {
         dialect: &dialect,
         machine: &machine,
         programs: &questions,
-        control_is_guessed: chosen.is_guessed(),
+        control_basis: chosen.basis(),
         unsupported: chosen.unsupported,
     };
     let run = |source: &SourceText| {

@@ -2,8 +2,11 @@
 //!
 //! Knows: how an example is checked. Must not know: any rule, how a page looks.
 
+use gcheck_controls::unsupported_dialect;
 use gcheck_diagnostics::DocExample;
-use gcheck_lint::{Environment, Execution, Job, MachineFacts, NoPrograms, RuleEntry, Selection, check};
+use gcheck_lint::{
+    ControlBasis, Environment, Execution, Job, MachineFacts, NoPrograms, RuleEntry, Selection, check,
+};
 use gcheck_program::Dialect;
 use gcheck_report::{Colour, ControlChoice, ControlSource, FileReport, Format, Report};
 use gcheck_rules::RULES;
@@ -35,8 +38,8 @@ pub(super) fn finding(rule: &RuleEntry, example: &DocExample) -> Option<Rendered
         dialect: &dialect,
         machine: &machine,
         programs: &NoPrograms,
-        control_is_guessed: example.guessed,
-        unsupported: None,
+        control_basis: if example.guessed { ControlBasis::Shown } else { ControlBasis::Chosen },
+        unsupported: example.guessed.then(|| unsupported_dialect(&example.code, None)).flatten(),
     };
     let execution = Execution::default();
     let job = Job { source: &source, environment, selection: &selection, suppressions: true, execution };

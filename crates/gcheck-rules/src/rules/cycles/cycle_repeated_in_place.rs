@@ -13,7 +13,7 @@ declare_rule! {
     /// A canned cycle repeats (`L`, `K`) while positions are absolute (`G90`).
     ///
     /// It is an information where a call repeats a subprogram three times or more that cuts, and all of whose moves go to absolute
-    /// positions. A subprogram that does anything else (a stop, a bar feed, a shift, arithmetic) is not judged.
+    /// positions. A subprogram that does anything else (a stop, a dwell, a bar feed, a shift, arithmetic) is not judged.
     ///
     /// ## Why it matters
     /// The same hole is drilled again and again: a tap cuts its thread away, a drill rubs. A row of holes by a repeat

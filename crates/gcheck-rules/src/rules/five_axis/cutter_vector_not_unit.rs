@@ -7,7 +7,7 @@ use crate::Edit;
 use crate::declare::declare_rule;
 use crate::facts::five_axis::is_along_vectors;
 use crate::facts::modes::resting_on_mode;
-use crate::{Finding, Fix, PathCx, PathRule, Report, Run, Severity, Watch, limit};
+use crate::{Finding, Fix, PathCx, PathRule, Report, Run, Watch, limit};
 
 declare_rule! {
     /// A block under 3D cutter compensation (`G141`) gives a direction `I J K` that is not a unit vector: I² + J² + K²
@@ -129,7 +129,7 @@ fn finding(
     if let Some(fix) = normalised(parts, words, base, sum.sqrt(), decimals) {
         finding = finding.fix(fix);
     }
-    if cx.environment.control_is_guessed { finding.at_most(Severity::Warning) } else { finding }
+    finding.at_most(cx.environment.most_for_this_control())
 }
 
 /// Only the three components and blanks between two places of the block.

@@ -86,11 +86,7 @@ impl PathRule for CutterVectorWithoutSize {
                 "give the number of the offset with the tool's size, or with its difference: `{name} D1`"
             ))
             .at_most(limit(entry.confidence));
-        report.add(if cx.environment.control_is_guessed {
-            finding.at_most(Severity::Warning)
-        } else {
-            finding
-        });
+        report.add(finding.at_most(cx.environment.most_for_this_control()));
     }
 }
 

@@ -111,11 +111,7 @@ impl FiveAxisLengthWithoutOffset {
                 "give the number of the offset with the difference between this tool and the posted one: `{name} H1`"
             ))
             .at_most(limit(entry.confidence));
-        report.add(if cx.environment.control_is_guessed {
-            finding.at_most(Severity::Warning)
-        } else {
-            finding
-        });
+        report.add(finding.at_most(cx.environment.most_for_this_control()));
     }
 }
 

@@ -5,7 +5,7 @@ use gcheck_engine::{At, Fact, Role};
 
 use crate::declare::declare_rule;
 use crate::facts::modes::forbids;
-use crate::{PathCx, PathRule, Report, Run, Severity, Uses, Watch, limit};
+use crate::{PathCx, PathRule, Report, Run, Uses, Watch, limit};
 use crate::{Remembers, remembers};
 
 declare_rule! {
@@ -96,8 +96,7 @@ impl PathRule for TiltModesConflict {
                 ))
                 .help(format!("end `{other}` with `{off}` before `{name}`"))
                 .at_most(limit(code.entry().confidence));
-            let finding =
-                if cx.environment.control_is_guessed { finding.at_most(Severity::Warning) } else { finding };
+            let finding = finding.at_most(cx.environment.most_for_this_control());
             report.add(cx.resting_on(finding, Fact::Mode(role), &format!("`{other}`")));
         }
     }

@@ -4,7 +4,7 @@ use std::collections::HashSet;
 use std::ops::RangeInclusive;
 
 use gcheck_engine::Ending;
-use gcheck_program::{BlockFlags, OKeyword, OLabel, Op, Place, StatementKind};
+use gcheck_program::{BlockFlags, OKeyword, OLabel, Op, Place, StatementKind, Target};
 
 use crate::declare::declare_rule;
 use crate::facts::empty_variables::{Use, argument_of, is_assigned_before, is_in_macro, usage};
@@ -18,8 +18,8 @@ declare_rule! {
     /// ## Why it matters
     /// It is null. In arithmetic null counts as zero, and the control ignores a word with it: `G1 Z#3` does not move Z.
     ///
-    /// Where such a variable is zero, one case is an information: a subroutine reads an argument that its call does not give, and nothing in
-    /// the file sets or tests it.
+    /// Where such a variable is zero, one case is an information: a subroutine reads an argument that its call does not give, and does not
+    /// set or test it itself.
     ///
     /// ## Reported
     /// ```nc,reported,fanuc-mill
@@ -134,14 +134,17 @@ impl PathRule for VariableReadBeforeSet {
     }
 }
 
-/// A subroutine of the file, and the local variables that it reads and tests, one bit each.
+/// A subroutine of the file, and its local variables, one bit each.
 struct Subroutine {
     label: OLabel,
+    /// What it sets by itself.
+    sets: u64,
+    /// What it reads and has not set in a block before.
     reads: u64,
     tests: u64,
 }
 
-/// Calls that give less than their subroutine reads. What is not given is as in the caller, where nothing has set it.
+/// Calls that give less than their subroutine reads. What is not given is zero, whatever the caller has in that variable.
 fn short_calls(cx: &PathCx<'_>, report: &mut Report<'_>) {
     let is_called = cx.file_index.is_called_from_elsewhere();
     if cx.file_index.o_words.is_empty() || is_called || cx.is_called_only() {
@@ -158,7 +161,9 @@ fn short_calls(cx: &PathCx<'_>, report: &mut Report<'_>) {
             is_test |= tests(&statement.kind);
             let StatementKind::OWord { label, keyword, arguments } = &statement.kind else { continue };
             match keyword {
-                OKeyword::Sub => open = Some(Subroutine { label: label.clone(), reads: 0, tests: 0 }),
+                OKeyword::Sub => {
+                    open = Some(Subroutine { label: label.clone(), sets: 0, reads: 0, tests: 0 })
+                }
                 OKeyword::EndSub => subs.extend(open.take()),
                 OKeyword::Call if open.is_none() && label.expressions() == 0 => {
                     calls.push((label.clone(), arguments.len(), place.range()));
@@ -168,8 +173,9 @@ fn short_calls(cx: &PathCx<'_>, report: &mut Report<'_>) {
         }
         if let Some(sub) = &mut open {
             let read = read_in(&place, first..=last);
-            sub.reads |= read;
+            sub.reads |= read & !sub.sets;
             sub.tests |= if is_test { read } else { 0 };
+            sub.sets |= set_in(&place, first..=last);
         }
     }
     for (label, count, range) in calls {
@@ -178,8 +184,7 @@ fn short_calls(cx: &PathCx<'_>, report: &mut Report<'_>) {
         let count = u32::try_from(count).unwrap_or(u32::MAX);
         let is_missing = |number: &u32| {
             let bit = 1 << (number - first);
-            let is_set = || cx.file_index.assigned.iter().any(|(assigned, _)| assigned == number);
-            sub.reads & bit != 0 && sub.tests & bit == 0 && !is_set()
+            sub.reads & bit != 0 && sub.tests & bit == 0
         };
         let from = first.saturating_add(count);
         let Some(missing) = (from..=last.min(first + 62)).find(is_missing) else { continue };
@@ -191,7 +196,7 @@ fn short_calls(cx: &PathCx<'_>, report: &mut Report<'_>) {
                 format!("the call gives {arguments}, and the subroutine reads `#{missing}`"),
             )
             .label(format!("`#{missing}` is zero in the subroutine"))
-            .note("an argument that is not given is as in the caller, and nothing in this file sets it")
+            .note("an argument that the call does not give is zero, and the subroutine does not set it before it reads it")
             .help(format!("give the value for `#{missing}` in the call"))
             .at_most(Severity::Info),
         );
@@ -202,14 +207,26 @@ fn short_calls(cx: &PathCx<'_>, report: &mut Report<'_>) {
 fn read_in(place: &Place, range: RangeInclusive<u32>) -> u64 {
     let mut read = 0;
     for op in place.expressions().flat_map(|expr| place.table.ops(place.table.expr(expr)).to_vec()) {
-        match op {
-            Op::Variable(number) if range.contains(&number) && number - range.start() < 63 => {
-                read |= 1 << (number - range.start());
-            }
-            _ => {}
+        if let Op::Variable(number) = op {
+            read |= bit_of(number, &range);
         }
     }
     read
+}
+
+/// The variables of this range that a block assigns to, one bit each.
+fn set_in(place: &Place, range: RangeInclusive<u32>) -> u64 {
+    place.table.statements(place.ix).fold(0, |set, statement| match statement.kind {
+        StatementKind::Assign { target: Target::Variable(number), .. } => set | bit_of(number, &range),
+        // It may be any of them.
+        StatementKind::Assign { target: Target::Computed(_), .. } => u64::MAX,
+        _ => set,
+    })
+}
+
+/// The bit of a variable of the range; none of the last ones of a very long range.
+fn bit_of(number: u32, range: &RangeInclusive<u32>) -> u64 {
+    if range.contains(&number) { 1_u64.checked_shl(number - range.start()).unwrap_or(0) } else { 0 }
 }
 
 /// Does the statement test a value?
@@ -301,7 +318,6 @@ mod tests {
             ("G1 Z[#3] F100", "o100 call [10] [20] [-3]"),
             ("G1 Z-3 F100", "o100 call [10] [20]"),
             ("#3=[#1+1]\nG1 Z[#3] F100", "o100 call [10] [20]"),
-            ("G1 Z[#3] F100", "#3=-4\no100 call [10] [20]"),
             ("o101 if [#3 NE 0]\nG1 Z[#3] F100\no101 endif", "o100 call [10] [20]"),
             ("G1 Z[#31] F100", "o100 call [10] [20]"),
             ("G1 Z[#<depth>] F100", "#<depth>=-3\no100 call [10] [20]"),
@@ -309,6 +325,16 @@ mod tests {
         ] {
             check_rule(&RULE, "linuxcnc", &program(body, call), &expect![[""]]);
         }
+        // What the caller has in its own `#3` does not reach the subroutine.
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            &program("G1 Z[#3] F100", "#3=-4\no100 call [10] [20]"),
+            &expect![[r#"
+                7 | o100 call [10] [20]
+                  | ^^^^^^^^^^^^^^^^^^^ info[variable-read-before-set] the call gives 2 arguments, and the subroutine reads `#3`
+            "#]],
+        );
         // What one subroutine gives another may come from its own caller.
         let nested =
             "o1 sub\nG0 X[#1] Y[#2]\no1 endsub\no2 sub\no1 call [#1]\no2 endsub\no2 call [1] [2]\nM2\n";

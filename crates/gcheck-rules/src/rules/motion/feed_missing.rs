@@ -81,7 +81,7 @@ impl PathRule for FeedMissing {
             // LinuxCNC forgets the feed when its meaning changes.
             finding = finding.also(range, "this clears the feed: the meaning of `F` changes here");
         }
-        if cause.is_none() && cx.environment.control_is_guessed {
+        if cause.is_none() && !cx.environment.control_is_chosen() {
             finding = finding.at_most(Severity::Warning);
         }
         report.add(finding.fix_if(last_rate_of_tool(cx, Letter::of('F'), cx.origin().at)));

@@ -36,10 +36,10 @@ declare_rule! {
 }
 
 fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
-    if !cx.environment.control_is_guessed {
+    if cx.environment.control_is_chosen() {
         return;
     }
-    let Some(dialect) = cx.environment.unsupported.or(cx.text.evidence().unsupported) else { return };
+    let Some(dialect) = cx.environment.unsupported else { return };
     let first = cx.file_index.first_block.clone().unwrap_or_default();
     report.add(
         Finding::new(&META, first, dialect.sentence())
@@ -60,7 +60,11 @@ mod tests {
 
     #[test]
     fn the_first_block_is_marked() {
-        let guessed = World { control_is_guessed: true, ..World::default() };
+        let guessed = World {
+            control_is_guessed: true,
+            unsupported: gcheck_controls::unsupported_dialect(PRINTED, None),
+            ..World::default()
+        };
         check_rule_in(
             &RULE,
             "generic-mill",

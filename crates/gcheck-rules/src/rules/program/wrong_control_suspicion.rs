@@ -48,7 +48,7 @@ const LEAD: i32 = 8;
 
 fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
     // A guessed control is already the best guess.
-    if cx.environment.control_is_guessed || cx.file_index.first_block.is_none() {
+    if !cx.environment.control_is_chosen() || cx.file_index.first_block.is_none() {
         return;
     }
     let scores = scores(cx.text.evidence());

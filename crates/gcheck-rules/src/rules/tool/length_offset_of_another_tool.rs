@@ -224,7 +224,7 @@ fn tell_disagreement(cx: &PathCx<'_>, report: &mut Report<'_>) {
     }
     let message = format!("tool {tool} takes length offset {offset} (`H{offset}`, `T{tool}`)");
     let range = cx.word_range(|word| word.letter.ascii() == b'H');
-    let most = if cx.environment.control_is_guessed { Severity::Warning } else { Severity::Error };
+    let most = cx.environment.most_for_this_control();
     report.add(
         cx.finding(&META, range, message)
             .alarm(Some(agreement.alarm.clone()))

@@ -8,7 +8,7 @@ use crate::declare::declare_rule;
 use crate::facts::beside::unfit;
 use crate::facts::callers::CallerValues;
 use crate::facts::computed_words::{self, refused};
-use crate::{PathCx, PathRule, Report, Run, Severity, Watch, limit};
+use crate::{PathCx, PathRule, Report, Run, Watch, limit};
 use crate::{Remembers, remembers};
 
 declare_rule! {
@@ -102,10 +102,7 @@ impl PathRule for ComputedValueOutOfRange {
         if let Some(confidence) = confidence {
             finding = finding.at_most(limit(confidence));
         }
-        if cx.environment.control_is_guessed {
-            finding = finding.at_most(Severity::Warning);
-        }
-        report.add(finding);
+        report.add(finding.at_most(cx.environment.most_for_this_control()));
     }
 }
 

@@ -80,7 +80,7 @@ impl PathRule for NeededWordMissing {
             .at_most(limit(confidence));
         // Where the data do not say that the word is ever needed, the engine alone does.
         let is_stated = word.need != Need::Optional;
-        let is_sure = is_stated && !cx.environment.control_is_guessed && cx.is_on_every_path();
+        let is_sure = is_stated && cx.environment.control_is_chosen() && cx.is_on_every_path();
         report.add(if is_sure { finding } else { finding.at_most(Severity::Warning) });
     }
 }

@@ -79,12 +79,12 @@ fn finding(cx: &BlockCx<'_>, word: &Word) -> Finding {
         .alarm(cx.alarm_of(META.id, &number.to_string()))
         .note(format!("{} has no `{number}`  [{}]", control.title(), list.source))
         .at_most(limit(if is_g { list.g_codes } else { list.m_codes }));
-    let finding = if cx.environment.control_is_guessed {
+    let finding = if cx.environment.control_is_chosen() {
+        finding
+    } else {
         finding
             .assuming(format!("the program is written for {}", control.title()))
             .at_most(limit(Confidence::Assumed))
-    } else {
-        finding
     };
     let elsewhere = elsewhere(cx, number);
     let finding = finding.fix_if(instead(cx, word, &elsewhere));

@@ -7,7 +7,7 @@ use crate::declare::declare_rule;
 use crate::facts::beside::{Unfit, given, number, unfit};
 use crate::facts::callers::CallerValues;
 use crate::facts::computed_words::bounds_of;
-use crate::{Finding, PathCx, PathRule, Report, Run, Severity, Watch, limit};
+use crate::{Finding, PathCx, PathRule, Report, Run, Watch, limit};
 use crate::{Remembers, remembers};
 
 declare_rule! {
@@ -174,7 +174,7 @@ fn missing(cx: &PathCx<'_>, code: Code<'_>, entry: &WordEntry, item: &str) -> Fi
 fn limited(cx: &PathCx<'_>, finding: Finding, code: Code<'_>, entry: &WordEntry) -> Finding {
     let confidence = entry.range_confidence.or(entry.confidence).unwrap_or(code.entry().confidence);
     let finding = finding.at_most(limit(confidence));
-    if cx.environment.control_is_guessed { finding.at_most(Severity::Warning) } else { finding }
+    finding.at_most(cx.environment.most_for_this_control())
 }
 
 #[cfg(test)]

@@ -72,11 +72,13 @@ struct StoredFix {
 }
 
 /// In the order in which stored results count them.
-const SOURCES: [ControlSource; 5] = [
+const SOURCES: [ControlSource; 7] = [
     ControlSource::Configuration,
     ControlSource::Option,
     ControlSource::Comment,
     ControlSource::Detected,
+    ControlSource::Guessed,
+    ControlSource::Neighbours,
     ControlSource::Default,
 ];
 

@@ -68,7 +68,7 @@ pub(super) fn of(global: &Global, options: &PlotOptions, prepared: &Prepared) ->
             dialect: &dialect,
             machine: &machine,
             programs: &programs,
-            control_is_guessed: prepared.chosen.is_guessed(),
+            control_basis: prepared.chosen.basis(),
             unsupported: prepared.chosen.unsupported,
         },
         selection: &selection,
