@@ -26,6 +26,7 @@ fn write_command(file: &File, finding: &Finding, out: &mut dyn Write) -> io::Res
     };
     let path = one_line(file.rooted());
     let (start, id) = (span.start, finding.rule.id);
+    // The title has the rule and the annotation its place; the text repeats neither.
     write!(out, "::{level} title=gcheck ({}),file={},line={}", property(id), property(&path), start.line)?;
     if span.end.line == start.line {
         write!(out, ",endLine={},col={},endColumn={}", start.line, start.column, span.end.column)?;
@@ -35,7 +36,7 @@ fn write_command(file: &File, finding: &Finding, out: &mut dyn Write) -> io::Res
         let untouched = u32::from(span.end.column == 1);
         write!(out, ",endLine={}", span.end.line - untouched)?;
     }
-    let mut text = format!("{path}:{}:{}: {id} {}", start.line, start.column, lines(&finding.message));
+    let mut text = lines(&finding.message).into_owned();
     for remark in remarks(finding) {
         text.push_str("\n  ");
         text.push_str(&lines(&remark));
