@@ -539,7 +539,8 @@ pub struct LspOptions {
 /// Options of `gcheck explain`.
 #[derive(Debug, Args)]
 pub struct ExplainOptions {
-    /// A rule (`unknown-code`), a code (`G143`), an address (`E`) or a variable (`'#4003'`)
+    /// A rule (`unknown-code`), a code (`G143`), an address (`E`), a variable (`'#4003'`), an answer of the control (`'error 22'`)
+    /// or a setting (`'$32'`)
     #[arg(value_name = "RULE|CODE")]
     pub subject: String,
 }
