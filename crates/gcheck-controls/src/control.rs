@@ -12,7 +12,7 @@ use crate::motion::MotionRules;
 use crate::schema::{
     Access, AlarmEntry, BlockRules, CodeEntry, CodeList, Confidence, FormatCustoms, FunctionEntry, Hint,
     LetterEntry, Limits, Machine, ModalGroup, Motion, NumberRules, Reference, SettingEntry, SyntaxRules,
-    VariableEntry, VariableKind,
+    SystemCommands, VariableEntry, VariableKind,
 };
 use crate::{CodeNumber, Letter, LetterSet};
 
@@ -72,6 +72,7 @@ pub struct Control {
     pub(crate) functions: Vec<FunctionEntry>,
     pub(crate) settings: Vec<SettingEntry>,
     pub(crate) alarms: Vec<AlarmOfRule>,
+    pub(crate) commands: Option<SystemCommands>,
     pub(crate) semantics: Semantics,
     pub(crate) motion: MotionRules,
     pub(crate) lasting: Vec<LastingWords>,
@@ -443,6 +444,11 @@ impl Control {
     /// A setting by its number.
     pub fn setting(&self, number: &str) -> Option<&SettingEntry> {
         self.settings.iter().find(|s| s.number == number)
+    }
+
+    /// What the control reads on lines for itself (`$H`), where they are listed.
+    pub fn system_commands(&self) -> Option<&SystemCommands> {
+        self.commands.as_ref()
     }
 
     /// The alarm that the control raises for what a rule finds, where it is known.

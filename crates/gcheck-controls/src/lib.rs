@@ -47,8 +47,8 @@ pub use schema::{
     Access, AlarmEntry, Beside, BlockRules, CodeEntry, CodeList, CommentForm, CommentRead, Confidence,
     DisputedWord, Ends, FormatCustoms, FunctionEntry, Handling, Hint, LetterCase, LetterEntry, Limits,
     LineCounts, Machine, ModalGroup, Motion, Need, NumberRules, OpensData, OverrideSwitch, PackedPart,
-    RapidSwitch, Reference, Semicolon, SettingEntry, SettingValues, SyntaxRules, Unpointed, VariableEntry,
-    VariableKind, WordEntry, WordKind,
+    RapidSwitch, Reference, Semicolon, SettingEntry, SettingValues, SyntaxRules, SystemCommands, Unpointed,
+    VariableEntry, VariableKind, WordEntry, WordKind,
 };
 pub use syntax_form::SyntaxForm;
 pub use unsupported::{UnsupportedDialect, unsupported_dialect};

@@ -11,7 +11,8 @@ use crate::execution::{Effect, ExecutionFile, LastingWords, Semantics};
 use crate::motion::MotionRules;
 use crate::schema::{
     AlarmEntry, AlarmsFile, CodeEntry, CodesFile, ControlFile, FunctionEntry, GroupsFile, LetterEntry,
-    LettersFile, Machine, ModalGroup, SettingEntry, SettingsFile, VariableEntry, VariablesFile,
+    LettersFile, Machine, ModalGroup, SettingEntry, SettingsFile, SystemCommands, VariableEntry,
+    VariablesFile,
 };
 use crate::{CodeNumber, Control, Letter, LetterSet};
 
@@ -145,6 +146,7 @@ struct Layers {
     functions: Vec<FunctionEntry>,
     settings: Vec<SettingEntry>,
     alarms: Vec<AlarmOfRule>,
+    commands: Option<SystemCommands>,
     effects: BTreeMap<String, Effect>,
     semantics: Option<Semantics>,
     motion: Option<MotionRules>,
@@ -232,6 +234,8 @@ fn add_layer(layers: &mut Layers, source: &Source) -> Result<(), LoadError> {
         own.append(&mut layers.alarms);
         layers.alarms = own;
     }
+    // A control lists its own: its descendants read more than their base.
+    layers.commands = parse_file::<SystemCommands>(source, "commands.toml")?;
     if let Some(file) = parse_file::<ExecutionFile>(source, "execution.toml")? {
         layers.effects.extend(file.effects);
         layers.semantics = file.semantics.or(layers.semantics.take());
@@ -288,6 +292,7 @@ fn finish(layers: Layers) -> Result<Control, LoadError> {
         functions: layers.functions,
         settings: layers.settings,
         alarms: layers.alarms,
+        commands: layers.commands,
         semantics: layers.semantics.ok_or_else(|| missing("semantics"))?,
         motion: layers.motion.ok_or_else(|| missing("motion"))?,
         lasting: layers.lasting,
@@ -358,7 +363,7 @@ mod tests {
 
     use super::{
         AlarmsFile, CodesFile, ControlFile, ExecutionFile, GroupsFile, LettersFile, SettingsFile,
-        VariablesFile,
+        SystemCommands, VariablesFile,
     };
 
     #[test]
@@ -411,6 +416,7 @@ mod tests {
                 "variables.toml" => toml::from_str::<VariablesFile>(&text).map(|_| ()),
                 "settings.toml" => toml::from_str::<SettingsFile>(&text).map(|_| ()),
                 "alarms.toml" => toml::from_str::<AlarmsFile>(&text).map(|_| ()),
+                "commands.toml" => toml::from_str::<SystemCommands>(&text).map(|_| ()),
                 "execution.toml" => toml::from_str::<ExecutionFile>(&text).map(|_| ()),
                 _ => panic!("{}: a file that is not read", file.display()),
             };

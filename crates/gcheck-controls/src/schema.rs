@@ -1093,6 +1093,62 @@ pub struct FunctionEntry {
     pub confidence: Confidence,
 }
 
+/// `commands.toml`: lines that begin with `$`, for the control itself, and what the control answers to the others. Names are as
+/// the control compares them: capitals, no blanks.
+#[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct SystemCommands {
+    /// Lines without a value: `$H`.
+    pub plain: Vec<String>,
+    /// How lines begin that go on with a text of their own: `$I=`.
+    pub texts: Vec<String>,
+    /// Numbers of settings, the first and the last of each range.
+    pub settings: Vec<[u16; 2]>,
+    /// How a line begins that jogs: `$J=`.
+    pub jog: String,
+    /// Codes that a jog takes.
+    pub jog_codes: Vec<String>,
+    /// Letters that a jog takes.
+    pub jog_letters: Vec<String>,
+    /// The source of all this.
+    pub source: String,
+    /// How sure it is.
+    pub confidence: Confidence,
+    /// The answer to a line that is none of these.
+    pub unknown: AlarmEntry,
+    /// The answer to a name or a value that is not a number.
+    pub bad_number: AlarmEntry,
+    /// The answer to a value below zero.
+    pub negative: AlarmEntry,
+    /// The answer to a jog without a feed.
+    pub jog_feed: AlarmEntry,
+    /// The answer to a jog with another code.
+    pub jog_code: AlarmEntry,
+    /// The answer to a jog with another word.
+    pub jog_word: AlarmEntry,
+}
+
+impl SystemCommands {
+    /// All answers.
+    pub fn alarms(&self) -> [&AlarmEntry; 6] {
+        [&self.unknown, &self.bad_number, &self.negative, &self.jog_feed, &self.jog_code, &self.jog_word]
+    }
+
+    /// Is it a command or a setting, by its name without a value: `$H`, `$110`?
+    pub fn knows(&self, name: &str) -> bool {
+        let with_value = format!("{name}=");
+        let number = name.strip_prefix('$').and_then(|number| number.parse().ok());
+        self.plain.iter().any(|known| known == name)
+            || self.texts.iter().chain([&self.jog]).any(|head| *head == with_value)
+            || number.is_some_and(|number| self.has_setting(number))
+    }
+
+    /// Is there a setting of this number?
+    pub fn has_setting(&self, number: u16) -> bool {
+        self.settings.iter().any(|[first, last]| (*first..=*last).contains(&number))
+    }
+}
+
 /// `settings.toml`.
 #[derive(Debug, Clone, Default, Deserialize)]
 #[serde(deny_unknown_fields)]

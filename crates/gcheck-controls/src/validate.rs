@@ -304,6 +304,12 @@ impl Problems<'_> {
                 self.say(&setting.number, "lists no values");
             }
         }
+        if let Some(commands) = control.system_commands() {
+            self.source("commands.toml", &commands.source);
+            for code in commands.jog_codes.iter().filter(|code| !is_code(control, code)) {
+                self.say("commands.toml", format!("`{code}` in `jog-codes` is not a code of the control"));
+            }
+        }
         for (rule, _, alarm) in control.alarms_of_rules() {
             if alarm.text.trim().is_empty() {
                 self.say("alarms.toml", format!("the alarm of `{rule}` has no text"));
@@ -741,6 +747,10 @@ fn has_word(entry: &crate::CodeEntry, letter: &str) -> bool {
 fn is_word(item: &str) -> bool {
     let (letter, value) = item.split_at_checked(1).unwrap_or_default();
     Letter::parse(letter).is_some() && !value.is_empty() && value.bytes().all(|b| b.is_ascii_digit())
+}
+
+fn is_code(control: &Control, written: &str) -> bool {
+    CodeNumber::parse(written).is_some_and(|number| control.code(number).is_some())
 }
 
 #[cfg(test)]

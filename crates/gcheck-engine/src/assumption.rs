@@ -28,7 +28,7 @@ pub enum Unsettled {
     BarFeed,
 }
 
-/// Something taken for granted, or left unknown.
+/// Something assumed, or left unknown.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Assumption {
     /// A mode at the start is the control's power-on default.

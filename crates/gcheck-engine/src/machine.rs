@@ -1,7 +1,7 @@
 //! The machine at hand, as far as somebody told us: axes, offsets, tools, settings, variables.
 //!
 //! Knows: the values of configuration in millimetres and degrees. Must not know: files, keys, programs. Everything may be
-//! unknown; what the engine then takes for granted goes into the list of assumptions.
+//! unknown; what the engine then assumes goes into the list of assumptions.
 
 use std::collections::BTreeMap;
 

@@ -62,8 +62,9 @@ fn control(build: &Build<'_>, kilobytes: usize) -> String {
         names.url()
     );
     if target.needs_libc {
+        let version = newest_libc(build.binary).map(|version| format!(" (>= {version})")).unwrap_or_default();
         // Writing into a string does not fail.
-        let _ = writeln!(text, "Depends: libc6");
+        let _ = writeln!(text, "Depends: libc6{version}");
     }
     text.push_str(
         "Description: checks CNC part programs (G-code)\n \
@@ -71,6 +72,16 @@ fn control(build: &Build<'_>, kilobytes: usize) -> String {
          a linter for the command line and CI, and a language server for editors.\n",
     );
     text
+}
+
+/// The newest version of the C library whose symbols a program needs: the highest name of a version in its table of names.
+fn newest_libc(binary: &[u8]) -> Option<String> {
+    let names = binary.split(|byte| *byte == 0).filter_map(|name| name.strip_prefix(b"GLIBC_"));
+    let version = |name: &[u8]| -> Option<Vec<u32>> {
+        std::str::from_utf8(name).ok()?.split('.').map(|part| part.parse().ok()).collect()
+    };
+    let newest = names.filter_map(version).max()?;
+    Some(newest.iter().map(u32::to_string).collect::<Vec<_>>().join("."))
 }
 
 fn copyright(build: &Build<'_>) -> String {
@@ -81,4 +92,16 @@ fn copyright(build: &Build<'_>) -> String {
         papers.mit,
         papers.apache
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::newest_libc;
+
+    #[test]
+    fn the_c_library_is_as_new_as_the_newest_symbol_that_is_needed() {
+        let names = b"\x7FELF\0memcpy\0GLIBC_2.4\0GLIBC_2.35\0GLIBC_2.2.5\0GLIBC_PRIVATE\0libc.so.6\0";
+        assert_eq!(newest_libc(names).as_deref(), Some("2.35"));
+        assert_eq!(newest_libc(b"\x7FELF\0without a C library\0"), None);
+    }
 }

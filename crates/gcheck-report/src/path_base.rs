@@ -4,17 +4,18 @@
 
 use std::borrow::Cow;
 
-/// The folder that a server calls the root, and the one that paths of a report are relative to; both absolute, with slashes.
+/// The folders that a server may call the root, and the one that paths of a report are relative to; all absolute, with
+/// slashes.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct PathBase {
-    /// The root.
-    pub base: String,
+    /// The roots: a file is named from the first one that holds it.
+    pub roots: Vec<String>,
     /// Where gcheck runs.
     pub here: String,
 }
 
 impl PathBase {
-    /// The path from the root; as it is, where it leads out of it.
+    /// The path from its root; as it is, where it is in none of them.
     pub(crate) fn rooted<'p>(&self, path: &'p str) -> Cow<'p, str> {
         let is_absolute = path.starts_with('/') || matches!(path.as_bytes(), [_, b':', b'/', ..]);
         let whole = if is_absolute { path.to_owned() } else { format!("{}/{path}", self.here) };
@@ -28,11 +29,11 @@ impl PathBase {
                 part => parts.push(part),
             }
         }
-        let base: Vec<&str> = self.base.split('/').filter(|part| !part.is_empty()).collect();
-        match parts.strip_prefix(base.as_slice()) {
-            Some(rest) if !rest.is_empty() => Cow::Owned(rest.join("/")),
-            _ => Cow::Borrowed(path),
-        }
+        let below = |root: &String| {
+            let root: Vec<&str> = root.split('/').filter(|part| !part.is_empty()).collect();
+            parts.strip_prefix(root.as_slice()).filter(|rest| !rest.is_empty()).map(|rest| rest.join("/"))
+        };
+        self.roots.iter().find_map(below).map_or(Cow::Borrowed(path), Cow::Owned)
     }
 }
 
@@ -42,7 +43,7 @@ mod tests {
 
     #[test]
     fn a_path_is_from_the_root_wherever_gcheck_runs() {
-        let base = PathBase { base: "/srv/repo".to_owned(), here: "/srv/repo/sub".to_owned() };
+        let base = PathBase { roots: vec!["/srv/repo".to_owned()], here: "/srv/repo/sub".to_owned() };
         for (path, expected) in [
             ("w.nc", "sub/w.nc"),
             ("./w.nc", "sub/w.nc"),
@@ -53,8 +54,22 @@ mod tests {
         ] {
             assert_eq!(base.rooted(path), expected, "{path}");
         }
-        let windows = PathBase { base: "C:/repo".to_owned(), here: "C:/repo/sub".to_owned() };
+        let windows = PathBase { roots: vec!["C:/repo".to_owned()], here: "C:/repo/sub".to_owned() };
         assert_eq!(windows.rooted("C:/repo/a.nc"), "a.nc");
         assert_eq!(windows.rooted("a.nc"), "sub/a.nc");
+    }
+
+    #[test]
+    fn a_file_is_named_from_the_first_root_that_holds_it() {
+        let roots = ["/srv/repo/vendored", "/srv/repo", "/srv/other"].map(str::to_owned).to_vec();
+        let base = PathBase { roots, here: "/srv".to_owned() };
+        for (path, expected) in [
+            ("repo/a.nc", "a.nc"),
+            ("repo/vendored/a.nc", "a.nc"),
+            ("other/sub/a.nc", "sub/a.nc"),
+            ("loose/a.nc", "loose/a.nc"),
+        ] {
+            assert_eq!(base.rooted(path), expected, "{path}");
+        }
     }
 }

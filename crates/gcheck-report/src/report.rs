@@ -216,7 +216,7 @@ pub struct FailedRule {
     pub rule: &'static str,
 }
 
-/// Something taken for granted.
+/// Something assumed.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, schemars::JsonSchema)]
 pub struct Assumed {
     /// One sentence without an end.
@@ -245,14 +245,24 @@ impl Report {
         }
     }
 
-    /// With the root from which the formats of servers name files.
+    /// With the roots from which the formats of servers name files.
     #[must_use]
-    pub fn with_path_base(mut self, base: Option<PathBase>) -> Self {
+    pub fn with_path_base(mut self, base: PathBase) -> Self {
         for file in &mut self.files {
-            file.rooted = base.as_ref().map(|base| base.rooted(&file.path).into_owned());
+            file.rooted = Some(base.rooted(&file.path).into_owned());
         }
-        self.base = base;
+        self.base = Some(base);
         self
+    }
+
+    /// The paths of its files, as they were named.
+    pub fn paths(&self) -> impl Iterator<Item = &str> {
+        self.files.iter().map(|file| file.path.as_str())
+    }
+
+    /// The paths of the files that could not be checked.
+    pub fn skipped_paths(&self) -> impl Iterator<Item = &str> {
+        self.skipped.iter().map(|skipped| skipped.file.as_str())
     }
 
     /// With what makes the run fail: findings from a severity on (`None`: no finding does), and an analysis that ended early.
@@ -325,6 +335,16 @@ impl Report {
         let is_default =
             |file: &&File| file.control.source == ControlSource::Default && file.control.because.is_none();
         self.files.iter().filter(is_default).count()
+    }
+
+    /// Files that are for a control which gcheck does not read.
+    pub fn unsupported_files(&self) -> usize {
+        let is_it = |file: &&File| {
+            let mut rules = file.findings.iter().map(|finding| finding.rule);
+            let mut omitted = file.omitted.iter().map(|(rule, ..)| *rule);
+            rules.any(|rule| rule.id == UNSUPPORTED) || omitted.any(|rule| rule.id == UNSUPPORTED)
+        };
+        self.files.iter().filter(is_it).count()
     }
 
     /// The sums.

@@ -34,7 +34,7 @@ pub struct Plan {
     pockets: BTreeMap<u32, u32>,
     /// How rotary axes accelerate was derived from the linear ones.
     pub(crate) rotary_derived: bool,
-    /// Of how the control moves, something is taken for granted.
+    /// Of how the control moves, something is assumed.
     pub(crate) control_assumed: bool,
 }
 

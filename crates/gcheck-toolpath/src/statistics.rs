@@ -257,6 +257,12 @@ impl Section {
         self.unaccounted.pockets += pockets;
     }
 
+    /// Nothing is known of a tool, none was called, and nothing that the figures count was done.
+    fn is_before_any_tool(&self) -> bool {
+        let no_tool = !self.changed && self.tool.is_none();
+        no_tool && self.times.total() <= Seconds::ZERO && self.cutting <= Mm::ZERO && self.rapid <= Mm::ZERO
+    }
+
     /// Where all moves went, in the work coordinates that were active.
     pub fn work(&self) -> Bounds {
         self.offsets.iter().fold(Bounds::EMPTY, |all, used| all.union(&used.extents))
@@ -332,7 +338,7 @@ impl Section {
     }
 }
 
-/// Something taken for granted because the configuration does not say it, and the key that would.
+/// Something assumed because the configuration does not say it, and the key that would.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Assumption {
     /// What is assumed.
@@ -509,6 +515,14 @@ impl Statistics {
     /// The sections in the order in which they began.
     pub fn sections(&self) -> &[Section] {
         &self.sections
+    }
+
+    /// The sections in which a tool worked, or moved for a time that counts: not the blocks before the first tool change that
+    /// only go home.
+    pub fn tools(&self) -> impl Iterator<Item = &Section> {
+        // Of a program that does nothing else, they are all that there is to show.
+        let all_idle = self.sections.iter().all(Section::is_before_any_tool);
+        self.sections.iter().filter(move |section| all_idle || !section.is_before_any_tool())
     }
 
     /// The whole run; its tool, file and line mean nothing.

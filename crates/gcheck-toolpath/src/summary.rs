@@ -65,14 +65,42 @@ impl Statistics {
         let mut out = String::new();
         table.headline(&mut out);
         if total.moves > 0 || total.tool_changes > 0 {
-            table.tools(&mut out, self.sections());
-            table.extents(&mut out, self.sections());
+            let tools: Vec<&Section> = self.tools().collect();
+            table.tools(&mut out, &tools);
+            table.extents(&mut out, &tools);
         }
         table.slowest(&mut out, self);
         table.bar(&mut out, self.bar());
         table.missing(&mut out);
-        table.assumed(&mut out, self);
+        list(&mut out, "assumed", &self.assumed());
         out
+    }
+
+    /// What the figures rest on, a line each: the last list of the text.
+    pub fn assumed(&self) -> Vec<String> {
+        let mut lines: Vec<String> = self
+            .assumptions()
+            .into_iter()
+            .map(|assumption| match assumption.key {
+                Some(key) => format!("{} (set machine.{key})", assumption.text),
+                None => assumption.text,
+            })
+            .collect();
+        let total = self.total();
+        if total.estimated > Seconds::ZERO {
+            lines.push(format!(
+                "{} of cutting are an estimate: pockets that the control clears by a path of its own, by their area",
+                clock(total.estimated, false)
+            ));
+        }
+        if total.moves > 0
+            && let Some(percent) = self.feed_override()
+        {
+            lines.push(format!(
+                "the feed override is at {percent} %: it does not count for rapid moves, threads and taps"
+            ));
+        }
+        lines
     }
 
     /// The figures as JSON, in the units that most moves were written in.
@@ -108,8 +136,7 @@ impl Statistics {
                 .collect(),
             bar: self.bar().is_used().then(|| json::BarJob::of(self.bar(), total.times.total(), units)),
             tools: self
-                .sections()
-                .iter()
+                .tools()
                 .map(|section| json::Tool {
                     number: section.tool,
                     name: section.tool.and_then(names.tool),
@@ -179,7 +206,7 @@ impl Table<'_> {
         counts_in_hours(self.total.times.total())
     }
 
-    fn tools(&self, out: &mut String, sections: &[Section]) {
+    fn tools(&self, out: &mut String, sections: &[&Section]) {
         let unit = match self.units {
             Units::Inch => "inch",
             Units::Mm => "mm",
@@ -224,9 +251,9 @@ impl Table<'_> {
         columns(out, &rows, &right);
         let lines: Vec<String> = sections.iter().filter_map(|section| self.edge(section)).collect();
         list(out, "chip load and surface speed", &lines);
-        let is_told = |section: &Section| section.corners.iter().any(|mode| *mode != CornerMode::START);
+        let is_told = |section: &&Section| section.corners.iter().any(|mode| *mode != CornerMode::START);
         if sections.iter().any(is_told) {
-            let words = |section: &Section| {
+            let words = |section: &&Section| {
                 let modes: Vec<String> = section.corners.iter().map(|mode| mode.words(self.units)).collect();
                 (!modes.is_empty()).then(|| format!("{}: {}", label(section), modes.join("; ")))
             };
@@ -301,7 +328,7 @@ impl Table<'_> {
         [range(&section.speeds, 1.0, " rpm"), surface].into_iter().flatten().collect::<Vec<_>>().join(", ")
     }
 
-    fn extents(&self, out: &mut String, sections: &[Section]) {
+    fn extents(&self, out: &mut String, sections: &[&Section]) {
         // Axes that never moved away from one place say nothing, but X, Y and Z are missed when they are not there.
         let shown: Vec<Axis> = self
             .view
@@ -474,31 +501,6 @@ impl Table<'_> {
             lines.push(format!("machine coordinates of {arcs} between the ends"));
         }
         list(out, "missing in these figures", &lines);
-    }
-
-    fn assumed(&self, out: &mut String, statistics: &Statistics) {
-        let mut lines: Vec<String> = statistics
-            .assumptions()
-            .into_iter()
-            .map(|assumption| match assumption.key {
-                Some(key) => format!("{} (set machine.{key})", assumption.text),
-                None => assumption.text,
-            })
-            .collect();
-        if self.total.estimated > Seconds::ZERO {
-            lines.push(format!(
-                "{} of cutting are an estimate: pockets that the control clears by a path of its own, by their area",
-                clock(self.total.estimated, false)
-            ));
-        }
-        if self.total.moves > 0
-            && let Some(percent) = statistics.feed_override()
-        {
-            lines.push(format!(
-                "the feed override is at {percent} %: it does not count for rapid moves, threads and taps"
-            ));
-        }
-        list(out, "assumed", &lines);
     }
 }
 

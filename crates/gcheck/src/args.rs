@@ -20,7 +20,7 @@ use crate::nearest::did_you_mean;
 pub use edit::{About, EditCommand, EditTarget, Lines, MirrorAxis, QuarterTurns};
 pub(crate) use values::FUEL;
 pub use values::{Assignment, BlockSkip, Switch, VariableName};
-use values::{assignment, block_skip, control_name, count, fuel, numbering, tolerance};
+use values::{assignment, block_skip, control_name, count, fuel, jobs, numbering, tolerance};
 
 /// Checks CNC part programs (G-code) before they run on the machine.
 #[derive(Debug, Parser)]
@@ -121,7 +121,7 @@ pub enum Command {
         #[arg(long)]
         schema: bool,
     },
-    /// The machine in `gcheck.toml`
+    /// Import a machine into `gcheck.toml`, and list the models of machines that gcheck knows
     #[command(subcommand)]
     Machine(MachineCommand),
     /// Print a JSON schema: that of `gcheck.toml`, or of the findings as `json` and `jsonl` have them
@@ -170,7 +170,7 @@ pub struct CheckOptions {
     /// A file that lists what to check in place of PATHS, a path a line, `#` for comments; `-` reads the list from standard input
     #[arg(long, value_name = "FILE", conflicts_with_all = ["paths", "watch"])]
     pub files_from: Option<PathBuf>,
-    /// What standard input is called
+    /// The name of the program on standard input, for messages and for its settings
     #[arg(long, value_name = "PATH")]
     pub stdin_filename: Option<PathBuf>,
     /// Run these rules, groups or sets in place of those configured
@@ -198,8 +198,8 @@ pub struct CheckOptions {
     /// `-o sarif=gcheck.sarif -o junit=gcheck.xml`
     #[arg(long, short, value_name = "[FORMAT=]FILE", value_parser = output_file)]
     pub output_file: Vec<OutputFile>,
-    /// The folder from which the formats of servers name files; without it `CI_PROJECT_DIR` or `GITHUB_WORKSPACE` says so, or
-    /// it is the root of the repository
+    /// The folder from which the formats of servers name files; without it the folder of `CI_PROJECT_DIR` or
+    /// `GITHUB_WORKSPACE`, or the root of the repository, that holds the file
     #[arg(long, value_name = "DIR")]
     pub path_base: Option<PathBuf>,
     /// Fix what has a fix that changes no move
@@ -239,12 +239,12 @@ pub struct CheckOptions {
     #[arg(long, value_name = "BLOCKS", value_parser = fuel, allow_negative_numbers = true, default_value_t = FUEL, hide_default_value = true)]
     pub fuel: u64,
     /// Files checked at a time; the number of processors without it
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = jobs, allow_negative_numbers = true)]
     pub jobs: Option<usize>,
     /// Check everything again, and store nothing
     #[arg(long)]
     pub no_cache: bool,
-    /// Where results of earlier runs are kept; without it `GCHECK_CACHE` says so, or they are among the user's caches
+    /// The folder for results of earlier runs; without it that of `GCHECK_CACHE`, or one among the user's caches
     #[arg(long, value_name = "DIR")]
     pub cache_dir: Option<PathBuf>,
     /// Check again whenever a program or a configuration changes, until Ctrl-C
@@ -264,7 +264,7 @@ pub struct FmtOptions {
     /// Files and folders; `-` reads standard input and writes standard output
     #[arg(default_value = ".", value_name = "PATHS")]
     pub paths: Vec<PathBuf>,
-    /// What standard input is called
+    /// The name of the program on standard input, for messages and for its settings
     #[arg(long, value_name = "PATH")]
     pub stdin_filename: Option<PathBuf>,
     /// Change nothing; print the files that would change and exit with 1 if there are any
@@ -277,7 +277,7 @@ pub struct FmtOptions {
     #[arg(long, value_name = "START:STEP", value_parser = numbering)]
     pub renumber: Option<Numbering>,
     /// Files formatted at a time; the number of processors without it
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = jobs, allow_negative_numbers = true)]
     pub jobs: Option<usize>,
 }
 
@@ -330,7 +330,7 @@ pub struct ExecutionOptions {
 /// How programs are executed.
 #[derive(Debug, Clone, Args)]
 pub struct Conditions {
-    /// What standard input is called
+    /// The name of the program on standard input, for messages and for its settings
     #[arg(long, value_name = "PATH")]
     pub stdin_filename: Option<PathBuf>,
     /// A variable's value before a program starts: `--set '#100=2.5'`, `--set '#<name>=1'` (may be repeated)
@@ -539,7 +539,8 @@ pub struct LspOptions {
 /// Options of `gcheck explain`.
 #[derive(Debug, Args)]
 pub struct ExplainOptions {
-    /// A rule (`unknown-code`), a code (`G143`), an address (`E`) or a variable (`'#4003'`)
+    /// A rule (`unknown-code`), a code (`G143`), an address (`E`), a variable (`'#4003'`), an answer of the control (`'error 22'`)
+    /// or a setting (`'$32'`)
     #[arg(value_name = "RULE|CODE")]
     pub subject: String,
 }

@@ -60,7 +60,8 @@ fn size(data: io::Result<Metadata>, most: u64) -> Result<u64, String> {
 pub(crate) fn head(path: &Path, most: u64) -> Option<String> {
     let mut bytes = Vec::new();
     File::open(path).ok()?.take(most).read_to_end(&mut bytes).ok()?;
-    (!is_binary(&bytes)).then(|| String::from_utf8_lossy(&bytes).into_owned())
+    let is_text = !is_other_format(&bytes) && !is_binary(&bytes);
+    is_text.then(|| String::from_utf8_lossy(&bytes).into_owned())
 }
 
 /// Bytes as text, if they are text.
@@ -90,7 +91,7 @@ fn bounded(path: &Path, mut from: impl Read, size: usize) -> io::Result<Result<S
     if let [0xFF, 0xFE, ..] | [0xFE, 0xFF, ..] = bytes.as_slice() {
         return Ok(Err(Problem::with_file(path, "is UTF-16 text").help("save it as UTF-8 or plain ASCII")));
     }
-    if is_binary(&bytes) {
+    if is_other_format(&bytes) || is_binary(&bytes) {
         return Ok(Err(Problem::with_file(path, "is not text, so it is not a part program")));
     }
     let left = MOST + 1 - bytes.len();
@@ -107,6 +108,24 @@ fn too_large(path: &Path) -> Problem {
         format!("is larger than {} GB, the largest program that gcheck reads", MOST >> 30),
     )
     .help("split it, for example at its tool changes, and check the parts")
+}
+
+/// How files of other formats begin: pictures (PNG, JPEG, GIF), PDF, archives (ZIP, gzip, 7z), documents of offices, programs.
+const BEGINNINGS: [&[u8]; 9] = [
+    b"\x89PNG\r\n",
+    b"\xFF\xD8\xFF",
+    b"GIF8",
+    b"%PDF-",
+    b"PK\x03\x04",
+    b"\x1F\x8B\x08",
+    b"7z\xBC\xAF\x27\x1C",
+    b"\xD0\xCF\x11\xE0\xA1\xB1",
+    b"\x7FELF",
+];
+
+/// A file of another format that is short, or has much text in it, is known by its first bytes.
+fn is_other_format(sample: &[u8]) -> bool {
+    BEGINNINGS.iter().any(|beginning| sample.starts_with(beginning))
 }
 
 /// More than one byte in ten is a control character that no program uses, or no UTF-8.
@@ -131,7 +150,7 @@ mod tests {
     use std::io::{self, Read as _};
     use std::path::Path;
 
-    use super::{SAMPLE, bounded, is_binary};
+    use super::{SAMPLE, bounded, is_binary, is_other_format};
 
     #[test]
     fn an_endless_device_is_refused_by_its_beginning() {
@@ -162,5 +181,12 @@ mod tests {
         assert!(is_binary(b"\x7fELF\x02\x01\x01\0\0\0\0\0\0\0\0\0\x02\0>\0\x01"));
         let noise: Vec<u8> = (0..4_000_u32).map(|n| (n.wrapping_mul(2_654_435_761) >> 24) as u8).collect();
         assert!(is_binary(&noise));
+    }
+
+    #[test]
+    fn a_short_picture_and_a_document_with_much_text_are_not() {
+        assert!(is_other_format(b"\x89PNG\r\n\x1A\n\0\0"));
+        assert!(is_other_format(b"%PDF-1.7\n1 0 obj << /Type /Catalog >> endobj\n"));
+        assert!(!is_other_format(b"%\nO1234 (PNG)\nM30\n%\n"));
     }
 }

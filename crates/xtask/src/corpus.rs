@@ -89,7 +89,7 @@ fn page(programs: &[CorpusProgram], by_control: &BTreeMap<&str, Counts>, seconds
     let _ = writeln!(
         text,
         "{} programs from {} public repositories (the real-program corpus, `GCHECK_CORPUS`), each checked for the control that the corpus\n\
-        guesses for it, with the recommended rules. A finding is a mistake in a published program, a file that is no program\n\
+        guesses for it, with the recommended rules. A finding is a mistake in a published program, a file that is not a program\n\
         of that control, or noise of ours: [corpus-notes.md](corpus-notes.md) says what was read by eye and judged.\n\n\
         One `gcheck check` of all {lines} lines took {seconds:.1} CPU seconds (release build) on the machine that wrote this page.\n",
         programs.len(),

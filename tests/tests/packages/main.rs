@@ -131,6 +131,9 @@ fn the_debian_package_unpacks_to_a_program_with_completions() {
     for (field, value) in [("Package", "gcheck"), ("Version", VERSION), ("Architecture", here().debian)] {
         assert_eq!(place.runs("dpkg-deb", &["--field", &package.name, field]).trim(), value);
     }
+    let depends = place.runs("dpkg-deb", &["--field", &package.name, "Depends"]);
+    let names_version = depends.trim().starts_with("libc6 (>= 2.");
+    assert_eq!(names_version, here().needs_libc, "{depends}");
     place.runs("dpkg-deb", &["--extract", &package.name, "root"]);
     place.works(&["root/usr/bin/gcheck"]);
     for file in ["bash-completion/completions/gcheck", "doc/gcheck/copyright"] {

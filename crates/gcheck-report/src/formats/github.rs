@@ -26,6 +26,7 @@ fn write_command(file: &File, finding: &Finding, out: &mut dyn Write) -> io::Res
     };
     let path = one_line(file.rooted());
     let (start, id) = (span.start, finding.rule.id);
+    // The title has the rule and the annotation its place; the text repeats neither.
     write!(out, "::{level} title=gcheck ({}),file={},line={}", property(id), property(&path), start.line)?;
     if span.end.line == start.line {
         write!(out, ",endLine={},col={},endColumn={}", start.line, start.column, span.end.column)?;
@@ -35,7 +36,7 @@ fn write_command(file: &File, finding: &Finding, out: &mut dyn Write) -> io::Res
         let untouched = u32::from(span.end.column == 1);
         write!(out, ",endLine={}", span.end.line - untouched)?;
     }
-    let mut text = format!("{path}:{}:{}: {id} {}", start.line, start.column, lines(&finding.message));
+    let mut text = lines(&finding.message).into_owned();
     for remark in remarks(finding) {
         text.push_str("\n  ");
         text.push_str(&lines(&remark));
@@ -64,8 +65,8 @@ mod tests {
     #[test]
     fn one_command_a_finding() {
         expect![[r#"
-            ::error title=gcheck (feed-missing),file=part.nc,line=4,endLine=4,col=5,endColumn=7::part.nc:4:5: feed-missing no feed rate is in effect%0A  note: the control stops without a feed rate%0A  note: from the manual:%0A  "feed is modal"%0A  note: the control raises alarm 312 FEED%0A  note: assuming setting 162 is off%0A  help: write a feed rate, e.g. `F200.`
-            ::notice title=gcheck (arc-end-off-circle),file=part.nc,line=5,endLine=5,col=5,endColumn=16::part.nc:5:5: arc-end-off-circle arc may end off the circle
+            ::error title=gcheck (feed-missing),file=part.nc,line=4,endLine=4,col=5,endColumn=7::no feed rate is in effect%0A  note: the control stops without a feed rate%0A  note: from the manual:%0A  "feed is modal"%0A  note: the control raises alarm 312 FEED%0A  note: assuming setting 162 is off%0A  help: write a feed rate, e.g. `F200.`
+            ::notice title=gcheck (arc-end-off-circle),file=part.nc,line=5,endLine=5,col=5,endColumn=16::arc may end off the circle
         "#]].assert_eq(&render(&everything(), Format::Github));
     }
 
@@ -75,7 +76,7 @@ mod tests {
         let report =
             Report::new(vec![file(path, "G1", vec![on("G1", "G1").help("50% :: less,\r\nor none")])]);
         expect![[r#"
-            ::error title=gcheck (feed-missing),file=my parts/100%25%2C a%3Ab.nc,line=1,endLine=1,col=1,endColumn=3::my parts/100%25, a:b.nc:1:1: feed-missing no feed rate is in effect%0A  help: 50%25 :: less,%0Aor none
+            ::error title=gcheck (feed-missing),file=my parts/100%25%2C a%3Ab.nc,line=1,endLine=1,col=1,endColumn=3::no feed rate is in effect%0A  help: 50%25 :: less,%0Aor none
         "#]].assert_eq(&render(&report, Format::Github));
     }
 
@@ -85,11 +86,11 @@ mod tests {
             render(&report("G1\nG2\nG3\n", vec![Finding::new(&FEED_MISSING, range, "m")]), Format::Github)
         };
         expect![[r#"
-            ::error title=gcheck (feed-missing),file=part.nc,line=1,endLine=2::part.nc:1:1: feed-missing m
+            ::error title=gcheck (feed-missing),file=part.nc,line=1,endLine=2::m
         "#]]
         .assert_eq(&at(0..4));
         expect![[r#"
-            ::error title=gcheck (feed-missing),file=part.nc,line=1,endLine=2::part.nc:1:1: feed-missing m
+            ::error title=gcheck (feed-missing),file=part.nc,line=1,endLine=2::m
         "#]]
         .assert_eq(&at(0..6));
     }
@@ -98,10 +99,10 @@ mod tests {
     fn levels() {
         let findings = Severity::ALL.map(|severity| Finding { severity, ..on("G1", "G1") });
         expect![[r#"
-            ::notice title=gcheck (feed-missing),file=part.nc,line=1,endLine=1,col=1,endColumn=3::part.nc:1:1: feed-missing no feed rate is in effect
-            ::notice title=gcheck (feed-missing),file=part.nc,line=1,endLine=1,col=1,endColumn=3::part.nc:1:1: feed-missing no feed rate is in effect
-            ::warning title=gcheck (feed-missing),file=part.nc,line=1,endLine=1,col=1,endColumn=3::part.nc:1:1: feed-missing no feed rate is in effect
-            ::error title=gcheck (feed-missing),file=part.nc,line=1,endLine=1,col=1,endColumn=3::part.nc:1:1: feed-missing no feed rate is in effect
+            ::notice title=gcheck (feed-missing),file=part.nc,line=1,endLine=1,col=1,endColumn=3::no feed rate is in effect
+            ::notice title=gcheck (feed-missing),file=part.nc,line=1,endLine=1,col=1,endColumn=3::no feed rate is in effect
+            ::warning title=gcheck (feed-missing),file=part.nc,line=1,endLine=1,col=1,endColumn=3::no feed rate is in effect
+            ::error title=gcheck (feed-missing),file=part.nc,line=1,endLine=1,col=1,endColumn=3::no feed rate is in effect
         "#]].assert_eq(&render(&report("G1", findings.to_vec()), Format::Github));
     }
 }

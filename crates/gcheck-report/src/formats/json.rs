@@ -73,7 +73,7 @@ pub(super) struct JsonFinding<'r> {
     help: Option<&'r str>,
     /// The alarm or error that the control answers with.
     alarm: Option<&'r str>,
-    /// What the finding takes for granted.
+    /// What the finding assumes.
     assumptions: &'r [String],
     /// Changes that settle it.
     fixes: Vec<JsonFix<'r>>,

@@ -441,6 +441,7 @@ pub(crate) mod syntax {
     pub(crate) mod stray_bracket;
     pub(crate) mod stray_keyword;
     pub(crate) mod stray_parenthesis;
+    pub(crate) mod system_command_refused;
     pub(crate) mod text_after_end_of_block;
     pub(crate) mod unclosed_bracket;
     pub(crate) mod unclosed_comment;
@@ -903,6 +904,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &syntax::stray_bracket::RULE,
     &syntax::stray_keyword::RULE,
     &syntax::stray_parenthesis::RULE,
+    &syntax::system_command_refused::RULE,
     &syntax::text_after_end_of_block::RULE,
     &syntax::unclosed_bracket::RULE,
     &syntax::unclosed_comment::RULE,

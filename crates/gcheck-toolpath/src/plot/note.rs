@@ -36,7 +36,7 @@ pub(super) fn place_words(file: &str, line: u32) -> String {
     if file.is_empty() { format!("line {line}") } else { format!("{file}, line {line}") }
 }
 
-/// Notes of what a run takes for granted, as many as people read.
+/// Notes of what a run assumes, as many as people read.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Assumed {
     first: Vec<Note>,
@@ -44,7 +44,7 @@ pub(super) struct Assumed {
     further: u64,
 }
 
-/// Notes of what a run takes for granted that are shown; the others are counted.
+/// Notes of what a run assumes that are shown; the others are counted.
 const MOST_ASSUMED: usize = 20;
 
 impl Assumed {

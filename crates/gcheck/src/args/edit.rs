@@ -212,7 +212,7 @@ pub struct EditTarget {
     /// The program; `-` reads standard input and writes standard output
     #[arg(value_name = "FILE")]
     pub file: PathBuf,
-    /// What standard input is called
+    /// The name of the program on standard input, for messages and for its settings
     #[arg(long, value_name = "PATH")]
     pub stdin_filename: Option<PathBuf>,
     /// Change the blocks of these lines only: `12-40` or `12`

@@ -52,16 +52,24 @@ pub(super) fn count(text: &str) -> Result<usize, String> {
     text.parse().map_err(|_| "write a whole number from 0".to_owned())
 }
 
-/// A number of blocks; `1e6` and `1_000_000` are one as well.
+/// How many files at a time: a whole number from 1.
+pub(super) fn jobs(text: &str) -> Result<usize, String> {
+    { text.parse().ok() }.filter(|jobs| *jobs > 0).ok_or_else(|| "write a whole number from 1".to_owned())
+}
+
+/// A number of blocks from 1; `1e6` and `1_000_000` are one as well.
 pub(super) fn fuel(text: &str) -> Result<u64, String> {
     let digits: String = text.chars().filter(|c| !matches!(c, '_' | ',')).collect();
-    if let Ok(blocks) = digits.parse() {
-        return Ok(blocks);
-    }
-    match digits.parse::<f64>() {
+    let blocks = digits.parse().ok().or_else(|| {
+        let blocks = digits.parse::<f64>().ok()?;
+        let is_whole = blocks.fract() == 0.0 && (0.0..=MOST_FUEL).contains(&blocks);
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the range is checked")]
-        Ok(blocks) if blocks.fract() == 0.0 && (0.0..=MOST_FUEL).contains(&blocks) => Ok(blocks as u64),
-        _ => Err("write a whole number of blocks, such as `1000000` or `1e6`".to_owned()),
+        is_whole.then_some(blocks as u64)
+    });
+    match blocks {
+        Some(0) => Err("nothing is executed with 0 blocks; write a whole number from 1".to_owned()),
+        Some(blocks) => Ok(blocks),
+        None => Err("write a whole number of blocks, such as `1000000` or `1e6`".to_owned()),
     }
 }
 

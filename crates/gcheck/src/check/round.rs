@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use gcheck_diagnostics::{RuleMeta, Severity};
 use gcheck_lint::Selection;
-use gcheck_report::{FileReport, Format, Report, StaleEntry, Summary};
+use gcheck_report::{FileReport, Format, PathBase, Report, StaleEntry, Summary};
 use gcheck_rules::RULES;
 use gcheck_syntax::SourceText;
 use rayon::prelude::*;
@@ -39,6 +39,8 @@ pub(super) struct Check<'o> {
     pub(super) options: &'o CheckOptions,
     wishes: RuleWishes,
     outputs: Outputs<'o>,
+    /// The folder of `--path-base`.
+    path_base: Option<PathBase>,
 }
 
 /// What a round read: when any of it changes, the next round may find something else.
@@ -77,7 +79,8 @@ impl<'o> Check<'o> {
                 return Err(Problem::new("standard input cannot be watched").help("name files or folders"));
             }
         }
-        Ok(Self { global, options, wishes, outputs: Outputs::new(options)? })
+        let path_base = options.path_base.as_deref().map(path_base::of_option).transpose()?;
+        Ok(Self { global, options, wishes, outputs: Outputs::new(options)?, path_base })
     }
 
     /// Checks everything once.
@@ -124,9 +127,11 @@ impl<'o> Check<'o> {
             .with_skipped(problems.iter().map(Problem::as_skipped).collect())
             .with_rules(RULES.iter().map(|rule| rule.meta));
         let fails_from = fails_from(&report.summary(), options);
-        let report = report
-            .with_path_base(path_base::of(options.path_base.as_deref()))
-            .failing(fails_from, options.fail_on_incomplete);
+        let base = match &self.path_base {
+            Some(base) => base.clone(),
+            None => path_base::of_files(report.paths().chain(report.skipped_paths()).map(Path::new)),
+        };
+        let report = report.with_path_base(base).failing(fails_from, options.fail_on_incomplete);
         let report = if options.show_all { report } else { report.folded() };
         write(global, options, &self.outputs, &report, &problems)?;
         if !global.quiet {

@@ -60,7 +60,7 @@ fn one(global: &Global, options: &DiffOptions) -> Result<u8, Problem> {
     let text = if options.output_format == DiffFormat::Json {
         let mut whole = compared.sides().json(&compared.differences);
         if let Some(whole) = whole.as_object_mut() {
-            whole.insert("assumptions".to_owned(), compared.taken_for_granted.clone().into());
+            whole.insert("assumptions".to_owned(), compared.assumed.clone().into());
         }
         to_text(&whole)?
     } else {
@@ -70,9 +70,9 @@ fn one(global: &Global, options: &DiffOptions) -> Result<u8, Problem> {
             }
         }
         let mut text = compared.sides().text(&compared.differences);
-        for taken in &compared.taken_for_granted {
-            text.push_str("taken for granted: ");
-            text.push_str(taken);
+        for assumed in &compared.assumed {
+            text.push_str("assumed: ");
+            text.push_str(assumed);
             text.push('\n');
         }
         text

@@ -2,11 +2,13 @@
 //!
 //! Knows: how an entry of the knowledge base and a rule's documentation read on a terminal. Must not know: any code or rule.
 
+use std::collections::BTreeSet;
 use std::fmt::Write as _;
 use std::sync::Arc;
 
 use gcheck_controls::{
-    Access, Code, CodeNumber, Confidence, Control, Letter, Variable, VariableEntry, WordEntry,
+    Access, AlarmEntry, Code, CodeNumber, Confidence, Control, Letter, SystemCommands, Variable,
+    VariableEntry, WordEntry,
 };
 use gcheck_diagnostics::RuleMeta;
 
@@ -31,6 +33,12 @@ pub(crate) fn run(global: &Global, options: &ExplainOptions) -> Result<u8, Probl
     }
     if let Some(variable) = subject.strip_prefix('#') {
         return explain_variable(global, variable.trim());
+    }
+    if subject.starts_with('$') {
+        return explain_command(global, subject);
+    }
+    if let Some(page) = answer(global, subject)? {
+        return output::print(&page);
     }
     if KEYWORDS.iter().any(|keyword| keyword.eq_ignore_ascii_case(code)) {
         let message = format!(
@@ -110,6 +118,78 @@ fn variable<'c>(control: &'c Control, number: Option<u32>, name: Option<&str>) -
         (Some(Variable::Unlisted), _) | (None, None) => None,
         (None, Some(name)) => control.named_parameter(name),
     }
+}
+
+/// A line for the control itself: `$32`, `$H`.
+fn explain_command(global: &Global, subject: &str) -> Result<u8, Problem> {
+    let written: String = subject.split_whitespace().collect::<String>().to_ascii_uppercase();
+    let name = written.split_once('=').map_or(written.as_str(), |(name, _)| name);
+    let number = name.strip_prefix('$').unwrap_or_default();
+    let chosen = chosen_control(global)?;
+    let reads = |control: &Arc<Control>| control.syntax().system_commands;
+    let controls: Vec<Arc<Control>> =
+        chosen.map_or_else(|| all_controls().filter(reads).collect(), |one| vec![one]);
+    let with = |control: &&Arc<Control>| reads(control) && control.setting(number).is_some();
+    let found: Vec<&Arc<Control>> = controls.iter().filter(with).collect();
+    if let Some(setting) = found.first().and_then(|control| control.setting(number)) {
+        let titles: Vec<&str> = found.iter().map(|control| control.title()).collect();
+        let default =
+            setting.default.as_ref().map(|value| format!("; {value} as delivered")).unwrap_or_default();
+        return output::print(&format!(
+            "{name}: {}\non {}\n\n{}\n\nvalues: {}{default}\n\nSource: {}{}\n",
+            setting.title,
+            titles.join(", "),
+            setting.changes,
+            setting.values.join(", "),
+            setting.source,
+            setting.confidence.remark(),
+        ));
+    }
+    let listed: Vec<&Arc<Control>> = controls
+        .iter()
+        .filter(|control| control.system_commands().is_some_and(|of| of.knows(name)))
+        .collect();
+    let Some(control) = listed.first() else {
+        return Err(Problem::new(format!("no control that gcheck knows lists `{name}`")));
+    };
+    output::print(&format!(
+        "{name}: a line for the control itself\non {}\n\nIt changes nothing that gcheck follows.\n",
+        control.title()
+    ))
+}
+
+/// What an answer of a control means (`error 22`, `PS0011`): its text, and the rules that report it.
+fn answer(global: &Global, subject: &str) -> Result<Option<String>, Problem> {
+    let chosen = chosen_control(global)?;
+    let controls: Vec<Arc<Control>> = chosen.map_or_else(|| all_controls().collect(), |one| vec![one]);
+    let is_it = |alarm: &&AlarmEntry| alarm.number.as_ref().is_some_and(|n| n.eq_ignore_ascii_case(subject));
+    let mut meanings: Vec<(String, &str)> = Vec::new();
+    let mut rules: BTreeSet<&str> = BTreeSet::new();
+    for control in &controls {
+        let of_rules = control.alarms_of_rules().filter(|(.., alarm)| is_it(alarm));
+        let of_rules: Vec<(&str, &AlarmEntry)> = of_rules.map(|(rule, _, alarm)| (rule, alarm)).collect();
+        rules.extend(of_rules.iter().map(|(rule, _)| *rule));
+        let of_codes = control.codes().flat_map(|code| &code.entry().alarms).filter(is_it);
+        let of_commands = control.system_commands().map(SystemCommands::alarms).into_iter().flatten();
+        let all =
+            of_rules.into_iter().map(|(_, alarm)| alarm).chain(of_codes).chain(of_commands.filter(is_it));
+        for alarm in all {
+            let meaning = (alarm.text.clone(), control.name());
+            if !meanings.contains(&meaning) {
+                meanings.push(meaning);
+            }
+        }
+    }
+    if meanings.is_empty() {
+        return Ok(None);
+    }
+    let table = by_meaning(meanings.iter().map(|(text, control)| (text.as_str(), *control)));
+    let mut page = format!("{}: an answer of the control\n\n{table}", subject.to_ascii_lowercase());
+    if !rules.is_empty() {
+        // Writing to a string cannot fail.
+        let _ = writeln!(page, "\nReported by {}.", rules.into_iter().collect::<Vec<_>>().join(", "));
+    }
+    Ok(Some(page))
 }
 
 /// A number without its letter: which codes there are of it.

@@ -89,10 +89,13 @@ fn with_names<R>(session: &Session<'_>, with: impl FnOnce(&Names<'_>) -> R) -> R
 
 fn text(session: &Session<'_>, ran: &RunResult, statistics: &Statistics) -> String {
     let mut text = with_names(session, |names| statistics.to_text(names));
-    let rests = Rests::new(session, ran).after(of_helices(session, statistics)).text();
-    if !rests.is_empty() {
+    let rests = Rests::new(session, ran).after(of_helices(session, statistics));
+    if statistics.assumed().is_empty() && !rests.described().is_empty() {
         text.push('\n');
-        text.push_str(&rests);
+        text.push_str(&rests.text());
+    } else {
+        // The list of what is assumed is the last one of the figures.
+        text.push_str(&rests.lines());
     }
     text
 }

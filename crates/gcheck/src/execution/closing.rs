@@ -151,12 +151,14 @@ impl Rests {
         &self.0
     }
 
-    /// As text for people: what, and the lines of gcheck.toml that would settle it. Empty where nothing is taken for granted.
+    /// As text for people: what, and the lines of gcheck.toml that would settle it. Empty where nothing is assumed.
     pub(crate) fn text(&self) -> String {
-        if self.0.is_empty() {
-            return String::new();
-        }
-        let mut out = String::from("taken for granted\n");
+        if self.0.is_empty() { String::new() } else { format!("assumed\n{}", self.lines()) }
+    }
+
+    /// The same without its heading, to be added to a list of what is assumed.
+    pub(crate) fn lines(&self) -> String {
+        let mut out = String::new();
         for StatedAssumption { text, .. } in &self.0 {
             // Writing to a string cannot fail.
             let _ = writeln!(out, "  {text}");

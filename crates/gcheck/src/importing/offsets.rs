@@ -299,7 +299,7 @@ fn take(
     for assumed in Rests::new(session, result).described() {
         // What no key can say matters to moves, and there are none.
         if let Some(pin) = &assumed.pin {
-            sheet.remarks.push(format!("taken for granted: {}; `{pin}` can say otherwise", assumed.text));
+            sheet.remarks.push(format!("assumed: {}; `{pin}` can say otherwise", assumed.text));
         }
     }
     if sheet.facts.is_empty() {

@@ -1051,3 +1051,27 @@ fn a_list_of_files_has_comments() {
     let run = shop.gcheck("check --files-from list.txt --control haas-mill --output-format concise -q");
     assert_eq!((run.code, run.rules()), (1, vec!["unknown-code".to_owned()]), "{run}");
 }
+
+#[test]
+fn nothing_is_done_by_no_threads_or_with_no_fuel() {
+    let shop = Shop::with(&[("good.nc", GOOD)]);
+    for (command, says) in [
+        ("check --jobs 0", "write a whole number from 1"),
+        ("check --jobs -1", "write a whole number from 1"),
+        ("fmt --jobs 0", "write a whole number from 1"),
+        ("check --fuel 0", "nothing is executed with 0 blocks"),
+        ("run good.nc --fuel 0", "nothing is executed with 0 blocks"),
+    ] {
+        let run = shop.gcheck(command);
+        assert!(run.code == 2 && run.stderr.contains(says), "{command}: {run}");
+    }
+    assert_eq!(shop.gcheck("check --jobs 1 --fuel 1").code, 0);
+}
+
+#[test]
+fn a_picture_with_the_name_of_a_program_is_not_one() {
+    let shop = Shop::new();
+    shop.file("x.nc", b"\x89PNG\r\n\x1A\n\0\0");
+    let run = shop.gcheck("check x.nc");
+    assert!(run.code == 2 && run.stderr.contains("x.nc: is not text, so it is not a part program"), "{run}");
+}

@@ -566,7 +566,7 @@ fn smoothing_contour_control_and_exact_stop_of_one_block_are_compared() {
           + b.nc:4  corners blended without a tolerance, smoothing level 3, smoothing within 0.002 inch   | G1 Z-1 F100
           the paths may differ at 4 corners, the first at X0 Y0 Z-0.0001 (a.nc:5): a program gives no tolerance, so the control decides by how much
         a.nc and b.nc move along the same path, within 0.001 mm, with differences
-        taken for granted: numbers without a decimal point count as the control usually reads them (Setting 162)
+        assumed: numbers without a decimal point count as the control usually reads them (Setting 162)
         exit 1
     "#]].assert_eq(&corners("haas-mill", &inches, ["G187 P1", "G187 P3 E0.002"]));
     expect![[r#"
@@ -575,7 +575,7 @@ fn smoothing_contour_control_and_exact_stop_of_one_block_are_compared() {
           + b.nc:4  corners blended without a tolerance, smoothing within 0.002 inch   | G1 Z-1 F100
           the paths may differ at 4 corners: by up to 0.00021 inch at X0 Y0 Z-0.0001 (a.nc:5)
         a.nc and b.nc move along the same path, within 0.001 mm, with differences
-        taken for granted: numbers without a decimal point count as the control usually reads them (Setting 162)
+        assumed: numbers without a decimal point count as the control usually reads them (Setting 162)
         exit 1
     "#]]
     .assert_eq(&corners("haas-mill", &inches, ["G187 E0.01", "G187 E0.002"]));
@@ -586,7 +586,7 @@ fn smoothing_contour_control_and_exact_stop_of_one_block_are_compared() {
           + b.nc:4  corners blended without a tolerance, contour control, level 10   | G1 Z-1 F100
           the paths may differ at 4 corners, the first at X0 Y0 Z-0.001 (a.nc:5): a program gives no tolerance, so the control decides by how much
         a.nc and b.nc move along the same path, within 0.001 mm, with differences
-        taken for granted: numbers without a decimal point count as the control usually reads them (parameter 3401#0)
+        assumed: numbers without a decimal point count as the control usually reads them (parameter 3401#0)
         exit 1
     "#]].assert_eq(&corners("fanuc-mill", &contour, ["G5.1 Q1 R1.", "G5.1 Q1 R10."]));
     let once = "G21 G90 G17 G94 G54\nG0 X0. Y0. Z5.\nG1 Z-1. F100.\n# X10. F500.\nY10.\nG0 Z5.\nM30\n";
@@ -637,10 +637,10 @@ fn a_setting_that_decides_how_numbers_count_is_named() {
         (
             0,
             "a.nc and b.nc make the machine do the same, within 0.001 mm\n\
-             taken for granted: numbers without a decimal point count as the control usually reads them (parameter 3401#0)\n"
+             assumed: numbers without a decimal point count as the control usually reads them (parameter 3401#0)\n"
         )
     );
     let json = diff(&point, &none, "--output-format json").json();
     assert_eq!(json["assumptions"].as_array().unwrap().len(), 1);
-    assert!(!diff(&point, &point, "").stdout.contains("taken for granted"));
+    assert!(!diff(&point, &point, "").stdout.contains("assumed"));
 }

@@ -56,6 +56,13 @@ fn programs_are_paired_by_path_content_number_and_name() {
         old/rib.nc new/O0003.nc program-number"#]]
     .assert_eq(&pairs.join("\n"));
     assert_eq!((run.code, &json["same"]), (0, &Value::from(4)), "{}", run.stdout);
+    // The text names the partner of a program that is not at the same path, where it names the program.
+    shop.file("new/O0003.nc", rib.replace("F100.", "F120."));
+    let run = diff(&shop, "");
+    let of =
+        |start: &str| run.stdout.lines().find(|line| line.starts_with(start)).unwrap_or_default().to_owned();
+    assert!(of("rib.nc").ends_with("  (with new/O0003.nc, by program number)"), "{}", run.stdout);
+    assert_eq!(of("pairs at"), "pairs at different paths: 1 by content, 1 by program number, 1 by name");
 }
 
 #[test]
@@ -201,7 +208,7 @@ fn what_could_not_be_compared_is_part_of_the_verdict_in_every_format() {
     "#]].assert_eq(&run.stdout);
     let run = diff(&shop, "--output-format github");
     expect![[r#"
-        ::notice title=gcheck (program-partly-compared),file=new/a.nc,line=1,endLine=1,col=1,endColumn=8::new/a.nc:1:1: program-partly-compared the same as far as known: some cutting moves start or end at unknown coordinates, which were not compared
+        ::notice title=gcheck (program-partly-compared),file=new/a.nc,line=1,endLine=1,col=1,endColumn=8::the same as far as known: some cutting moves start or end at unknown coordinates, which were not compared
     "#]].assert_eq(&run.stdout);
     let run = diff(&shop, "--output-format html");
     assert!(run.stdout.contains("the same as far as known: some cutting moves"), "{}", run.stdout);
@@ -256,6 +263,10 @@ fn mistakes_in_the_list_are_told_with_their_place() {
         ("[[accepted]]\nfile = \"[a\"\nreason = \"b\"\n", "`[a` is not a pattern"),
         ("[[accepted]]\nfile = \"a\"\ndifferences = [\"fed\"]\nreason = \"b\"\n", "unknown difference `fed`"),
         ("[[accepted]]\nfile = \"a\"\nuntil = 12:00:00\nreason = \"b\"\n", "`until` is a date"),
+        (
+            "[[accepted]]\nfile = \"a\"\nuntil = \"2020-01-01\"\nreason = \"b\"\n",
+            "write it without quotes: `until = 2027-06-30`",
+        ),
         ("[[accepted]]\nfiles = \"a\"\nreason = \"b\"\n", "unknown key `files`; did you mean `file`?"),
     ] {
         shop.file("list.toml", text);
@@ -320,8 +331,8 @@ fn ci_servers_get_their_formats() {
     "#]].assert_eq(&run.stdout);
     let run = diff(&shop, "--output-format github");
     expect![[r#"
-        ::error title=gcheck (program-added),file=new/more.nc,line=1,endLine=1,col=1,endColumn=1::new/more.nc:1:1: program-added the program is in the second folder only
-        ::error title=gcheck (program-differs),file=new/plate.nc,line=9,endLine=9,col=1,endColumn=5::new/plate.nc:9:1: program-differs differs: path%0A  note: tool section T1 changed: the paths part at X50 Y20 Z-1%0A  - old/plate.nc:10  to X50 Y20 Z50   | G0 Z50.%0A  + new/plate.nc:9  to X50 Y21 Z-1   | Y21.%0A  compared again from tool 2 on (old/plate.nc:11, new/plate.nc:11)%0Aold/plate.nc and new/plate.nc move differently; from there to the next tool change they are not compared
+        ::error title=gcheck (program-added),file=new/more.nc,line=1,endLine=1,col=1,endColumn=1::the program is in the second folder only
+        ::error title=gcheck (program-differs),file=new/plate.nc,line=9,endLine=9,col=1,endColumn=5::differs: path%0A  note: tool section T1 changed: the paths part at X50 Y20 Z-1%0A  - old/plate.nc:10  to X50 Y20 Z50   | G0 Z50.%0A  + new/plate.nc:9  to X50 Y21 Z-1   | Y21.%0A  compared again from tool 2 on (old/plate.nc:11, new/plate.nc:11)%0Aold/plate.nc and new/plate.nc move differently; from there to the next tool change they are not compared
     "#]].assert_eq(&run.stdout);
     assert_eq!(run.code, 1);
 }

@@ -57,7 +57,7 @@ fn changes(program: &str, control: &str, arguments: &str, expected: &Expect) {
             let _ = writeln!(out, "{:>2} {line}", index + 1);
         }
     }
-    let said = run.stderr.lines().take_while(|line| !line.starts_with("taken for granted"));
+    let said = run.stderr.lines().take_while(|line| !line.starts_with("assumed"));
     for line in said {
         let _ = writeln!(out, "! {line}");
     }

@@ -57,7 +57,7 @@ fn github() {
     let run =
         shop().gcheck("check jobs/part.nc --control haas-mill --select unknown-code --output-format github");
     expect![[r#"
-        ::error title=gcheck (unknown-code),file=jobs/part.nc,line=4,endLine=4,col=1,endColumn=5::jobs/part.nc:4:1: unknown-code unknown code `G999`%0A  note: Haas mill (classic control and NGC) has no `G999`  [HM17 p.243 to 356, Haas online manual; M codes of options may be missing]%0A  help: correct the code, or declare `G999` under `[codes]` if it is a code of your shop
+        ::error title=gcheck (unknown-code),file=jobs/part.nc,line=4,endLine=4,col=1,endColumn=5::unknown code `G999`%0A  note: Haas mill (classic control and NGC) has no `G999`  [HM17 p.243 to 356, Haas online manual; M codes of options may be missing]%0A  help: correct the code, or declare `G999` under `[codes]` if it is a code of your shop
         ! jobs/part.nc: control haas-mill, set by `--control`
         ! 1 error in 1 file (6 lines)
         ! the verdict assumes:
@@ -244,8 +244,41 @@ fn servers_get_paths_from_the_root_of_the_repository() {
         assert_eq!(named(&shop, "repo/sub", &[(variable, outer)], "w.nc"), ["repo/sub/w.nc"; 7]);
         assert_eq!(named(&shop, "repo/sub", &[(variable, elsewhere)], "w.nc"), ["sub/w.nc"; 7]);
     }
+    // It is the file that a repository holds, wherever gcheck runs.
+    for arguments in ["repo/sub/w.nc", "repo", "repo/../repo/sub/w.nc", absolute.to_str().unwrap()] {
+        assert_eq!(named(&shop, ".", &[], arguments), ["sub/w.nc"; 7], "{arguments}");
+        for variable in ["CI_PROJECT_DIR", "GITHUB_WORKSPACE"] {
+            let named = named(&shop, ".", &[(variable, root.to_str().unwrap())], arguments);
+            assert_eq!(named, ["sub/w.nc"; 7], "{arguments}");
+        }
+    }
     assert_eq!(named(&shop, "repo/sub", &[], "w.nc --path-base ."), ["w.nc"; 7]);
     assert_eq!(named(&shop, "repo/sub", &[], "w.nc --path-base ../.."), ["repo/sub/w.nc"; 7]);
+}
+
+#[test]
+fn each_file_is_named_from_its_own_repository() {
+    let shop = Shop::with(&[
+        ("a/.git/HEAD", ""),
+        ("a/sub/one.nc", WARNED),
+        ("a/vendored/.git", ""),
+        ("a/vendored/two.nc", WARNED),
+        ("loose/three.nc", WARNED),
+    ]);
+    let run = shop.gcheck("check --control haas-mill --quiet --output-format github");
+    let files: Vec<&str> = { run.stdout.lines() }
+        .map(|line| line.split("file=").nth(1).unwrap().split(',').next().unwrap())
+        .collect();
+    assert_eq!(files, ["sub/one.nc", "two.nc", "loose/three.nc"], "{run}");
+}
+
+#[test]
+fn a_path_base_that_is_not_a_folder_is_refused() {
+    let shop = Shop::with(&[("w.nc", WARNED)]);
+    for (base, says) in [("nowhere", "nowhere: does not exist"), ("w.nc", "w.nc: is not a folder")] {
+        let run = shop.gcheck(&format!("check w.nc --output-format github --path-base {base}"));
+        assert!(run.code == 2 && run.stderr.contains(says) && run.stdout.is_empty(), "{run}");
+    }
 }
 
 #[test]

@@ -79,6 +79,28 @@ fn a_code_without_a_control_has_a_line_for_each_meaning() {
 }
 
 #[test]
+fn an_answer_of_a_control_and_its_settings_are_explained() {
+    let shop = Shop::new();
+    let run = shop.gcheck_words(&["explain", "Error 22"]);
+    assert!(run.code == 0 && run.stdout.contains("  no feed rate has been set"), "{run}");
+    assert!(run.stdout.contains("Reported by ") && run.stdout.contains("feed-missing"), "{run}");
+    let run = shop.gcheck_words(&["explain", "error 16", "--control", "grbl"]);
+    assert!(run.stdout.contains("the jog command has a code that jogging does not take"), "{run}");
+    let run = shop.gcheck("explain $32=1");
+    assert!(
+        run.stdout.starts_with("$32: laser mode\non FluidNC, grbl 1.1, grblHAL\n")
+            && run.stdout.contains("0 as delivered"),
+        "{run}"
+    );
+    let run = shop.gcheck("explain $h");
+    assert!(run.stdout.starts_with("$H: a line for the control itself\n"), "{run}");
+    let run = shop.gcheck("explain $999 --control grbl");
+    assert!(run.code == 2 && run.stderr.contains("no control that gcheck knows lists `$999`"), "{run}");
+    let run = shop.gcheck_words(&["explain", "error 9999"]);
+    assert!(run.code == 2 && run.stderr.contains("neither a rule nor a code"), "{run}");
+}
+
+#[test]
 fn an_address_is_explained_and_a_bare_number_is_taken_for_a_code() {
     let shop = Shop::new();
     expect![[r#"

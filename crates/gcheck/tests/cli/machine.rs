@@ -561,7 +561,7 @@ fn values_of_offsets_are_at_their_blocks() {
             G54 = { X = -1.0, Y = -200.0, Z = 0.0 }  # from offsets.nc, run as a program of haas-mill
             [tools]
             1 = { length = 5.0, diameter = 12.0 }  # from offsets.nc, run as a program of haas-mill
-            ! offsets.nc: taken for granted: setting 40 (tool offset measure) is `diameter`, as usual; `[settings] 40 = "diameter"` can say otherwise
+            ! offsets.nc: assumed: setting 40 (tool offset measure) is `diameter`, as usual; `[settings] 40 = "diameter"` can say otherwise
             ! kept: offsets.G54.X is -1.0 in gcheck.toml, and offsets.nc:4 says -400.0 (`--overwrite` takes the imported one)
             ! kept: tools.1.length is 5.0 in gcheck.toml, and offsets.nc:5 says 120.5 (`--overwrite` takes the imported one)
             exit 0
@@ -1864,7 +1864,7 @@ fn an_offset_that_is_not_known_as_a_whole_is_listed_and_not_written() {
         ! offsets.nc:4: not used: G54, G55 (line 5): the file does not say X, and in `gcheck.toml` an axis that is left out is zero
         ! offsets.nc:9: not used: G10 L14: gcheck does not read this kind of `G10`
         ! offsets.nc:10: not used: G10 L10: the block names no value that gcheck reads (`R`)
-        ! offsets.nc: taken for granted: setting 40 (tool offset measure) is `diameter`, as usual; `[settings] 40 = "diameter"` can say otherwise
+        ! offsets.nc: assumed: setting 40 (tool offset measure) is `diameter`, as usual; `[settings] 40 = "diameter"` can say otherwise
         exit 0
         # Configuration of gcheck for the programs in this folder and below.
         control = "haas-mill"  # from --control
@@ -1895,7 +1895,7 @@ fn what_an_unknown_number_of_an_offset_overwrites_is_listed() {
         ! offsets.nc:5: not used: the length of tool 1: it is not known at the end of the program
         ! offsets.nc:6: not used: P#500, P#501 (line 7): its value is not known when the program starts
         ! offsets.nc:6: not used: G54: the file does not say X, Y and Z, and in `gcheck.toml` an axis that is left out is zero
-        ! offsets.nc: taken for granted: setting 40 (tool offset measure) is `diameter`, as usual; `[settings] 40 = "diameter"` can say otherwise
+        ! offsets.nc: assumed: setting 40 (tool offset measure) is `diameter`, as usual; `[settings] 40 = "diameter"` can say otherwise
         exit 0
         # Configuration of gcheck for the programs in this folder and below.
         control = "haas-mill"  # from --control

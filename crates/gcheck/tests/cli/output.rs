@@ -450,3 +450,20 @@ fn two_outputs_do_not_meet_through_links() {
     }
     assert_eq!((shop.read("part.nc"), shop.read("real.txt")), (BAD.into(), String::new()));
 }
+
+#[test]
+fn a_folder_of_files_that_are_not_read_gets_another_next_step_than_a_baseline() {
+    let shop = Shop::with(&[("good.nc", GOOD)]);
+    let printed = ";FLAVOR:Marlin\nM104 S200\nM109 S200\nG28\nG92 E0\nG1 X10 Y10 E0.5 F1200\nM84\n";
+    for number in 0..120 {
+        shop.file(&format!("{number}.gcode"), printed);
+    }
+    let run = shop.gcheck("check --quiet --no-cache --summary");
+    assert!(run.stdout.contains("0.gcode"), "{run}");
+    let run = shop.gcheck("check --no-cache");
+    let says = "120 of 121 files are for controls that gcheck does not read: leave them out with `exclude` under `[files]`";
+    assert!(run.stdout.contains(says) && !run.stdout.contains("old programs"), "{run}");
+    assert!(
+        run.stdout.contains("begin with the counts: `--statistics` has them by rule, `--summary` by file")
+    );
+}

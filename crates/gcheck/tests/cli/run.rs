@@ -107,7 +107,7 @@ fn csv_has_a_heading() {
 }
 
 #[test]
-fn the_control_and_what_is_taken_for_granted_are_said_beside_the_moves() {
+fn the_control_and_what_is_assumed_are_said_beside_the_moves() {
     let shop = Shop::with(&[("part.nc", "%\nO1\nG21\nT1 M6\nG0 G54 X1.\nM1\n/X2.\nM30\n%\n")]);
     let run = shop.gcheck("run part.nc --control haas-mill");
     expect![[r#"
@@ -120,7 +120,7 @@ fn the_control_and_what_is_taken_for_granted_are_said_beside_the_moves() {
               8  spindle                                                        stop
               8  end
         ! part.nc: control haas-mill, set by `--control`
-        ! taken for granted
+        ! assumed
         !   setting 17 (optional stop lockout) is `off`, as usual
         !   the positions of the axes at the start are not known
         !   the work offset G54 is not known
@@ -639,7 +639,7 @@ fn what_a_run_cannot_read_a_check_reports() {
 
 /// A setting that decides what a program means is listed where the program needs it and its value is not given.
 #[test]
-fn a_setting_that_counts_is_taken_for_granted_where_it_is_used() {
+fn a_setting_that_counts_is_assumed_where_it_is_used() {
     let told = |blocks: &str, arguments: &str| {
         let program =
             format!("%\nO1\nG21 G90 G54\nT1 M6\nS1000 M3\nG0 X0 Y0\nG43 H1 Z5.\n{blocks}\nM30\n%\n");

@@ -78,6 +78,13 @@ impl Shop {
         self.gcheck_reading(arguments, b"")
     }
 
+    /// Runs gcheck with arguments that may hold blanks.
+    pub(crate) fn gcheck_words(&self, arguments: &[&str]) -> Run {
+        let mut command = self.command();
+        command.args(arguments);
+        self.finish(&mut command, b"")
+    }
+
     /// The same with something on standard input.
     pub(crate) fn gcheck_reading(&self, arguments: &str, input: &[u8]) -> Run {
         let mut command = self.command();

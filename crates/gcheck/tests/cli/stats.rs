@@ -66,8 +66,6 @@ fn figures_close_with_what_they_rest_on() {
           rapid moves at 25400 mm/min on every axis (set machine.rapid)
           5 s for a tool change (set machine.tool_change_seconds)
           axes and spindle reach their speed at once: real times are longer (set machine.acceleration)
-
-        taken for granted
           setting 28 (canned cycle act without X/Y) is `on`, as usual
           the positions of the axes at the start are not known
           the work offset G54 is not known
@@ -113,8 +111,6 @@ fn a_machine_file_leaves_little_to_assume() {
 
         assumed
           axes and spindle reach their speed at once: real times are longer (set machine.acceleration)
-
-        taken for granted
           setting 28 (canned cycle act without X/Y) is `on`, as usual
           the positions of the axes at the start are not known
           in effect at the start, as at power-on: G0 G80 G17 G90 G94 G40 G49 G98 G54 G64 G50 G69 G100 G255
@@ -463,7 +459,7 @@ fn several_programs_are_a_table() {
     expect![[r#"
         program    control    time min  cutting min  tools  changes  cut mm  X                Y                Z
         a/part.nc  haas-mill  0:46.5    0:37.2       2      2        100     0.000 to 50.000  0.000 to 10.000  -10.000 to 25.000
-        b.nc       haas-mill  0:00.0    0:00.0       1      0        0       -                -                -
+        b.nc       haas-mill  0:00.0    0:00.0       0      0        0       -                -                -
         2 programs, 0:46.5 min in all (lower bound); extents are of what is cut, in mm
     "#]].assert_eq(&run.stdout);
     assert_eq!(run.code, 2, "{}", run.stderr);
@@ -471,12 +467,49 @@ fn several_programs_are_a_table() {
     expect![[r#"
         file,control,ended,seconds,times,cutting_seconds,tools,tool_changes,cutting_mm,rapid_mm,x_from_mm,x_to_mm,y_from_mm,y_to_mm,z_from_mm,z_to_mm,problem
         a/part.nc,haas-mill,program-end,46.524,lower-bound,37.200,2,2,100.000,662.192,0.000,50.000,0.000,10.000,-10.000,25.000,
-        b.nc,haas-mill,fault,0.000,lower-bound,0.000,1,0,0.000,0.000,,,,,,,the end point is not on the circle of the start point
+        b.nc,haas-mill,fault,0.000,lower-bound,0.000,0,0,0.000,0.000,,,,,,,the end point is not on the circle of the start point
     "#]].assert_eq(&run.stdout.replace("\r\n", "\n"));
     let run = shop.gcheck("stats -q a --output-format json");
     let json: serde_json::Value = serde_json::from_str(&run.stdout).unwrap();
     assert_eq!((run.code, &json["programs"][0]["file"]), (0, &"a/part.nc".into()), "{json}");
     assert!(json["seconds"].as_f64().is_some_and(|seconds| seconds > 1.0));
+}
+
+#[test]
+fn what_is_done_before_the_first_tool_is_not_a_tool() {
+    let program = "%\nO1\nG28 U0 W0\nG50 S2500\nT0101\nG96 S200 M3\nG0 X50. Z2.\nG1 Z-20. F0.12\nM30\n%\n";
+    let shop = Shop::with(&[("a/part.nc", program)]);
+    let stats = |arguments: &str| shop.gcheck(&format!("stats -q --control fanuc-lathe {arguments}"));
+    let text = stats("a/part.nc").stdout;
+    assert!(text.contains("\nT1 ") && !text.contains("T?") && !text.contains("total"), "{text}");
+    // Its moves are missing in the figures all the same.
+    assert!(text.contains("3 moves from or to an unknown point"), "{text}");
+    let json = stats("a/part.nc --output-format json").json();
+    assert_eq!(
+        (json["tools"].as_array().unwrap().len(), &json["tools"][0]["tool"]),
+        (1, &1.into()),
+        "{json:#}"
+    );
+    let table = stats("a").stdout;
+    assert!(table.contains("  1      1        22  "), "{table}");
+    let csv = stats("a --output-format csv").stdout;
+    assert!(csv.contains(",1,1,22.000,"), "{csv}");
+    // A program that calls no tool has one that is not known.
+    let shop = Shop::with(&[("part.nc", "G21 G90 G0 X0 Y0\nG1 X10 F100\nM30\n")]);
+    let csv = shop.gcheck("stats -q --control linuxcnc --output-format csv part.nc").stdout;
+    assert!(csv.contains(",1,0,10.000,"), "{csv}");
+}
+
+#[test]
+fn a_table_is_in_millimetres_whatever_its_programs_are_in() {
+    let program = |units| format!("%\nO1\n{units} G90 G54\nT1 M6\nG0 X0. Y0.\nG1 X10. F10.\nM30\n%\n");
+    let shop = Shop::with(&[("inch.nc", &program("G20")), ("mm.nc", &program("G21"))]);
+    let run = shop.gcheck("stats -q --control haas-mill inch.nc mm.nc");
+    let of = |name: &str| run.stdout.lines().find(|line| line.starts_with(name)).unwrap().to_owned();
+    assert!(of("inch.nc").contains(" 254     0.000 to 254.000 "), "{run}");
+    assert!(of("mm.nc").contains(" 10      0.000 to 10.000 "), "{run}");
+    let csv = shop.gcheck("stats -q --control haas-mill --output-format csv inch.nc").stdout;
+    assert!(csv.contains(",254.000,0.000,0.000,254.000,"), "{csv}");
 }
 
 #[test]

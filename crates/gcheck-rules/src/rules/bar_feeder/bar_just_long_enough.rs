@@ -30,6 +30,9 @@ declare_rule! {
     /// G105 J90. K12. I90.
     /// M99
     /// ```
+    /// ## How to fix it
+    /// * Make the clamping length (`K`) a little smaller or larger, so that the last part is either made or not.
+    /// * If the bars are not exactly as long as `bar_length` says, correct `bar_length` in the machine file.
     rule "bar-just-long-enough" in "bar_feeder" {
         summary: "bar that ends at exactly a part and its clamping",
         severity: Info,

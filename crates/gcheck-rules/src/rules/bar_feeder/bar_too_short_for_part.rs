@@ -30,6 +30,10 @@ declare_rule! {
     /// G105 J98. K60. I100.
     /// M99
     /// ```
+    /// ## How to fix it
+    /// * Look for a decimal point or a digit in the part length (`J`), the clamping length (`K`) and the initial push
+    ///   (`I`).
+    /// * If the bars are longer, correct `bar_length` in the machine file.
     rule "bar-too-short-for-part" in "bar_feeder" {
         summary: "part and clamping longer than a new bar",
         severity: Error,

@@ -31,6 +31,9 @@ declare_rule! {
     /// G105 J300. K60. I310.
     /// M99
     /// ```
+    /// ## How to fix it
+    /// * Push a new bar by less (`I`): as far as the face of the first part needs.
+    /// * Or correct the part length (`J`), the clamping length (`K`), or `bar_length` of the machine file.
     rule "bar-without-second-part" in "bar_feeder" {
         summary: "rest of a new bar too short for another part",
         severity: Warning,

@@ -35,6 +35,8 @@ declare_rule! {
     /// G0 X3.
     /// M99
     /// ```
+    /// ## How to fix it
+    /// * End the cutoff program with `M99` in place of `M30` or of nothing.
     rule "cutoff-program-without-return" in "bar_feeder" {
         summary: "cutoff program in another file without a return",
         severity: Warning,

@@ -70,6 +70,12 @@ declare_rule! {
     /// END1
     /// M30
     /// ```
+    /// ## How to fix it
+    /// * If the limit for executed blocks was reached, allow more with `--fuel BLOCKS`.
+    /// * If the limit for paths or for turns of a loop was reached, say what the program cannot: give a variable its
+    ///   value with `--set '#500=1'`, or a switch its position with `--block-skip on`.
+    /// * Check a long subprogram as a program of its own.
+    /// * In a pipeline, `--fail-on-incomplete` makes it count.
     rule "analysis-incomplete" in "flow" {
         summary: "analysis that stopped at a limit",
         severity: Info,

@@ -43,6 +43,10 @@ declare_rule! {
     /// G113
     /// M30
     /// ```
+    /// ## How to fix it
+    /// * If the program is for another machine, post it for this one.
+    /// * If the machine has the axis, add it to `[machine] axes` in `gcheck.toml`.
+    /// * If the rotary axis has another letter on this machine, correct the word.
     rule "axis-not-on-machine" in "machine" {
         summary: "move of an axis that the machine does not have",
         severity: Error,

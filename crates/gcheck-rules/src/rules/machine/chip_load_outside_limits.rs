@@ -38,6 +38,9 @@ declare_rule! {
     /// G1 X50. F600.
     /// M30
     /// ```
+    /// ## How to fix it
+    /// * Correct `F` or `S`: the chip load is the feed a minute, divided by the speed and by the number of teeth.
+    /// * If the tool may cut so much, correct its `chip_load` or `teeth` under `[tools]`.
     rule "chip-load-outside-limits" in "machine" {
         summary: "chip load outside the tool's range",
         severity: Warning,

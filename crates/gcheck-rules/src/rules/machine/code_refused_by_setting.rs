@@ -20,6 +20,9 @@ declare_rule! {
     /// ```nc,quiet,haas-mill
     /// G1 X1. F10.
     /// ```
+    /// ## How to fix it
+    /// * Change the setting on the control before the program runs, and in `[settings]` of `gcheck.toml`.
+    /// * Or take the code out of the program.
     rule "code-refused-by-setting" in "machine" {
         summary: "code that cannot be used with a setting of the control",
         severity: Warning,

@@ -24,6 +24,9 @@ declare_rule! {
     /// M5
     /// M30
     /// ```
+    /// ## How to fix it
+    /// * Remove the coolant code.
+    /// * Or set the setting to normal on the control and in `[settings]` of `gcheck.toml`.
     rule "coolant-locked" in "machine" {
         summary: "coolant code that a setting refuses",
         severity: Error,

@@ -22,6 +22,9 @@ declare_rule! {
     /// ```nc,quiet,haas-mill
     /// G107 Y0. A0. Q2.5
     /// ```
+    /// ## How to fix it
+    /// * Name the rotary axis that the machine has.
+    /// * If the machine has the axis, add it to `[machine] axes` in `gcheck.toml`.
     rule "cylinder-axis-not-on-machine" in "machine" {
         summary: "cylinder on an axis that the machine does not have",
         severity: Error,

@@ -26,6 +26,9 @@ declare_rule! {
     /// G1 Y1. F10.
     /// M30
     /// ```
+    /// ## How to fix it
+    /// * Give the diameter with `Q`, or the radius with `R`, in the block that begins the mapping.
+    /// * Or give the setting the diameter of the part, on the control and in `[settings]` of `gcheck.toml`.
     rule "cylinder-without-diameter" in "machine" {
         summary: "cylinder with a diameter of zero",
         severity: Warning,

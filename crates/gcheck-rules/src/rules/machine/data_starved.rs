@@ -39,6 +39,10 @@ declare_rule! {
     /// X0.4
     /// M30
     /// ```
+    /// ## How to fix it
+    /// * Post longer segments: a wider tolerance in CAM, or arcs in place of short lines.
+    /// * Or lower the feed.
+    /// * If the control prepares blocks faster, correct `block_time` or `look_ahead` under `[machine]`.
     rule "data-starved" in "machine" {
         summary: "segments come faster than the control prepares blocks",
         severity: Info,

@@ -33,6 +33,9 @@ declare_rule! {
     /// G94 G1 X10. F8000.
     /// M30
     /// ```
+    /// ## How to fix it
+    /// * Lower the feed; first look for a missing decimal point, and for a feed in millimetres in an inch program.
+    /// * If the machine is faster, correct `max_feed` under `[machine]`.
     rule "feed-above-machine-limit" in "machine" {
         summary: "feed above the machine's limit",
         severity: Warning,

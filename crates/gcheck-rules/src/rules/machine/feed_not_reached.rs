@@ -39,6 +39,9 @@ declare_rule! {
     /// G2 X10.5 Y-.5 R.5
     /// M30
     /// ```
+    /// ## How to fix it
+    /// * Lower the feed to what the axes reach, or leave it and reckon with the longer time.
+    /// * If the machine is faster, correct `rapid`, `rotary_rapid` or `acceleration` under `[machine]`.
     rule "feed-not-reached" in "machine" {
         summary: "the axes stay far below the feed",
         severity: Hint,

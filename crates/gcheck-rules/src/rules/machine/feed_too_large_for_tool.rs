@@ -45,6 +45,10 @@ declare_rule! {
     /// G1 X80. F600.
     /// M30
     /// ```
+    /// ## How to fix it
+    /// * Look for a zero too many in `F`, or too few in `S`.
+    /// * If the cutter is made for it, call it a high-feed cutter in its comment, or suppress the finding with that
+    ///   reason.
     rule "feed-too-large-for-tool" in "machine" {
         summary: "more feed for each turn than the diameter of the cutter bears",
         severity: Warning,

@@ -31,6 +31,9 @@ declare_rule! {
     /// G49
     /// M30
     /// ```
+    /// ## How to fix it
+    /// * Compensate with `G43` on this machine.
+    /// * If two rotary axes tilt the tool, correct `axes` and `rotary` under `[machine]`.
     rule "five-axis-length-on-another-machine" in "machine" {
         summary: "5-axis tool length compensation on a machine without a tilting head",
         severity: Error,

@@ -36,6 +36,10 @@ declare_rule! {
     /// G3 I15. Z-2. F400.
     /// M30
     /// ```
+    /// ## How to fix it
+    /// * Look for a zero too many in `Z`.
+    /// * Or give the helix more turns, each by less than the cutter may go down.
+    /// * If the diameter of the tool is wrong, correct it under `[tools]`.
     rule "helix-steeper-than-tool" in "machine" {
         summary: "helix that is steeper than its tool is wide",
         severity: Warning,

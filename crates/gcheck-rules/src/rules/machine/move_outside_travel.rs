@@ -35,6 +35,10 @@ declare_rule! {
     /// G21 G90 G55 G0 X600. Y0.
     /// M30
     /// ```
+    /// ## How to fix it
+    /// * Check the work offset and the tool length in `gcheck.toml`: a sign or a digit there moves everything.
+    /// * If they are right, move the part on the table, or turn it.
+    /// * If the axis goes further, correct `travel` under `[machine]`.
     rule "move-outside-travel" in "machine" {
         summary: "move beyond the configured travel",
         severity: Error,

@@ -51,6 +51,10 @@ declare_rule! {
     /// X0.
     /// M99
     /// ```
+    /// ## How to fix it
+    /// * Take a smaller tool.
+    /// * Or give the inside arc a radius that is larger than that of the tool.
+    /// * If the diameter of the tool is wrong, correct it under `[tools]`.
     rule "pocket-arc-below-tool" in "machine" {
         summary: "pocket with an inside arc smaller than its tool",
         severity: Error,

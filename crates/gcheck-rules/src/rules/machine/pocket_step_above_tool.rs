@@ -30,6 +30,9 @@ declare_rule! {
     /// G40 X0. Y0.
     /// M30
     /// ```
+    /// ## How to fix it
+    /// * Step by less than the diameter of the tool (`I`, `J`), usually by half to three quarters of it.
+    /// * If the diameter of the tool is wrong, correct it under `[tools]`.
     rule "pocket-step-above-tool" in "machine" {
         summary: "pocket with strokes further apart than its tool is wide",
         severity: Warning,

@@ -36,6 +36,9 @@ declare_rule! {
     /// G96 S9000 M3
     /// M30
     /// ```
+    /// ## How to fix it
+    /// * Lower the speed, or the limit under constant surface speed, to what spindle, chuck and part may turn.
+    /// * If the spindle turns faster, correct `max_rpm` under `[machine]`.
     rule "speed-above-machine-limit" in "machine" {
         summary: "spindle speed above the machine's limit",
         severity: Warning,

@@ -61,6 +61,9 @@ declare_rule! {
     /// G1 X50. F600.
     /// M30
     /// ```
+    /// ## How to fix it
+    /// * Change `S` so that the edge runs within the range: the finding gives the value.
+    /// * If the tool may run so, correct `surface_speed` or `diameter` under `[tools]`.
     rule "surface-speed-outside-limits" in "machine" {
         summary: "surface speed outside the tool's range",
         severity: Warning,

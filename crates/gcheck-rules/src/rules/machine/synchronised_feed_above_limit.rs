@@ -51,6 +51,10 @@ declare_rule! {
     /// G95 G1 X100. F.4
     /// M30
     /// ```
+    /// ## How to fix it
+    /// * Turn slower: the finding gives the highest speed at which the axes follow.
+    /// * Look for a feed per minute after a code for a feed per turn.
+    /// * If the machine is faster, correct `max_feed` or `rapid` under `[machine]`.
     rule "synchronised-feed-above-limit" in "machine" {
         summary: "thread, tap or feed per turn above what the axes reach",
         severity: Warning,

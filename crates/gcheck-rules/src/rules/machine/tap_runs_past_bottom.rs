@@ -36,6 +36,10 @@ declare_rule! {
     /// G33.1 Z-20 K1
     /// M2
     /// ```
+    /// ## How to fix it
+    /// * Tap slower: the finding gives the speed from which the spindle stops in time.
+    /// * Or end the thread higher, by what the tap goes on.
+    /// * If the spindle is faster, correct `spindle_acceleration` under `[machine]`.
     rule "tap-runs-past-bottom" in "machine" {
         summary: "tap runs far past its bottom",
         severity: Warning,

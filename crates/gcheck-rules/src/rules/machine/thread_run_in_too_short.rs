@@ -39,6 +39,10 @@ declare_rule! {
     /// G33 Z-20 K2
     /// M2
     /// ```
+    /// ## How to fix it
+    /// * Begin the thread further away from the face.
+    /// * Or turn slower: the finding gives the highest speed for this way.
+    /// * If the axes are faster, correct `acceleration` under `[machine]`.
     rule "thread-run-in-too-short" in "machine" {
         summary: "thread begins before the axis has its speed",
         severity: Warning,

@@ -27,6 +27,9 @@ declare_rule! {
     /// G43 H2
     /// M2
     /// ```
+    /// ## How to fix it
+    /// * Correct the number of the tool or of the offset.
+    /// * If the machine has the tool, add it to the table that the configuration names, or under `[tools]`.
     rule "tool-not-in-table" in "machine" {
         summary: "tool or offset not in the tool table",
         severity: Error,

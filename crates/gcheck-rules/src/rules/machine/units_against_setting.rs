@@ -20,6 +20,9 @@ declare_rule! {
     /// ```nc,quiet,haas-mill
     /// G20
     /// ```
+    /// ## How to fix it
+    /// * Write the program in the unit of the setting.
+    /// * Or change the setting on the control before the program runs, and in `[settings]` of `gcheck.toml`.
     rule "units-against-setting" in "machine" {
         summary: "unit that the control's setting refuses",
         severity: Error,

@@ -31,6 +31,9 @@ declare_rule! {
     /// G0 X2.
     /// M30
     /// ```
+    /// ## How to fix it
+    /// * Correct the work offset.
+    /// * If the program means it, list it in `[offsets]` of `gcheck.toml`: then its travel is checked too.
     rule "work-offset-not-listed" in "machine" {
         summary: "cut in a work offset that the configuration does not list",
         severity: Info,

@@ -80,7 +80,12 @@ impl Accepted {
             Problem::with_file(path, "is not a list of accepted differences: it is not UTF-8")
         })?;
         let read: Text = toml::from_str(&text).map_err(|error| {
-            Problem::at(&name, &text, &error.span().unwrap_or(0..0), in_words(error.message()))
+            let range = error.span().unwrap_or(0..0);
+            if error.message().contains("datetime") {
+                return Problem::at(&name, &text, &range, "`until` is a date".to_owned())
+                    .help("write it without quotes: `until = 2027-06-30`");
+            }
+            Problem::at(&name, &text, &range, in_words(error.message()))
         })?;
         let entries = read.accepted.into_iter().map(|entry| Entry::new(entry, &name, &text, kinds));
         Ok(Self { entries: entries.collect::<Result<_, _>>()?, name })

@@ -84,9 +84,9 @@ fn written(all: &Outcomes, format: Format) -> Result<String, Problem> {
         let text = text_of(&alone.file);
         report_of(paths::shown_from_here(&alone.file), text, None, vec![Finding::new(rule, 0..0, message)])
     });
-    let report = Report::new(pairs.chain(alone).collect())
-        .with_path_base(path_base::of(None))
-        .with_passed("makes the machine do the same");
+    let report = Report::new(pairs.chain(alone).collect());
+    let base = path_base::of_files(report.paths().map(Path::new));
+    let report = report.with_path_base(base).with_passed("makes the machine do the same");
     let mut out = Vec::new();
     gcheck_report::write(&report, format, output::colour(crate::args::When::Never), &mut out)
         .map_err(|error| Problem::new(format!("cannot write the report: {error}")))?;

@@ -257,8 +257,9 @@ impl Outcomes {
             let digest = outcome.name_of_differences().map(|digest| format!("  [digest {digest}]"));
             let digest = digest.unwrap_or_default();
             let told = format!("{}  {}", outcome.pair.name, outcome.words());
+            let with = outcome.pair.partner().map(|with| format!("  (with {with})")).unwrap_or_default();
             // Writing to a string cannot fail.
-            let _ = writeln!(out, "{}{digest}", one_line(&told));
+            let _ = writeln!(out, "{}{digest}{}", one_line(&told), one_line(&with));
             if outcome.verdict != Verdict::Accepted {
                 for line in outcome.text.lines() {
                     let _ = writeln!(out, "    {line}");
@@ -277,7 +278,20 @@ impl Outcomes {
         }
         out.push_str(&self.summary());
         out.push('\n');
+        out.push_str(&self.other_pairs());
         gcheck_report::harmless(&out).into_owned()
+    }
+
+    /// How many pairs are not programs at the same path, and by what they were found.
+    fn other_pairs(&self) -> String {
+        let count = |by: By| self.pairs.iter().filter(|outcome| outcome.pair.by == by).count();
+        let counts = [By::Content, By::Number, By::Name].map(|by| (count(by), by.words()));
+        let counts: Vec<String> =
+            counts.iter().filter(|(n, _)| *n > 0).map(|(n, words)| format!("{n} by {words}")).collect();
+        match counts.as_slice() {
+            [] => String::new(),
+            counts => format!("pairs at different paths: {}\n", counts.join(", ")),
+        }
     }
 
     fn json(&self) -> Json {

@@ -46,6 +46,23 @@ impl By {
             Self::Name => "name",
         }
     }
+
+    /// Its name for people.
+    pub(super) const fn words(self) -> &'static str {
+        match self {
+            Self::Number => "program number",
+            _ => self.name(),
+        }
+    }
+}
+
+impl Pair {
+    /// The second program and why it belongs to the first, for people; `None` where that is what they expect.
+    pub(super) fn partner(&self) -> Option<String> {
+        let [_, partner] = &self.files;
+        let is_expected = matches!(self.by, By::Command | By::Path);
+        (!is_expected).then(|| format!("{}, by {}", paths::shown(partner), self.by.words()))
+    }
 }
 
 /// The programs of two folders.

@@ -39,7 +39,7 @@ pub(super) struct Compared {
     /// Which control reads each, in words.
     pub(super) controls: [String; 2],
     /// How numbers count that say it themselves in no program: what the verdict rests on.
-    pub(super) taken_for_granted: Vec<String>,
+    pub(super) assumed: Vec<String>,
     units: Units,
     /// Millimetres.
     tolerance: f64,
@@ -116,7 +116,7 @@ pub(super) fn both(
     Ok(Compared {
         left_out: if is_whole { left_out::not_compared(&left_out) } else { Vec::new() },
         faults,
-        taken_for_granted: {
+        assumed: {
             let mut all: Vec<String> = [ran_a.rests, ran_b.rests].into_iter().flatten().collect();
             all.dedup();
             all

@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::thread;
 
+use gcheck_engine::Units;
 use gcheck_geometry::Seconds;
 use gcheck_toolpath::{clock, counts_in_hours, csv_cell};
 use rayon::prelude::*;
@@ -101,10 +102,21 @@ impl Row {
         figures.and_then(|figures| figures.pointer(pointer)?.as_str()).unwrap_or_default()
     }
 
-    /// The lowest and the highest coordinate of what is cut.
+    /// The lowest and the highest coordinate of what is cut, in millimetres.
     fn extent(&self, axis: &str) -> Option<[f64; 2]> {
         let bounds = self.figures.as_ref().ok()?.pointer("/total/extents/cutting")?.get(axis)?;
-        Some([bounds.get(0)?.as_f64()?, bounds.get(1)?.as_f64()?])
+        Some([bounds.get(0)?.as_f64()? * self.in_mm(), bounds.get(1)?.as_f64()? * self.in_mm()])
+    }
+
+    /// The way of moves of a kind, in millimetres.
+    fn distance(&self, kind: &str) -> Option<f64> {
+        Some(self.number(&["total", "distance", kind])? * self.in_mm())
+    }
+
+    /// The unit of the program's figures: one table has programs in inches and in millimetres.
+    fn in_mm(&self) -> f64 {
+        let units = if self.word("/units") == "inch" { Units::Inch } else { Units::Mm };
+        units.in_mm()
     }
 
     fn seconds(&self) -> Option<f64> {
@@ -119,8 +131,12 @@ impl Row {
     /// Tools that work, each once.
     fn tools(&self) -> Option<usize> {
         let tools = self.figures.as_ref().ok()?.get("tools")?.as_array()?;
-        let mut numbers: Vec<&Value> = tools.iter().filter_map(|tool| tool.get("tool")).collect();
-        numbers.sort_by_key(|number| number.as_u64());
+        let cuts = |tool: &Value| tool.pointer("/distance/cutting").and_then(Value::as_f64) > Some(0.0);
+        // Before the first tool change there may be none in the spindle, or one of which nothing is known.
+        let works = |tool: &&Value| tool.get("tool").and_then(Value::as_u64) > Some(0) || cuts(tool);
+        let mut numbers: Vec<Option<u64>> =
+            tools.iter().filter(works).map(|tool| tool.get("tool").and_then(Value::as_u64)).collect();
+        numbers.sort_unstable();
         numbers.dedup();
         Some(numbers.len())
     }
@@ -153,7 +169,7 @@ fn text(rows: &[Row]) -> String {
         cells.push(time(row.number(&["total", "seconds", "cutting"])));
         cells.push(row.tools().map_or_else(|| "?".to_owned(), |count| count.to_string()));
         cells.push(whole(row.number(&["total", "tool_changes"])));
-        cells.push(whole(row.number(&["total", "distance", "cutting"])));
+        cells.push(whole(row.distance("cutting")));
         cells.extend(AXES.map(|axis| {
             row.extent(axis).map_or_else(|| "-".to_owned(), |[low, high]| format!("{low:.3} to {high:.3}"))
         }));
@@ -200,8 +216,8 @@ fn csv(rows: &[Row]) -> String {
             number(row.number(&["total", "seconds", "cutting"])),
             row.tools().map_or_else(String::new, |count| count.to_string()),
             row.number(&["total", "tool_changes"]).map_or_else(String::new, |count| format!("{count:.0}")),
-            number(row.number(&["total", "distance", "cutting"])),
-            number(row.number(&["total", "distance", "rapid"])),
+            number(row.distance("cutting")),
+            number(row.distance("rapid")),
         ];
         cells.extend(ends.map(number));
         cells.push(if problem.is_empty() { fault } else { problem }.to_owned());
