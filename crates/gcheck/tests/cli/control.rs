@@ -75,6 +75,42 @@ fn by_detection() {
     assert!(because.contains("VF-2"), "{because}");
 }
 
+/// Five digits after `O` are the custom of one builder, and alone a weak sign.
+const WEAK: &str = "%\nO00012\nG0 X1.\nGOTO 99\nM30\n%\n";
+
+#[test]
+fn by_a_guess() {
+    let said = "guessed from a program number of five digits: no finding is above a warning";
+    check_control(WEAK, "", "", "haas-mill", "guessed", said);
+    let severity = |program: &str| {
+        let shop = Shop::with(&[("part.nc", program)]);
+        let found = shop.gcheck("check --output-format json").json();
+        let findings = found["findings"].as_array().unwrap().iter();
+        let mut jumps = findings.filter(|finding| finding["rule"] == "jump-target-missing");
+        jumps.next().unwrap()["severity"].as_str().unwrap().to_owned()
+    };
+    assert_eq!(severity(WEAK), "warning");
+    assert_eq!(severity(&WEAK.replace("O00012", "O00012 (VF-2)")), "error");
+}
+
+#[test]
+fn by_its_neighbours() {
+    let shop = Shop::with(&[("part.nc", NEUTRAL), ("fanuc.nc", "(FANUC 31I)\nG0 X1.\nM30\n")]);
+    for name in ["a.nc", "b.nc", "c.nc"] {
+        shop.file(name, DETECTED);
+    }
+    let said = |name: &str| {
+        shop.gcheck(&format!("check {name}")).stderr.lines().next().unwrap_or_default().to_owned()
+    };
+    assert_eq!(said("part.nc"), "part.nc: control generic-mill, by default", "one beside it names another");
+    assert!(said("fanuc.nc").starts_with("fanuc.nc: control fanuc-mill, guessed from (FANUC 31I)"));
+    shop.file("fanuc.nc", NEUTRAL);
+    assert_eq!(
+        said("part.nc"),
+        "part.nc: control haas-mill, guessed from its neighbours (3 of 4 show it): no finding is above a warning"
+    );
+}
+
 #[test]
 fn by_default() {
     check_control(NEUTRAL, "", "", "generic-mill", "default", "by default");
