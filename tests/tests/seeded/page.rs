@@ -13,8 +13,8 @@ use crate::table::{Row, Table};
 pub(crate) struct Others {
     /// Lines about the whole: what was run, when, and remarks.
     about: Vec<String>,
-    /// In the order of the columns, each with the controls whose programs it was given.
-    tools: Vec<(String, Vec<String>)>,
+    /// In the order of the columns.
+    tools: Vec<String>,
     /// By tool and kind: how many were given, how many of them said something.
     rows: BTreeMap<(String, String), (usize, usize)>,
 }
@@ -25,9 +25,8 @@ impl Others {
         for line in text.lines() {
             match line.split('\t').collect::<Vec<_>>()[..] {
                 ["about", words] => others.about.push(words.to_owned()),
-                ["tool", name, words, controls] => {
-                    let controls = controls.split(',').map(str::to_owned).collect();
-                    others.tools.push((name.to_owned(), controls));
+                ["tool", name, words] => {
+                    others.tools.push(name.to_owned());
                     others.about.push(format!("*{name}*: {words}"));
                 }
                 ["count", tool, kind, given, found] => {
@@ -62,15 +61,6 @@ Places are drawn by hashing names, so that every run makes the same mistakes.
 Rules were fixed after the first results: the shares hold for these mistakes, and promise less for others.
 ";
 
-const COMPARED: &str = "
-Each checker was given the programs of the controls that it knows.
-gcheck is held to more on the same mistakes: a rule that names the mistake must report beside it.
-But it was tuned with them, and the others were not; how much it finds of what it was not tuned with is [above](#at-first-sight).
-
-| checker | mistakes in our programs that it says something about | gcheck, by default, on the same mistakes |
-|---|---|---|
-";
-
 /// The whole page.
 pub(crate) fn write(ours: &Table, corpus: &Table, others: &Others) -> String {
     let mut page = HEAD.to_owned();
@@ -91,17 +81,16 @@ pub(crate) fn write(ours: &Table, corpus: &Table, others: &Others) -> String {
     for line in &others.about {
         let _ = writeln!(page, "* {line}");
     }
-    page.push_str(COMPARED);
-    for (tool, controls) in &others.tools {
+    page.push_str("\n| checker | mistakes in our programs that it says something about |\n|---|---|\n");
+    let Row { made, found, .. } = ours.total();
+    let _ = writeln!(page, "| gcheck, by default | {} |", share(made, found));
+    for tool in &others.tools {
         let (given, found) = others.total(tool);
-        let Row { made, found: by_us, .. } = ours.of_controls(controls);
-        // After a change of the kinds these are other mistakes, until the checkers run again.
-        let by_us = if made == given { share(made, by_us) } else { String::new() };
-        let _ = writeln!(page, "| {tool} | {} | {by_us} |", share(given, found));
+        let _ = writeln!(page, "| {tool} | {} |", share(given, found));
     }
     for (title, kinds) in kinds::CHAPTERS {
         let _ = write!(page, "\n## {title}\n\n| mistake | result | found by | ours | corpus |");
-        let columns: String = others.tools.iter().map(|(tool, _)| format!(" {tool} |")).collect();
+        let columns: String = others.tools.iter().map(|tool| format!(" {tool} |")).collect();
         let _ = writeln!(page, "{columns}");
         let _ = writeln!(page, "|---|---|---|---|---|{}", "---|".repeat(others.tools.len()));
         for kind in *kinds {
@@ -127,7 +116,7 @@ pub(crate) fn write(ours: &Table, corpus: &Table, others: &Others) -> String {
                 cell(ours.of(kind.id)),
                 cell(corpus.of(kind.id))
             );
-            for (tool, _) in &others.tools {
+            for tool in &others.tools {
                 let count = others.rows.get(&(tool.clone(), kind.id.to_owned())).copied();
                 let _ = write!(page, " {} |", other(count));
             }

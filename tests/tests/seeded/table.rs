@@ -22,8 +22,6 @@ pub(crate) struct Row {
 #[derive(Default)]
 pub(crate) struct Table {
     rows: BTreeMap<String, Row>,
-    /// Not in the file.
-    by_control: BTreeMap<String, Row>,
 }
 
 impl Table {
@@ -31,13 +29,10 @@ impl Table {
     pub(crate) fn count(cases: &[Case], found: &[bool], strictly: &[bool]) -> Self {
         let mut table = Self::default();
         for (case, (found, strictly)) in cases.iter().zip(found.iter().zip(strictly)) {
-            let of_kind = table.rows.entry(case.kind.id.to_owned()).or_default();
-            let of_control = table.by_control.entry(case.control.clone()).or_default();
-            for row in [of_kind, of_control] {
-                row.made += 1;
-                row.found += usize::from(*found);
-                row.strictly += usize::from(*strictly);
-            }
+            let row = table.rows.entry(case.kind.id.to_owned()).or_default();
+            row.made += 1;
+            row.found += usize::from(*found);
+            row.strictly += usize::from(*strictly);
         }
         table
     }
@@ -48,12 +43,11 @@ impl Table {
 
     /// Of all kinds together.
     pub(crate) fn total(&self) -> Row {
-        sum(self.rows.values())
-    }
-
-    /// Of the programs for these controls.
-    pub(crate) fn of_controls(&self, controls: &[String]) -> Row {
-        sum(controls.iter().filter_map(|control| self.by_control.get(control)))
+        self.rows.values().fold(Row::default(), |sum, row| Row {
+            made: sum.made + row.made,
+            found: sum.found + row.found,
+            strictly: sum.strictly + row.strictly,
+        })
     }
 
     /// As a file, in the order of the kinds.
@@ -79,12 +73,4 @@ impl Table {
         }
         table
     }
-}
-
-fn sum<'r>(rows: impl Iterator<Item = &'r Row>) -> Row {
-    rows.fold(Row::default(), |sum, row| Row {
-        made: sum.made + row.made,
-        found: sum.found + row.found,
-        strictly: sum.strictly + row.strictly,
-    })
 }

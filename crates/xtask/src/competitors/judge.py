@@ -1,7 +1,7 @@
 """Runs other checkers on the seeded mistakes; called by `cargo xtask competitors`.
 
-Takes the folder of the cases. Prints the rows of tests/competitors.tsv: `tool`, name, what it is, the controls whose programs
-it is given; `count`, tool, kind, given, found.
+Takes the folder of the cases. Prints the rows of tests/competitors.tsv: `tool`, name, what it is; `count`, tool, kind, given,
+found.
 
 A mistake counts as found by a checker when it says anything, anywhere in the program, that it does not say about the program
 without the mistake: numbers in a message (lines, values) do not make it another one. That is more than gcheck is given.
@@ -187,7 +187,7 @@ def main():
             given, hits = counts.get(row[2], (0, 0))
             counts[row[2]] = (given + 1, hits + hit)
         quiet = f"{false_alarms} messages about {noisy} of the {len(clean)} programs without a mistake"
-        print(f"tool\t{name}\t{about.format(its_version)}; {quiet}\t{','.join(controls)}")
+        print(f"tool\t{name}\t{about.format(its_version)}; {quiet}")
         for kind, (given, hits) in counts.items():
             print(f"count\t{name}\t{kind}\t{given}\t{hits}")
         sys.stdout.flush()
