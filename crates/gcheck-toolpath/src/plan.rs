@@ -368,7 +368,15 @@ fn moved<T: Copy>(
     }
     let upright = tracker.is_upright();
     let turned = |position: &Position| if upright { *position } else { tracker.turned(position) };
-    let [from, to] = [turned(&motion.from), turned(&motion.to)].map(|position| point(&position));
+    let [from, mut to] = [turned(&motion.from), turned(&motion.to)].map(|position| point(&position));
+    for (slot, (before, way)) in
+        to.iter_mut().zip(motion.from.values().into_iter().zip(motion.way_known.values()))
+    {
+        // From a place that is not known, which is at zero here.
+        if before.is_nan() && !way.is_nan() {
+            *slot = *way;
+        }
+    }
     let arc = motion.arc.filter(|arc| arc.is_known() && arc.rise().is_known() && tracker.still().is_none());
     let whole = Move { drive, from, to, arc: None, asked, tag };
     let Some(arc) = arc else { return each(Item::Move(whole)) };
