@@ -23,6 +23,9 @@ pub struct MotionRules {
     /// Seconds: stretches that take less are run with one even change of speed. 0 for none.
     #[serde(default)]
     pub even_below: f64,
+    /// Seconds: no stretch is run in less. 0 for no such limit.
+    #[serde(default)]
+    pub shortest: f64,
     /// How it taps.
     pub taps: TapRules,
     /// When it waits for the spindle.
@@ -66,10 +69,17 @@ pub enum CornerRules {
         /// the corner: of the side before it, and of the side after it.
         #[serde(default)]
         curve_shares: [f64; 2],
+        /// Degrees: a corner of two arcs that counts as a sharper one is not rounded. Without it every corner is.
+        #[serde(default)]
+        sharpest_between_arcs: Option<f64>,
         /// The part of the acceleration that turns the path on arcs.
         across: f64,
         /// The part that is left along an arc where `across` is used up.
         along: f64,
+        /// Once both ends of an arc are known, what they leave of the acceleration is divided anew between turning and
+        /// running along, and a helix counts as the wider the more it rises.
+        #[serde(default)]
+        divides: bool,
         /// Corners are passed without rounding where the axes' speeds change by no more than this part of what their
         /// acceleration changes in a cycle.
         unrounded: f64,

@@ -371,12 +371,14 @@ impl Problems<'_> {
             }
         };
         within("even-below", motion.even_below, 0.0..=1.0);
+        within("shortest", motion.shortest, 0.0..=1.0);
         within("halt-time", motion.halt_time, 0.0..=1.0);
         for corners in [Some(&motion.corners), motion.contour.as_ref()].into_iter().flatten() {
             match corners {
                 CornerRules::Rounded {
                     tolerance,
                     part_of_length,
+                    sharpest_between_arcs,
                     across,
                     along,
                     unrounded,
@@ -386,6 +388,7 @@ impl Problems<'_> {
                 } => {
                     within("tolerance", tolerance.unwrap_or(1.0), 1e-4..=100.0);
                     within("part-of-length", *part_of_length, 0.0..=0.5);
+                    within("sharpest-between-arcs", sharpest_between_arcs.unwrap_or(180.0), 0.0..=180.0);
                     within("across", *across, 0.01..=1.0);
                     within("along", *along, 0.01..=1.0);
                     within("unrounded", *unrounded, 0.0..=0.9);

@@ -108,7 +108,7 @@ impl<'c> Folds<'c> {
                 Some(deed(Kind::Dwell(seconds.0), [f64::NAN; 3], [f64::NAN; 3]))
             }
             // The codes that a block may have are looked at in its words.
-            Event::FeedRate(_) | Event::Modal(_) => return,
+            Event::FeedRate(_) | Event::Modal(_) | Event::KnownWay(_) => return,
             _ => None,
         };
         match deed {

@@ -18,6 +18,9 @@ use crate::position::Position;
 pub enum Event {
     /// A straight move.
     Travel(Travel),
+    /// How far the axes of the next move go, where that is known and their places are not: millimetres and degrees, NaN for
+    /// all other axes.
+    KnownWay(Position),
     /// A circular or helical move.
     Arc(ArcMove),
     /// A curve that is neither: its parameters as the program gives them, and its end.
@@ -228,7 +231,9 @@ impl Event {
             | (Self::SpindleSpeed(a), Self::SpindleSpeed(b))
             | (Self::Rotation(a), Self::Rotation(b)) => a.covers(b),
             (Self::SpindleMode(a), Self::SpindleMode(b)) => a.covers(b),
-            (Self::Shift(a), Self::Shift(b)) | (Self::LengthOffset(a), Self::LengthOffset(b)) => a.covers(b),
+            (Self::Shift(a), Self::Shift(b))
+            | (Self::LengthOffset(a), Self::LengthOffset(b))
+            | (Self::KnownWay(a), Self::KnownWay(b)) => a.covers(b),
             (
                 Self::WorkOffset { number, offset, rotation },
                 Self::WorkOffset { number: inner_number, offset: inner_offset, rotation: inner_rotation },

@@ -311,6 +311,11 @@ impl<D: Domain> State<D> {
         &self.tool.length
     }
 
+    /// Is cutter compensation on along a path that nobody knows: the cutter's size or where it began is not known?
+    pub fn is_beside_by_unknown(&self) -> bool {
+        self.compensation.is_unknown_path()
+    }
+
     /// Shifts by the tool between the programmed point and the axes.
     pub fn tool_shift(&self) -> &ToolShift {
         &self.tool_shift

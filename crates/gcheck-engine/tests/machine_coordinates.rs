@@ -9,7 +9,7 @@ use gcheck_engine::{
     Axis, Concrete, Machine, Model, NoLibrary, Observer, Options, Origin, Position, Program, State, Tool,
     WorkOffset, run,
 };
-use gcheck_geometry::{Arrangement, Kinematics, Mm, RotaryAxis};
+use gcheck_geometry::{Arrangement, Direction, Kinematics, Mm, RotaryAxis};
 use gcheck_program::{Dialect, Loaded};
 
 /// Work and machine coordinates after each block of the text.
@@ -51,6 +51,7 @@ fn rotary(arrangement: Arrangement, order: [RotaryAxis; 2]) -> Machine {
         arrangement,
         order,
         sign: [1.0; 2],
+        inclined: [None; 2],
         pivot_length: Some(Mm(200.0)),
         offset: [Mm(0.0); 3],
     };
@@ -236,6 +237,26 @@ fn a_head_leans_back_from_the_tip() {
             B90. | X0 Y0 Z0 B90 C0 | X180 Y-50 Z-400 B90 C0
             C90. | X0 Y0 Z0 B90 C90 | X-100 Y230 Z-400 B90 C90
             G49 | X0 Y280 Z-200 B90 C90 | X-100 Y230 Z-400 B90 C90"#]],
+    );
+}
+
+/// A nutating head: B turns about the line between Y and Z, so that half a turn lays the tool along Y.
+#[test]
+fn a_nutating_head_lays_the_tool_along_y() {
+    let mut machine = rotary(Arrangement::HeadHead, [RotaryAxis::C, RotaryAxis::B]);
+    if let Some(kinematics) = &mut machine.kinematics {
+        kinematics.inclined = [None, Direction::of([0.0, 1.0, 1.0])];
+    }
+    check_on(
+        machine,
+        "fanuc-mill",
+        "XYZBC",
+        "G0 G90 G54 X0. Y0. Z0. A0 B0. C0.\nG43.4 H1 Z0.\nB180.\nC90.",
+        &expect![[r#"
+            G0 G90 G54 X0. Y0. Z0. A0 B0. C0. | X0 Y0 Z0 B0 C0 | X-100 Y-50 Z-200 B0 C0
+            G43.4 H1 Z0. | X0 Y0 Z0 B0 C0 | X-100 Y-50 Z-120 B0 C0
+            B180. | X0 Y0 Z0 B180 C0 | X-100 Y230 Z-400 B180 C0
+            C90. | X0 Y0 Z0 B180 C90 | X-380 Y-50 Z-400 B180 C90"#]],
     );
 }
 

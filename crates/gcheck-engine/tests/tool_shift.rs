@@ -56,6 +56,7 @@ fn head(first: RotaryAxis, second: RotaryAxis) -> Kinematics {
         arrangement: Arrangement::HeadHead,
         order: [first, second],
         sign: [1.0; 2],
+        inclined: [None; 2],
         pivot_length: None,
         offset: [Mm(0.0); 3],
     }

@@ -1,11 +1,12 @@
 //! Machines with two rotary axes: where the tool points, and where the part turns.
 //!
-//! Knows three arrangements of two rotary axes. Must not know which code compensates for a tilted tool.
+//! Knows three arrangements of two rotary axes, along linear axes or inclined. Must not know which code compensates for a
+//! tilted tool.
 //!
 //! All directions are in the machine's linear axes. At zero angles the tool points along +Z, from its tip to the
 //! spindle, and the part lies as it was clamped.
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix3, UnitVector3, Vector3};
 
 use crate::frame::Frame;
 use crate::plane::Plane;
@@ -42,6 +43,44 @@ impl RotaryAxis {
     }
 }
 
+/// The direction of a line, of length 1.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Direction(UnitVector3<f64>);
+
+impl Direction {
+    /// Shorter vectors have no direction to speak of.
+    const SHORTEST: f64 = 1e-6;
+
+    /// The direction of a vector of any length, by its parts along X, Y and Z; none of a vector of no length, or of one that
+    /// is not finite.
+    pub fn of(parts: [f64; 3]) -> Option<Self> {
+        let vector = Vector3::from(parts);
+        vector.iter().all(|part| part.is_finite()).then_some(())?;
+        // Divided by its largest part first, so that the squares of very long ones are finite.
+        let largest = vector.amax();
+        (largest >= Self::SHORTEST).then(|| Self(UnitVector3::new_normalize(vector / largest)))
+    }
+
+    /// Do both lie along one line, either way?
+    pub fn is_parallel_to(self, other: Self) -> bool {
+        self.0.cross(&other.0).norm() < 1e-6
+    }
+
+    pub(crate) fn vector(self) -> Vector3<f64> {
+        self.0.into_inner()
+    }
+}
+
+impl From<RotaryAxis> for Direction {
+    fn from(axis: RotaryAxis) -> Self {
+        Self(match axis {
+            RotaryAxis::A => Vector3::x_axis(),
+            RotaryAxis::B => Vector3::y_axis(),
+            RotaryAxis::C => Vector3::z_axis(),
+        })
+    }
+}
+
 /// Who carries the two rotary axes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Arrangement {
@@ -64,6 +103,9 @@ pub struct Kinematics {
     /// +1 where a positive angle turns as [`RotaryAxis`] says, -1 where it turns the other way, in the order of `order`.
     /// A table that follows the convention "axes move as if the tool moved" has -1.
     pub sign: [f64; 2],
+    /// The line that each axis turns about, in the order of `order` and at zero angles, counter-clockwise seen against its
+    /// direction; none for the linear axis of its name.
+    pub inclined: [Option<Direction>; 2],
     /// From the point about which the head tilts to the gauge line of the spindle; none where it is not known.
     pub pivot_length: Option<Mm>,
     /// Where both turn the same side: from a point on the first axis to a point on the second, at zero angles. Zero where
@@ -167,19 +209,29 @@ impl Kinematics {
     }
 
     fn first(&self, angles: [Degrees; 3]) -> Matrix3<f64> {
-        let ([axis, _], [sign, _]) = (self.order, self.sign);
-        rotation(axis, sign, angles)
+        let ([axis, _], [sign, _], [line, _]) = (self.order, self.sign, self.inclined);
+        rotation(axis, line, sign, angles)
     }
 
     fn second(&self, angles: [Degrees; 3]) -> Matrix3<f64> {
-        let ([_, axis], [_, sign]) = (self.order, self.sign);
-        rotation(axis, sign, angles)
+        let ([_, axis], [_, sign], [_, line]) = (self.order, self.sign, self.inclined);
+        rotation(axis, line, sign, angles)
     }
 }
 
-fn rotation(axis: RotaryAxis, sign: f64, angles: [Degrees; 3]) -> Matrix3<f64> {
-    let angle = angles.get(axis.index()).copied().unwrap_or(Degrees::UNKNOWN);
-    *Frame::rotation(axis.plane(), (Mm::ZERO, Mm::ZERO), angle * sign).linear()
+fn rotation(axis: RotaryAxis, line: Option<Direction>, sign: f64, angles: [Degrees; 3]) -> Matrix3<f64> {
+    let angle = angles.get(axis.index()).copied().unwrap_or(Degrees::UNKNOWN) * sign;
+    match line {
+        None => *Frame::rotation(axis.plane(), (Mm::ZERO, Mm::ZERO), angle).linear(),
+        Some(line) => turned_about(line, angle),
+    }
+}
+
+/// A turn about a line: what lies along it stays, what is square to it turns.
+pub(crate) fn turned_about(line: Direction, angle: Degrees) -> Matrix3<f64> {
+    let (sin, cos) = angle.sin_cos();
+    let line = line.vector();
+    Matrix3::identity() * cos + line.cross_matrix() * sin + line * line.transpose() * (1.0 - cos)
 }
 
 /// A part of a length; of an unknown length along an axis the tool does not lean to it is nothing.
@@ -196,7 +248,14 @@ mod tests {
     const ORIGIN: [Mm; 3] = [Mm(0.0); 3];
 
     fn machine(arrangement: Arrangement, order: [RotaryAxis; 2]) -> Kinematics {
-        Kinematics { arrangement, order, sign: [1.0, 1.0], pivot_length: None, offset: ORIGIN }
+        Kinematics {
+            arrangement,
+            order,
+            sign: [1.0, 1.0],
+            inclined: [None; 2],
+            pivot_length: None,
+            offset: ORIGIN,
+        }
     }
 
     fn angles(a: f64, b: f64, c: f64) -> [Degrees; 3] {

@@ -22,7 +22,7 @@ pub use arc::{Arc, ArcDirection, ArcError, ArcTolerance, sweep_about};
 pub use bounds::{Bounds, MAX_AXES};
 pub use compensation::*;
 pub use frame::Frame;
-pub use kinematics::{Arrangement, Kinematics, RotaryAxis};
+pub use kinematics::{Arrangement, Direction, Kinematics, RotaryAxis};
 pub use nurbs::{Bezier, ControlPoint, CurveArc, Nurbs, NurbsError};
 pub use plane::Plane;
 pub use units::{Degrees, MM_PER_INCH, Mm, MmPerMin, MmPerRev, Rpm, Seconds};

@@ -3,7 +3,9 @@
 //! Knows: origin and directions of the plane, machines with two rotary axes. Must not know: how a program gives a plane, which
 //! code swings the tool.
 
-use nalgebra::{Matrix3, Vector3};
+use std::f64::consts::{PI, TAU};
+
+use nalgebra::Vector3;
 
 use crate::frame::Frame;
 use crate::kinematics::{Arrangement, Kinematics, RotaryAxis};
@@ -26,25 +28,20 @@ impl Kinematics {
     /// the tool lies. Empty where no angles do it.
     pub fn square_to(&self, direction: Vector3<f64>, from: [Degrees; 3]) -> Vec<[Degrees; 3]> {
         let ([first, second], [first_sign, second_sign]) = (self.order, self.sign);
+        let lines = [(first, self.inclined[0]), (second, self.inclined[1])]
+            .map(|(axis, line)| line.unwrap_or_else(|| axis.into()).vector());
         // The direction is that of Z, turned about `inner` and then about `outer`; turning the part is turning the tool back.
-        let ((outer, outer_sign), (inner, inner_sign)) = match self.arrangement {
-            Arrangement::HeadHead => ((first, first_sign), (second, second_sign)),
-            Arrangement::TableTable => ((second, -second_sign), (first, -first_sign)),
-            Arrangement::HeadTable => ((second, -second_sign), (first, first_sign)),
+        let (head_first, head_second) = ((first, first_sign, lines[0]), (second, second_sign, lines[1]));
+        let (table_first, table_second) = ((first, -first_sign, lines[0]), (second, -second_sign, lines[1]));
+        let ((outer, outer_sign, about_outer), (inner, inner_sign, about_inner)) = match self.arrangement {
+            Arrangement::HeadHead => (head_first, head_second),
+            Arrangement::TableTable => (table_second, table_first),
+            Arrangement::HeadTable => (table_second, head_first),
         };
-        let about_outer = axis(outer);
-        let along = direction.dot(&about_outer);
-        let tilts = match (inner, outer) {
-            (RotaryAxis::C, _) => vec![0.0],
-            (_, RotaryAxis::C) => both(along.clamp(-1.0, 1.0).acos(), |angle| -angle),
-            (RotaryAxis::B, _) => both(along.clamp(-1.0, 1.0).asin(), |angle| std::f64::consts::PI - angle),
-            (RotaryAxis::A, _) => {
-                both((-along).clamp(-1.0, 1.0).asin(), |angle| std::f64::consts::PI - angle)
-            }
-        };
+        let tilts = tilts(&about_inner, &about_outer, direction.dot(&about_outer));
         let mut all = Vec::new();
         for tilt in tilts {
-            let tilted = turn(inner, tilt) * Vector3::z();
+            let tilted = turned(&about_inner, tilt);
             let flat = |vector: Vector3<f64>| vector - about_outer * vector.dot(&about_outer);
             let (start, end) = (flat(tilted), flat(direction));
             let mut angles = from;
@@ -61,9 +58,41 @@ impl Kinematics {
     }
 }
 
-fn both(angle: f64, other: impl Fn(f64) -> f64) -> Vec<f64> {
-    let second = other(angle);
-    if (second - angle).abs() < 1e-12 { vec![angle] } else { vec![angle, second] }
+/// The angles, in radians, by which Z is turned about `inner` so that its part along `outer` is `along`: of two the smaller
+/// first. One where the turn changes nothing of it.
+fn tilts(inner: &Vector3<f64>, outer: &Vector3<f64>, along: f64) -> Vec<f64> {
+    let z = Vector3::z();
+    // What a turn leaves of Z along `outer`, what of it goes with the cosine of the angle, and what with the sine.
+    let still = z.dot(inner) * inner.dot(outer);
+    let (with_cos, with_sin) = (z.dot(outer) - still, inner.cross(&z).dot(outer));
+    let most = with_cos.hypot(with_sin);
+    if most < ALONG {
+        return vec![0.0];
+    }
+    let (middle, away) = (with_sin.atan2(with_cos), ((along - still) / most).clamp(-1.0, 1.0).acos());
+    let within = |angle: f64| {
+        if angle > PI {
+            angle - TAU
+        } else if angle <= -PI {
+            angle + TAU
+        } else {
+            angle
+        }
+    };
+    let (one, other) = (within(middle + away), within(middle - away));
+    if (one - other).abs() < 1e-12 {
+        vec![one]
+    } else if other.abs() < one.abs() - 1e-12 {
+        vec![other, one]
+    } else {
+        vec![one, other]
+    }
+}
+
+/// Z, turned about a line by an angle in radians.
+fn turned(about: &Vector3<f64>, angle: f64) -> Vector3<f64> {
+    let ((sin, cos), z) = (angle.sin_cos(), Vector3::z());
+    z * cos + about.cross(&z) * sin + about * (about.dot(&z) * (1.0 - cos))
 }
 
 /// Puts the angle of an axis as near to the one before as whole turns allow.
@@ -74,23 +103,12 @@ fn put(angles: &mut [Degrees; 3], axis: RotaryAxis, angle: f64) {
     }
 }
 
-fn axis(axis: RotaryAxis) -> Vector3<f64> {
-    match axis {
-        RotaryAxis::A => Vector3::x(),
-        RotaryAxis::B => Vector3::y(),
-        RotaryAxis::C => Vector3::z(),
-    }
-}
-
-fn turn(axis: RotaryAxis, angle: f64) -> Matrix3<f64> {
-    *Frame::rotation(axis.plane(), (Mm::ZERO, Mm::ZERO), Degrees(angle.to_degrees())).linear()
-}
-
 #[cfg(test)]
 mod tests {
     use proptest::prelude::*;
 
     use super::*;
+    use crate::kinematics::Direction;
 
     #[test]
     fn three_turns_lay_the_plane() {
@@ -110,6 +128,7 @@ mod tests {
             arrangement: Arrangement::TableTable,
             order: [RotaryAxis::A, RotaryAxis::C],
             sign: [1.0; 2],
+            inclined: [None; 2],
             pivot_length: None,
             offset: [Mm::ZERO; 3],
         };
@@ -125,10 +144,18 @@ mod tests {
             at in prop::array::uniform3(-170.0..170.0_f64), first in 0..3_usize, step in 1..3_usize,
             arrangement in prop::sample::select(vec![Arrangement::HeadHead, Arrangement::TableTable, Arrangement::HeadTable]),
             signs in prop::array::uniform2(prop::sample::select(vec![1.0, -1.0])),
+            lines in prop::array::uniform2(prop::option::of(prop::array::uniform3(-1.0..1.0_f64))),
         ) {
             let axes = [RotaryAxis::A, RotaryAxis::B, RotaryAxis::C];
             let order = [axes[first], axes[(first + step) % 3]];
-            let machine = Kinematics { arrangement, order, sign: signs, pivot_length: None, offset: [Mm::ZERO; 3] };
+            let machine = Kinematics {
+                arrangement,
+                order,
+                sign: signs,
+                inclined: lines.map(|line| line.and_then(Direction::of)),
+                pivot_length: None,
+                offset: [Mm::ZERO; 3],
+            };
             let direction = machine.tool_axis_in_part(at.map(Degrees));
             let ways = machine.square_to(direction, [Degrees(0.0); 3]);
             prop_assert!(!ways.is_empty(), "{machine:?} {at:?}");

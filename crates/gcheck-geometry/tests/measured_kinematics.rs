@@ -13,6 +13,7 @@ fn machine(name: &str) -> (Kinematics, [Mm; 3]) {
         arrangement: Arrangement::TableTable,
         order,
         sign: [1.0, 1.0],
+        inclined: [None; 2],
         pivot_length: None,
         offset,
     };
@@ -31,6 +32,7 @@ fn machine(name: &str) -> (Kinematics, [Mm; 3]) {
                 arrangement: Arrangement::HeadHead,
                 order: [RotaryAxis::C, RotaryAxis::B],
                 sign: [1.0, -1.0],
+                inclined: [None; 2],
                 pivot_length: Some(Mm(250.0)),
                 offset: [Mm::ZERO; 3],
             },
@@ -41,6 +43,7 @@ fn machine(name: &str) -> (Kinematics, [Mm; 3]) {
                 arrangement: Arrangement::HeadTable,
                 order: [RotaryAxis::B, RotaryAxis::C],
                 sign: [-1.0, -1.0],
+                inclined: [None; 2],
                 pivot_length: Some(Mm(180.0)),
                 offset: [Mm::ZERO; 3],
             },

@@ -416,6 +416,7 @@ mod tests {
             arrangement: Arrangement::TableTable,
             order: [RotaryAxis::A, RotaryAxis::C],
             sign: [-1.0, -1.0],
+            inclined: [None; 2],
             pivot_length: None,
             offset: [Mm::ZERO; 3],
         });

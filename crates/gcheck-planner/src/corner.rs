@@ -3,7 +3,7 @@
 //! Knows: how fast a corner may be passed, the arc that rounds it, what both take of the moves. Must not know: what is
 //! before and after the two, time.
 
-use std::f64::consts::PI;
+use std::f64::consts::{FRAC_PI_2, PI};
 
 use nalgebra::{Vector2, Vector3};
 
@@ -30,8 +30,8 @@ pub(crate) enum Meet<T> {
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Overlap {
     first: Side,
-    /// Highest speed of the first at which the path is not too far off; infinite without a tolerance.
-    tolerated: f64,
+    /// How far off the path may be, by what a millimetre of the first is off it; infinite without a tolerance.
+    off: f64,
 }
 
 /// One of two moves that overlap.
@@ -48,27 +48,34 @@ impl Side {
         let (pull, length) = (segment.pull(), segment.length);
         Self { reached: segment.cap.min((pull * length).sqrt()), pull, length }
     }
+
+    /// As long as the end of the move is not known: a corner there may take half of it.
+    fn open<T: Copy>(segment: &Segment<T>) -> Self {
+        let (pull, length) = (segment.pull(), segment.length);
+        Self { reached: segment.cap.min((pull * length / 2.0).sqrt()), pull, length }
+    }
 }
 
 impl Overlap {
-    /// For how long, seconds. The second one speeds up as if it began alone.
-    pub(crate) fn seconds<T: Copy>(&self, second: &Segment<T>) -> f64 {
-        let [speed, _] = self.speeds(second);
+    /// The same with what is known once both ends of the first are.
+    pub(crate) fn after<T: Copy>(self, first: &Segment<T>) -> Self {
+        Self { first: Side::of(first), ..self }
+    }
+
+    /// For how long, seconds. The second one speeds up as if it began alone. `is_open`: its end is not known.
+    pub(crate) fn seconds<T: Copy>(&self, second: &Segment<T>, is_open: bool) -> f64 {
+        let second = if is_open { Side::open(second) } else { Side::of(second) };
+        let [speed, _] = self.speeds_of(&[self.first, second]);
         speed / self.first.pull
     }
 
-    /// The mean of the speeds that the first one has when it begins and the second one when it ends.
-    fn mean_speed<T: Copy>(&self, second: &Segment<T>) -> f64 {
-        let [one, other] = self.speeds(second);
-        f64::midpoint(one, other)
-    }
-
-    fn speeds<T: Copy>(&self, second: &Segment<T>) -> [f64; 2] {
-        let sides = [self.first, Side::of(second)];
+    /// The speeds that the first one has when the second one begins, and the second one when the first one ends.
+    fn speeds_of(&self, sides: &[Side; 2]) -> [f64; 2] {
         let speeding = sides.map(|side| side.reached / side.pull);
         let [room, other_room] = sides.map(|side| side.length / side.reached);
         let together = speeding[0].max(speeding[1]).min(room).min(other_room);
-        sides.map(|side| side.reached.min(together * side.pull).min(self.tolerated))
+        let tolerated = 2.0 * (sides[0].pull * self.off).sqrt();
+        sides.map(|side| side.reached.min(together * side.pull).min(tolerated))
     }
 }
 
@@ -121,14 +128,40 @@ pub(crate) fn meet<T: Copy>(
             if turn(first, second) > BACK {
                 return Meet::Rest;
             }
-            if !first.is_plain || !second.is_plain || !first.is_flat_with(second) {
-                return beyond(rounding, limits, (told, slow), first, second);
-            }
-            match round(limits, rounding, tolerated, first, second) {
-                Some(arc) if arc.cap > slow => Meet::Round(arc),
-                _ => keep(first, second, 1.0 - rounding.unrounded, slow),
-            }
+            let flat = first.is_plain && second.is_plain && first.is_flat_with(second);
+            let arc = if flat { round(limits, rounding, tolerated, first, second) } else { None };
+            quickest(rounding, limits, (told, slow), arc, first, second)
         }
+    }
+}
+
+/// Of the ways to take a corner, the quickest one: on an arc, on the path at a speed, or both moves at once.
+fn quickest<T: Copy>(
+    rounding: &Rounding,
+    limits: &Limits,
+    (tolerance, slow): (Option<f64>, f64),
+    arc: Option<Rounded<T>>,
+    first: &mut Segment<T>,
+    second: &mut Segment<T>,
+) -> Meet<T> {
+    let at_once = overlapped(rounding, tolerance, first, second);
+    let rounded = arc.as_ref().map_or(0.0, |arc| arc.segment.cap);
+    // Both moves give half of their acceleration for it, which costs as much again.
+    let overlapping = at_once.as_ref().map_or(0.0, |at_once| at_once.speed / 2.0);
+    match (arc, at_once) {
+        (Some(arc), _) if rounded > slow && rounded > overlapping => {
+            first.length = (first.length - arc.taken[0]).max(0.0);
+            second.length = (second.length - arc.taken[1]).max(0.0);
+            Meet::Round(arc.segment)
+        }
+        (_, Some(at_once)) if overlapping >= slow => {
+            [*first, *second] = at_once.sides;
+            Meet::Overlap(at_once.overlap)
+        }
+        (None, None) if !(first.is_plain && second.is_plain && first.is_flat_with(second)) => {
+            Meet::Pass(even_turn(limits, &(second.begin - first.end), first, second))
+        }
+        _ => keep(first, second, 1.0 - rounding.unrounded, slow),
     }
 }
 
@@ -179,14 +212,21 @@ fn tolerance_of<T: Copy>(
     of(one, first.whole).min(of(other, second.whole))
 }
 
-/// The arc inside a corner.
+/// An arc inside a corner.
+struct Rounded<T> {
+    segment: Segment<T>,
+    /// What it takes of the moves before and after it.
+    taken: [f64; 2],
+}
+
+/// The arc inside a corner; `None` where there is none inside the tolerance.
 fn round<T: Copy>(
     limits: &Limits,
     rounding: &Rounding,
     tolerance: f64,
-    first: &mut Segment<T>,
-    second: &mut Segment<T>,
-) -> Option<Segment<T>> {
+    first: &Segment<T>,
+    second: &Segment<T>,
+) -> Option<Rounded<T>> {
     let (leaves, arrives) = (first.leaves(), second.arrives());
     let turn = turn(first, second);
     if turn < STRAIGHT {
@@ -194,20 +234,26 @@ fn round<T: Copy>(
     }
     let normal = leaves.cross(&arrives).normalize();
     let curves = [first.curvature(&normal), second.curvature(&normal)];
+    let straight = first.is_straight() && second.is_straight();
+    let rooms = [
+        Room::of(first.length, curves[0], rounding.curve_shares[0], turn),
+        Room::of(second.length, curves[1], rounding.curve_shares[1], turn),
+    ];
     // Where a side curves the way the corner turns, the corner counts as a sharper one.
-    let sharper = [&*first, &*second].into_iter().zip(curves).zip(rounding.curve_shares);
-    let sharper =
-        sharper.filter(|((_, curve), _)| *curve > 0.0).fold(0.0, |most: f64, ((side, curve), share)| {
-            most.max((side.whole * curve * share).min((PI - turn) / 4.0))
-        });
-    let (sin, cos) = f64::midpoint(turn, sharper).sin_cos();
+    let sharper = rooms[0].sharper.max(rooms[1].sharper);
+    let (both, full) = (!first.is_straight() && !second.is_straight(), turn + sharper);
+    if both && full > rounding.sharpest_between_arcs {
+        return None;
+    }
+    let (sin, cos) = (full / 2.0).sin_cos();
     let tan = sin / cos;
     let plane = in_plane(limits.acceleration(), &leaves, &arrives);
     let across = plane * rounding.across;
     let fastest = in_plane(limits.speed(), &leaves, &arrives);
-    let asked = first.asked.max(second.asked).min(first.most).min(second.most).min(fastest);
-    // No more of a move than half, so that its other end has as much.
-    let reach = first.length.min(first.whole / 2.0).min(second.whole / 2.0).min(second.length);
+    let asked = first.asked.min(first.most).max(second.asked.min(second.most)).min(fastest);
+    // No more of a straight move than half, so that its other end has as much.
+    let reach_of = |side: &Segment<T>, room: &Room| room.reach.unwrap_or(side.length.min(side.whole / 2.0));
+    let reach = reach_of(first, &rooms[0]).min(reach_of(second, &rooms[1]));
     let widest = (tolerance * cos / (1.0 - cos)).min(reach / tan);
     let needed = asked.min((across * widest).sqrt());
     let mut radius = needed * needed / across;
@@ -215,19 +261,52 @@ fn round<T: Copy>(
         // The arc is as long as the way of an overlap of both moves would be.
         let slowing = plane * OVERLAPPED;
         let overlap = needed.min((2.0 * slowing * widest * tan).sqrt()) / slowing;
-        radius = radius.max((overlap * needed / turn).min(widest));
+        radius = radius.max((overlap * needed / full).min(widest));
     }
-    let inner = if first.is_straight() && second.is_straight() {
+    let inner = if straight {
         Inner { radius, taken: [radius * tan; 2], turn }
     } else {
-        let half = |segment: &Segment<T>| segment.length.min(segment.whole / 2.0);
-        Inner::widest(turn, curves, radius, tolerance, [half(first), half(second)])?
+        let planned = rounding.curve_shares != [0.0; 2];
+        let most = [(first, &rooms[0]), (second, &rooms[1])].map(|(side, room)| {
+            let half = if planned { side.length } else { side.length.min(side.whole / 2.0) };
+            room.most.unwrap_or(half)
+        });
+        if planned {
+            Inner::fitting(turn, curves, radius, tolerance, most)?
+        } else {
+            Inner::widest(turn, curves, radius, tolerance, most)?
+        }
     };
-    let Inner { radius, taken, turn } = inner;
     let cap = (across * radius).sqrt().min(asked);
-    first.length = (first.length - taken[0]).max(0.0);
-    second.length = (second.length - taken[1]).max(0.0);
-    Some(first.rounding(second, (radius * turn, radius), (cap, plane * rounding.along)))
+    let Inner { radius, taken, turn } = inner;
+    let segment = first.rounding(second, (radius * turn, radius), (cap, plane * rounding.along));
+    Some(Rounded { segment, taken })
+}
+
+/// What a side of a corner leaves to an arc inside it.
+struct Room {
+    /// By how much the corner counts as a sharper one, radians.
+    sharper: f64,
+    /// How far from the corner the arc is planned to touch the side, where the side is curved.
+    reach: Option<f64>,
+    /// How far it may touch it once it is fitted, where the side is curved.
+    most: Option<f64>,
+}
+
+impl Room {
+    /// Of a side of this length and curvature (positive the way the corner turns) at a corner.
+    fn of(length: f64, curve: f64, share: f64, turn: f64) -> Self {
+        if curve.abs() <= 0.0 || share <= 0.0 {
+            return Self { sharper: 0.0, reach: None, most: None };
+        }
+        let inward = curve > 0.0;
+        let all = length * curve.abs();
+        // The share is that of the chord, which turns half as much.
+        let angle = (2.0 * share * all).min(if inward { (PI - turn) / 2.0 } else { FRAC_PI_2 });
+        let reach = if inward { (angle / 4.0).sin() } else { angle } / curve.abs();
+        let sharper = if inward { angle / 2.0 } else { 0.0 };
+        Self { sharper, reach: Some(reach), most: Some(angle / curve.abs()) }
+    }
 }
 
 /// A circle inside a corner that touches both its sides.
@@ -241,14 +320,17 @@ struct Inner {
 }
 
 impl Inner {
-    /// The widest circle in a corner that turns left by `turn`, between sides of these curvatures (positive to the left),
-    /// no wider than `needed`, no further from the corner than `tolerance`, and within `most` of each side.
+    /// The circle of a radius in a corner that turns left by `turn`, between sides of these curvatures (positive to the left);
+    /// `None` where it is further from the corner than `tolerance`, or takes more of a side than `most`.
+    fn fitting(turn: f64, curves: [f64; 2], radius: f64, tolerance: f64, most: [f64; 2]) -> Option<Self> {
+        let (inner, off) = Self::of_radius(turn, curves, radius)?;
+        let within = inner.taken.iter().zip(most).all(|(taken, most)| *taken <= most);
+        (off <= tolerance && within).then_some(inner)
+    }
+
+    /// The widest circle in such a corner, no wider than `needed`.
     fn widest(turn: f64, curves: [f64; 2], needed: f64, tolerance: f64, most: [f64; 2]) -> Option<Self> {
-        let fits = |radius: f64| {
-            let (inner, off) = Self::of_radius(turn, curves, radius)?;
-            let within = inner.taken.iter().zip(most).all(|(taken, most)| *taken <= most);
-            (off <= tolerance && within).then_some(inner)
-        };
+        let fits = |radius: f64| Self::fitting(turn, curves, radius, tolerance, most);
         if let Some(inner) = fits(needed) {
             return Some(inner);
         }
@@ -354,32 +436,37 @@ fn in_plane(bounds: &Point, one: &Vector3<f64>, other: &Vector3<f64>) -> f64 {
     })
 }
 
-/// Moves that no flat arc joins: of more axes than X, Y and Z, and arcs that leave the plane of the corner.
-fn beyond<T: Copy>(
+/// Two moves that overlap.
+struct AtOnce<T> {
+    /// Both, at their part of the acceleration.
+    sides: [Segment<T>; 2],
+    overlap: Overlap,
+    /// Along the corner, as far as is known before the second is joined to what follows it.
+    speed: f64,
+}
+
+/// Two moves as they would overlap; `None` where the control does not let them.
+fn overlapped<T: Copy>(
     rounding: &Rounding,
-    limits: &Limits,
-    (tolerance, slow): (Option<f64>, f64),
-    first: &mut Segment<T>,
-    second: &mut Segment<T>,
-) -> Meet<T> {
+    tolerance: Option<f64>,
+    first: &Segment<T>,
+    second: &Segment<T>,
+) -> Option<AtOnce<T>> {
     if !rounding.overlaps {
-        return Meet::Pass(even_turn(limits, &(second.begin - first.end), first, second));
+        return None;
     }
     // Both at half the acceleration: while they overlap, the sum does not exceed the whole.
-    let [mut one, mut other] = [*first, *second];
-    one.share(OVERLAPPED);
-    other.share(OVERLAPPED);
+    let mut sides = [*first, *second];
+    sides.iter_mut().for_each(|side| side.keep(OVERLAPPED));
+    let [one, other] = &sides;
     // The path is off by what the first still has to go when the second begins.
     let (leaves, arrives) = (one.leaves_level(), other.pulled());
     let (sin, cos) = (leaves.cross(&arrives).norm().atan2(leaves.dot(&arrives)) / 2.0).sin_cos();
-    let tolerated = tolerance.map_or(f64::INFINITY, |off| 2.0 * (one.pull() * off / sin.max(1e-3)).sqrt());
-    let overlap = Overlap { first: Side::of(&one), tolerated };
-    // A corner that hardly turns may be faster on the path itself.
-    if slow > cos * overlap.mean_speed(&other) {
-        return keep(first, second, 1.0 - rounding.unrounded, slow);
-    }
-    [*first, *second] = [one, other];
-    Meet::Overlap(overlap)
+    let off = tolerance.map_or(f64::INFINITY, |off| off / sin.max(1e-3));
+    let overlap = Overlap { first: Side::of(one), off };
+    let [before, after] = overlap.speeds_of(&[Side::open(one), Side::open(other)]);
+    let speed = cos * f64::midpoint(before, after);
+    Some(AtOnce { sides, overlap, speed })
 }
 
 /// The speed at which half of each move is enough to bring the axes from one direction to the other.

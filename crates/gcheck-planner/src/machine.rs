@@ -124,6 +124,8 @@ pub struct Control {
     pub block_time: Seconds,
     /// Stretches that take less are run with one even change of speed; zero for none.
     pub even_below: Seconds,
+    /// No stretch is run in less, however fast the axes are; zero for no such limit.
+    pub shortest: Seconds,
     /// From the end of a move that the axes stop after to the start of what they stop for.
     pub halt_time: Seconds,
     /// How it taps.
@@ -166,10 +168,16 @@ pub struct Rounding {
     /// Where a side of a corner curves the way the corner turns, this part of the side's own turn counts with that of the
     /// corner: of the side before it, and of the side after it.
     pub curve_shares: [f64; 2],
+    /// A corner of two arcs that counts as a sharper one than this, in radians, is not rounded.
+    pub sharpest_between_arcs: f64,
     /// The part of the acceleration that turns the path on arcs.
     pub across: f64,
     /// The part of the acceleration that is left along an arc where `across` is used up.
     pub along: f64,
+    /// Once both ends of an arc of the program are known, what they leave of the acceleration is divided anew: what its highest
+    /// speed needs turns the path, no more than `across` of it, and the rest runs along. A helix counts for that as an arc
+    /// of its radius and the square of its whole rise by the radius.
+    pub divides: bool,
     /// Corners are passed without rounding at a speed at which the axes' speeds change by no more than this part of what
     /// their acceleration changes in one cycle of the control.
     pub unrounded: f64,

@@ -232,6 +232,8 @@ impl<T: Copy> Planner<T> {
 enum Ending {
     /// The axes come to rest.
     Stop,
+    /// They come to rest where the control was ready to go on.
+    Halt,
     /// It is left at no more than this speed.
     Pass(f64),
     /// The axes come to rest while the next stretch begins.
@@ -267,10 +269,12 @@ impl<T: Copy> Planner<T> {
         self.threading = threads;
         self.tapping = matches!(item.drive, Drive::Tap(_));
         if let Some((mut first, meeting)) = self.open.take() {
-            match meet(&self.machine, (meeting, self.meeting), &mut first, &mut segment) {
+            let met = meet(&self.machine, (meeting, self.meeting), &mut first, &mut segment);
+            first.settle(&self.machine.control.corners);
+            match met {
                 Meet::Rest => self.lay(&first, Ending::Stop, each),
                 Meet::Pass(speed) => self.lay(&first, Ending::Pass(speed), each),
-                Meet::Overlap(overlap) => self.lay(&first, Ending::Overlap(overlap), each),
+                Meet::Overlap(overlap) => self.lay(&first, Ending::Overlap(overlap.after(&first)), each),
                 Meet::Round(mut arc) => {
                     let ending = Ending::Pass(arc.cap);
                     if self.is_used_up(&first, &arc) {
@@ -341,13 +345,17 @@ impl<T: Copy> Planner<T> {
             // The control was ready to let the next move overlap.
             last.keep(OVERLAPPED);
         }
-        self.end(each);
+        self.end_in(Ending::Halt, each);
     }
 
     /// The axes come to rest where the control knows ahead that they will.
     fn end(&mut self, each: &mut impl FnMut(&Span<T>)) {
+        self.end_in(Ending::Stop, each);
+    }
+
+    fn end_in(&mut self, ending: Ending, each: &mut impl FnMut(&Span<T>)) {
         if let Some((last, _)) = self.open.take() {
-            self.lay(&last, Ending::Stop, each);
+            self.lay(&last, ending, each);
         }
         self.run_all(each);
     }
@@ -366,25 +374,30 @@ impl<T: Copy> Planner<T> {
     ) {
         // The next move begins with the next cycle.
         let waits = match (&self.machine.control.corners, ending) {
-            (Corners::Rounded(rounding), Ending::Stop) => rounding.cycle.0 / 2.0 + self.halting,
-            (_, Ending::Stop) => self.halting,
+            (Corners::Rounded(rounding), Ending::Stop | Ending::Halt) => {
+                rounding.cycle.0 / 2.0 + self.halting
+            }
+            (_, Ending::Stop | Ending::Halt) => self.halting,
             _ => 0.0,
         };
         let filtered = self.machine.control.corners == Corners::Filtered;
         let acceleration = if filtered { f64::INFINITY } else { segment.pull() };
         let (leave, overlap) = match ending {
-            Ending::Stop => (0.0, None),
+            Ending::Stop | Ending::Halt => (0.0, None),
             Ending::Pass(speed) => (speed, None),
             Ending::Overlap(overlap) => (0.0, Some(overlap)),
         };
         if let Some(before) = self.window.last_mut()
             && let Some(overlap) = before.overlap.take()
         {
-            before.ahead = overlap.seconds(segment);
+            before.ahead = overlap.seconds(segment, matches!(ending, Ending::Halt));
         }
+        // What corners left of a stretch may be too short for its speed.
+        let shortest = self.machine.control.shortest.0;
+        let cap = if shortest > 0.0 { segment.cap.min(segment.length / shortest) } else { segment.cap };
         self.window.push(Piece {
             length: segment.length,
-            cap: segment.cap,
+            cap,
             acceleration,
             leave,
             exit: 0.0,
@@ -398,7 +411,7 @@ impl<T: Copy> Planner<T> {
                 jerk: segment.jerk,
                 overlap,
                 ahead: 0.0,
-                stops: matches!(ending, Ending::Stop),
+                stops: matches!(ending, Ending::Stop | Ending::Halt),
                 waits,
                 settle: if filtered && fixed.is_none() { segment.cap / segment.acceleration } else { 0.0 },
                 fixed,

@@ -68,8 +68,8 @@ pub(crate) struct Segment<T> {
     pub(crate) blocks: u32,
     /// An end with which it touches its neighbour took part of the acceleration.
     kept: f64,
-    /// Highest speed that all of the acceleration turns along an arc.
-    turning: f64,
+    /// The radius that counts once both ends are known; infinite for all but arcs of the program.
+    wide: f64,
 }
 
 impl<T: Copy> Segment<T> {
@@ -118,6 +118,8 @@ impl<T: Copy> Segment<T> {
                 segment.about = Some((normal, arc.sweep() > 0.0));
                 segment.is_flat = arc.rise().0.abs() < FLAT * length;
                 segment.turn(radius, plane, &machine.control.corners);
+                let plain = arc.radius().0.midpoint(arc.end_radius().0);
+                segment.wide = plain + arc.rise().0.powi(2) / plain;
                 segment
             }
             None => {
@@ -133,6 +135,11 @@ impl<T: Copy> Segment<T> {
             }
         };
         segment.blocks = 1;
+        let shortest = machine.control.shortest.0;
+        if shortest > 0.0 {
+            segment.most = segment.most.min(segment.whole / shortest);
+            segment.cap = segment.cap.min(segment.most);
+        }
         Some(segment)
     }
 
@@ -175,7 +182,7 @@ impl<T: Copy> Segment<T> {
             is_plain: !beyond,
             blocks: 0,
             kept: 1.0,
-            turning: f64::INFINITY,
+            wide: f64::INFINITY,
         }
     }
 
@@ -188,7 +195,6 @@ impl<T: Copy> Segment<T> {
             Corners::Filtered => return,
         };
         let turning = (plane * across * radius).sqrt();
-        self.turning = turning;
         self.acceleration *= along;
         self.most = self.most.min(turning);
         if turning < self.cap {
@@ -202,14 +208,24 @@ impl<T: Copy> Segment<T> {
         self.kept = self.kept.min(part);
     }
 
-    /// As [`Self::keep`]; what turns an arc becomes less as well.
-    pub(crate) fn share(&mut self, part: f64) {
-        self.keep(part);
-        let turning = self.turning * self.kept.sqrt();
-        self.most = self.most.min(turning);
-        if turning < self.cap {
-            self.cap = turning;
-            self.why = Cap::Turn;
+    /// Both its ends are known: what they leave of the acceleration turns an arc, and the rest runs along it.
+    pub(crate) fn settle(&mut self, corners: &Corners) {
+        let Corners::Rounded(rounding) = corners else { return };
+        if self.wide.is_infinite() || !rounding.divides {
+            return;
+        }
+        let left = self.whole_pull * self.kept;
+        let needed = self.most * self.most / self.wide;
+        if needed > rounding.across * left {
+            let turning = (rounding.across * left * self.wide).sqrt();
+            self.most = turning;
+            if turning < self.cap {
+                self.cap = turning;
+                self.why = Cap::Turn;
+            }
+            self.acceleration = self.whole_pull * rounding.along;
+        } else {
+            self.acceleration = self.whole_pull * (1.0 - (needed / left).powi(2)).max(0.0).sqrt();
         }
     }
 
@@ -324,7 +340,7 @@ impl<T: Copy> Segment<T> {
             is_plain: true,
             blocks: 0,
             kept: 1.0,
-            turning: f64::INFINITY,
+            wide: f64::INFINITY,
         }
     }
 }

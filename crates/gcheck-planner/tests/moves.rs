@@ -66,6 +66,54 @@ fn a_corner_is_rounded_inside_its_tolerance() {
     assert_eq!(corner.cause, Cause::Corner);
 }
 
+/// An arc that curves as the corner turns gives the corner little of its length: the quarter of the angle between its tangents
+/// at most, and the corner counts as a sharper one by half of that.
+#[test]
+fn a_corner_of_two_arcs_is_as_tight_as_its_arcs_leave_it() {
+    let (radius, sweep, turn) = (5.0_f64, 70_f64.to_radians(), 120_f64.to_radians());
+    let from = at(radius, 0.0, 0.0);
+    let first = arc(from, (0.0, 0.0), sweep, 0.0, 50.0);
+    // The corner turns to the left, as the first arc does; the second one curves to the right.
+    let heading = sweep + std::f64::consts::FRAC_PI_2 + turn;
+    let centre = (first.to[0] + radius * heading.sin(), first.to[1] - radius * heading.cos());
+    let second = arc(first.to, centre, -sweep, 0.0, 50.0);
+    let spans = spans(&machine(rounded(), 1000.0), &items(within(0.0), &[first, second]));
+    let [_, corner, _] = spans.as_slice() else { panic!("{spans:#?}") };
+    let angle = (sweep * 2.0 / 3.0).min((std::f64::consts::PI - turn) / 2.0);
+    let inner = (angle / 4.0).sin() * radius / ((turn + angle / 2.0) / 2.0).tan();
+    near(corner.profile.peak, (866.0 * inner).sqrt());
+}
+
+/// Two arcs that all but turn back: they overlap, each at half of what turning leaves of the acceleration.
+#[test]
+fn a_very_sharp_corner_of_two_arcs_is_not_rounded() {
+    let (radius, sweep) = (5.0_f64, 70_f64.to_radians());
+    let first = arc(at(radius, 0.0, 0.0), (0.0, 0.0), sweep, 0.0, 50.0);
+    let heading = sweep + std::f64::consts::FRAC_PI_2 + 170_f64.to_radians();
+    let centre = (first.to[0] + radius * heading.sin(), first.to[1] - radius * heading.cos());
+    let second = arc(first.to, centre, -sweep, 0.0, 50.0);
+    let spans = spans(&machine(rounded(), 1000.0), &items(within(0.0), &[first, second]));
+    let [one, other] = spans.as_slice() else { panic!("{spans:#?}") };
+    near(one.profile.acceleration, 250.0);
+    assert!(other.begin < one.begin + Seconds(one.profile.seconds), "{spans:#?}");
+}
+
+/// Of 0.01 mm in the middle of a straight line.
+#[test]
+fn no_stretch_is_run_in_less_than_the_control_needs() {
+    let moves = [
+        line(at(0.0, 0.0, 0.0), at(10.0, 0.0, 0.0), 50.0),
+        line(at(10.0, 0.0, 0.0), at(10.01, 0.0, 0.0), 50.0),
+        line(at(10.01, 0.0, 0.0), at(20.0, 0.0, 0.0), 50.0),
+    ];
+    let mut machine = machine(rounded(), 1000.0);
+    machine.control.shortest = Seconds(0.002);
+    let spans = spans(&machine, &items(within(0.01), &moves));
+    let [first, short, _] = spans.as_slice() else { panic!("{spans:#?}") };
+    near(first.profile.exit, 5.0);
+    near(short.profile.seconds, 0.002);
+}
+
 #[test]
 fn back_and_forth_is_a_stop() {
     let moves = [

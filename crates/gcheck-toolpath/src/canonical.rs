@@ -128,6 +128,7 @@ impl<W: Write> Canonical<W> {
             | Event::Cylinder(_)
             | Event::Cleared(_)
             | Event::Unfollowed
+            | Event::KnownWay(_)
             | Event::BarFeed(_) => Ok(()),
             Event::Probe(on) => self.word(n, if *on { "TURN_PROBE_ON()" } else { "TURN_PROBE_OFF()" }),
             Event::FeedRate(_)

@@ -30,6 +30,8 @@ pub(crate) struct Motion {
     pub(crate) machine_from: Position,
     pub(crate) machine: Position,
     pub(crate) arc: Option<Arc>,
+    /// How far the axes go whose places are not known; NaN for all others.
+    pub(crate) way_known: Position,
     pub(crate) expanded: bool,
     /// The part of the block's movement that it is; 1 but for pieces of a curve.
     pub(crate) share: f64,
@@ -44,11 +46,13 @@ pub(crate) struct Tracker {
     rotation: Degrees,
     /// An axis that is wrapped around a cylinder: it does not move, and a rotary axis turns for it.
     still: Option<Axis>,
+    /// How far the axes of the next move go whose places are not known.
+    way_known: Position,
 }
 
 impl Default for Tracker {
     fn default() -> Self {
-        Self { machine: Position::UNKNOWN, rotation: Degrees(0.0), still: None }
+        Self { machine: Position::UNKNOWN, rotation: Degrees(0.0), still: None, way_known: Position::UNKNOWN }
     }
 }
 
@@ -57,6 +61,8 @@ impl Tracker {
     pub(crate) fn after(&mut self, step: &Step<'_>) {
         self.machine = step.machine;
         match step.event {
+            Event::KnownWay(way) => self.way_known = *way,
+            Event::Travel(_) => self.way_known = Position::UNKNOWN,
             Event::WorkOffset { rotation, .. } | Event::Rotation(rotation) => {
                 self.rotation = Degrees(*rotation);
             }
@@ -96,6 +102,7 @@ impl Tracker {
                 machine_from: self.machine,
                 machine: step.machine,
                 arc: None,
+                way_known: self.way_known,
                 expanded: travel.expanded,
                 share: 1.0,
             }),
@@ -107,6 +114,7 @@ impl Tracker {
                 machine_from: self.machine,
                 machine: step.machine,
                 arc: Some(Arc::from_parts(arc.plane, arc.from.xyz(), arc.to.xyz(), arc.centre, arc.sweep)),
+                way_known: Position::UNKNOWN,
                 expanded: arc.expanded,
                 share: 1.0,
             }),
@@ -119,6 +127,7 @@ impl Tracker {
                     machine_from: step.machine,
                     machine: self.moved(&step.machine, from, to),
                     arc: None,
+                    way_known: Position::UNKNOWN,
                     expanded: true,
                     share: 1.0,
                 };
@@ -185,6 +194,7 @@ impl Tracker {
                 machine_from,
                 machine,
                 arc,
+                way_known: Position::UNKNOWN,
                 expanded: false,
                 share,
             });
@@ -262,6 +272,14 @@ fn sweep([x, y, _]: [Mm; 3], [to_x, to_y, _]: [Mm; 3], (i, j): (Mm, Mm), turn: i
     if turn < 0 { angle - std::f64::consts::TAU } else { angle }
 }
 
+impl Motion {
+    /// How far an axis goes, either way; NaN unknown.
+    pub(crate) fn way_of(&self, axis: Axis) -> f64 {
+        let between = (self.to.raw(axis) - self.from.raw(axis)).abs();
+        if between.is_nan() { self.way_known.raw(axis).abs() } else { between }
+    }
+}
+
 /// What a movement covers.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Cover {
@@ -287,7 +305,12 @@ pub(crate) fn cover(motion: &Motion) -> (Cover, bool) {
         let mut sum = 0.0;
         for axis in axes {
             let (from, to) = (motion.from.raw(axis), motion.to.raw(axis));
+            let way = motion.way_known.raw(axis);
             match (from.is_nan(), to.is_nan()) {
+                (true, true) if !way.is_nan() => {
+                    known = true;
+                    sum += way * way;
+                }
                 // Nobody ever said where the axis is: most likely it is not used. Where the program says so, the axis is beside it by
                 // as much as nobody knows.
                 (true, true) if motion.programmed.raw(axis).is_nan() => partial = true,

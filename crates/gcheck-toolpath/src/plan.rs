@@ -72,6 +72,7 @@ impl Plan {
                     look_ahead: dynamics.look_ahead.unwrap_or(rules.look_ahead) as usize,
                     block_time: dynamics.block_time.unwrap_or(Seconds::ZERO),
                     even_below: Seconds(rules.even_below),
+                    shortest: Seconds(rules.shortest),
                     halt_time: Seconds(rules.halt_time),
                     taps: match rules.taps {
                         TapRules::RestAtBottom => Taps::RestAtBottom,
@@ -126,8 +127,10 @@ fn corners(rules: &CornerRules, machine: &Machine, model: &Model<'_>) -> Corners
             part_of_length,
             stretched,
             curve_shares,
+            sharpest_between_arcs,
             across,
             along,
+            divides,
             unrounded,
             cycle,
             least_cycles,
@@ -141,8 +144,10 @@ fn corners(rules: &CornerRules, machine: &Machine, model: &Model<'_>) -> Corners
                 part_of_length: *part_of_length,
                 stretched: *stretched,
                 curve_shares: *curve_shares,
+                sharpest_between_arcs: sharpest_between_arcs.unwrap_or(180.0).to_radians(),
                 across: *across,
                 along: *along,
+                divides: *divides,
                 unrounded: *unrounded,
                 cycle: Seconds(*cycle),
                 least_cycles: *least_cycles,
@@ -363,7 +368,15 @@ fn moved<T: Copy>(
     }
     let upright = tracker.is_upright();
     let turned = |position: &Position| if upright { *position } else { tracker.turned(position) };
-    let [from, to] = [turned(&motion.from), turned(&motion.to)].map(|position| point(&position));
+    let [from, mut to] = [turned(&motion.from), turned(&motion.to)].map(|position| point(&position));
+    for (slot, (before, way)) in
+        to.iter_mut().zip(motion.from.values().into_iter().zip(motion.way_known.values()))
+    {
+        // From a place that is not known, which is at zero here.
+        if before.is_nan() && !way.is_nan() {
+            *slot = *way;
+        }
+    }
     let arc = motion.arc.filter(|arc| arc.is_known() && arc.rise().is_known() && tracker.still().is_none());
     let whole = Move { drive, from, to, arc: None, asked, tag };
     let Some(arc) = arc else { return each(Item::Move(whole)) };

@@ -145,11 +145,16 @@ pub enum Beside {
     },
     /// The path is shifted along a vector by the size of the cutter.
     AlongVector,
+    /// Cutter compensation is on, and the size of the cutter or the point where it began is not known.
+    UnknownCutter,
 }
 
 impl Beside {
-    /// Why a straight move of this event ends beside its programmed point.
+    /// Why a move of this event ends beside its programmed point, where a reader is told both.
     pub fn of(state: &State<Concrete>, machine: &Machine, event: &Event) -> Option<Self> {
+        if matches!(event, Event::Travel(_) | Event::Arc(_)) && state.is_beside_by_unknown() {
+            return Some(Self::UnknownCutter);
+        }
         let Event::Travel(travel) = event else { return None };
         let shift = state.tool_shift();
         if shift.along_tool().is_some() {

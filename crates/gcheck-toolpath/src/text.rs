@@ -234,9 +234,13 @@ fn arc(out: &mut Vec<u8>, view: View, path: &Path, units: Units) {
 fn beside(out: &mut Vec<u8>, view: View, path: &Path, why: Beside, units: Units) {
     out.extend_from_slice(match why {
         Beside::AlongTool { .. } => b"  posted point".as_slice(),
-        Beside::AlongVector => b"  programmed point",
+        Beside::AlongVector | Beside::UnknownCutter => b"  programmed point",
     });
     point(out, view, &path.programmed, units);
+    if why == Beside::UnknownCutter {
+        out.extend_from_slice(b", beside it by a cutter or from a start that is not known");
+        return;
+    }
     out.extend_from_slice(b", axes at");
     point(out, view, &path.to, units);
     if let Beside::AlongTool { tip: Some(tip) } = why {

@@ -5,7 +5,7 @@
 
 use std::f64::consts::PI;
 
-use gcheck_engine::{Axis, Event, FeedMode, Machine, Model, Override, Position, Units};
+use gcheck_engine::{Axis, Event, FeedMode, Machine, Model, Override, Units};
 use gcheck_geometry::{Mm, MmPerMin, Seconds};
 
 use crate::motion::{Cover, Motion, Tracker, Way, cover};
@@ -133,10 +133,10 @@ impl Timing {
     }
 
     /// Every axis runs at its own rate; the movement is over when the last one has arrived.
-    fn rapid_seconds(&self, from: &Position, to: &Position, still: Option<Axis>) -> f64 {
+    fn rapid_seconds(&self, motion: &Motion, still: Option<Axis>) -> f64 {
         let times = Axis::ALL.into_iter().zip(self.rapid).filter(|(axis, _)| Some(*axis) != still);
         let times = times.map(|(axis, rate)| {
-            let way = (to.raw(axis) - from.raw(axis)).abs();
+            let way = motion.way_of(axis);
             // An axis that is unknown at both ends does not count; at one end, the movement is not timed at all.
             if way.is_nan() { 0.0 } else { way / rate * 60.0 }
         });
@@ -244,7 +244,7 @@ impl Clock {
             Cover::Length(length) | Cover::Turn(length) => length,
         };
         if motion.way == Way::Rapid {
-            return Ok(Seconds(self.timing.rapid_seconds(&motion.from, &motion.to, self.tracker.still())));
+            return Ok(Seconds(self.timing.rapid_seconds(motion, self.tracker.still())));
         }
         let by_turn = |lead: f64, scale: f64| {
             let lead = positive(lead.abs(), Untimed::Feed)?;

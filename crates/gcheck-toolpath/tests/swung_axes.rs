@@ -12,6 +12,7 @@ fn trunnion() -> Machine {
         arrangement: Arrangement::TableTable,
         order: [RotaryAxis::A, RotaryAxis::C],
         sign: [1.0; 2],
+        inclined: [None; 2],
         pivot_length: None,
         offset: [Mm(0.0); 3],
     };

@@ -3,9 +3,10 @@
 //! Knows: the command that runs programs in that planner, the table of seconds. Must not know: what gcheck says of the same
 //! programs; the test `timing` of `gcheck-toolpath` compares the two and writes `docs/dev/timing.md`.
 //!
-//! The planner runs in real time: all programs at all accelerations take two hours. A machine that is busy delays it and never
-//! makes it faster, so the table keeps the least of several measurements; `--again` drops what it had, `--missing` measures
-//! only what the table lacks. `speeds` samples the speed along the path of some programs, into `fixtures/timing/speeds`.
+//! The planner runs in real time: all programs at all accelerations take two hours. A machine that is busy delays it, so the
+//! table keeps the least of several measurements; `--again` drops what it had, `--missing` measures only what the table lacks.
+//! Where the control stops between moves (`G92` and its kin), one run in several is a tenth of a second quicker: a value
+//! that is below its neighbours is measured `--again`. `speeds` samples the speed along the path of some programs, into `fixtures/timing/speeds`.
 //!
 //! `planner.py` runs the planner of Debian's package `linuxcnc-uspace`; `GCHECK_TIMING` may name another command of that form.
 

@@ -384,8 +384,32 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 return checked;
             }
         }
+        self.announce_known_way(state);
         self.travel(kind, target, false, state)?;
         checked
+    }
+
+    /// An increment of an axis that is nobody knows where: its way is known, and with it the time.
+    fn announce_known_way(&mut self, state: &mut State<D>) {
+        if !Self::goes_direct(state) {
+            return;
+        }
+        let unit = self.unit(state);
+        let mut way = Position::UNKNOWN;
+        for letter in self.words.present().and(self.model.axis_letters).iter() {
+            let Some((axis, is_increment)) = self.model.axis_of(letter) else { continue };
+            let is_relative = is_increment || self.is_incremental(state) == Some(true);
+            if !is_relative || !state.actual().raw(axis).is_nan() || self.is_second_on_face(axis) {
+                continue;
+            }
+            let value = self.words.number(letter).unwrap_or(f64::NAN);
+            let value = if axis.is_rotary() { value } else { value * unit };
+            let is_diameter = axis == Axis::X && state.words_are_diameters(self.model) != Some(false);
+            way.set(axis, if is_diameter { value / 2.0 } else { value });
+        }
+        if way.values().iter().any(|part| !part.is_nan()) {
+            self.emit(state, Event::KnownWay(way));
+        }
     }
 
     /// A fault that an analysis of all paths holds back until the move is made, so that it goes on where the program means to be.

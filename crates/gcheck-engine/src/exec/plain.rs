@@ -112,6 +112,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             if axis == Axis::X && moves.diameter {
                 value /= 2.0;
             }
+            if moves.incremental && target.raw(axis).is_nan() {
+                return false;
+            }
             target.set(axis, if moves.incremental { target.raw(axis) + value } else { value });
         }
         let base = cursor.place.base;

@@ -62,6 +62,11 @@ impl CompensationState {
         matches!(self.on, Perhaps::Yes(Course::Followed(_)))
     }
 
+    /// Is it on along a path that nobody knows?
+    pub(crate) fn is_unknown_path(&self) -> bool {
+        matches!(self.on, Perhaps::Yes(Course::Unknown))
+    }
+
     /// What was on may be on along a path that nobody knows; what was off is left off.
     pub(crate) fn forget(&mut self) {
         let (on, left) = (self.on.or_other(), self.left.or_other());

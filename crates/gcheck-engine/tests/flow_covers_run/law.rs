@@ -134,6 +134,7 @@ fn is_announcement(event: &Event) -> bool {
         event,
         Event::Modal(_)
             | Event::FeedRate(_)
+            | Event::KnownWay(_)
             | Event::WorkOffset { .. }
             | Event::Shift(_)
             | Event::LengthOffset(_)

@@ -54,6 +54,7 @@ const TABLES: &[&str] = &[
     "[format]",
     "[machine.rapid]",
     "[machine.rotary_sign]",
+    "[machine.rotary_direction]",
     "[overrides.machine]",
 ];
 

@@ -45,7 +45,8 @@ pub(crate) fn figures(control: &str, machine: &Machine, text: &str) -> Statistic
     let statistics =
         Statistics::new(view, timing, model.work_at_power_on()).planned(plan.as_ref()).with_stretches();
     let mut recorder = Recorder { model: &model, machine, starts: &starts, statistics, fault: None };
-    run(&program, &model, machine, Options::NONE, 10_000_000, &mut recorder);
+    // The real planner starts with its switch for blocks with `/` on.
+    run(&program, &model, machine, Options::SKIP_ALL, 10_000_000, &mut recorder);
     assert_eq!(recorder.fault, None, "{text}");
     recorder.statistics.finish();
     recorder.statistics

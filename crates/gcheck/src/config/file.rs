@@ -148,6 +148,9 @@ pub struct MachineTable {
     pub rotary_order: Option<Vec<Placed<String>>>,
     /// Sense of rotation by axis, 1 or -1.
     pub rotary_sign: BTreeMap<Placed<String>, Placed<i8>>,
+    /// The line that a rotary axis turns about at zero angles, by its parts along X, Y and Z and of any length:
+    /// `{ B = [0.0, 1.0, 1.0] }` for a head at 45 degrees. Without it A turns about X, B about Y and C about Z.
+    pub rotary_direction: BTreeMap<Placed<String>, Placed<[f64; 3]>>,
     /// From the pivot of a tilting head to the spindle nose, in `units`.
     pub pivot_length: Option<Placed<f64>>,
     /// Where the rotary axes of the table meet, in machine coordinates: `{ X = -381.0, Y = -203.2, Z = -550.0 }`.

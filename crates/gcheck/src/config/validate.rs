@@ -7,7 +7,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use gcheck_controls::{CodeNumber, Control, Effect, Letter, Machine, UserCode};
-use gcheck_geometry::{MM_PER_INCH, RotaryAxis};
+use gcheck_geometry::{Direction, MM_PER_INCH, RotaryAxis};
 use gcheck_lint::Selection;
 use gcheck_rules::RULES;
 
@@ -179,6 +179,18 @@ impl<'t> Checked<'t> {
                 return Err(self.text.problem(sign, "a sense of rotation is 1 or -1"));
             }
         }
+        for (axis, parts) in &table.rotary_direction {
+            if rotary_axis(&axis.value).is_none() {
+                return Err(self.text.problem(axis, format!("`{}` is not a rotary axis", axis.value)));
+            }
+            if Direction::of(parts.value).is_none() {
+                let shown = parts.value.map(plain).join(", ");
+                let message = format!("[{shown}] is not a direction: an axis turns about a line");
+                let help = "write how far the line goes along X, Y and Z: [0.0, 1.0, 1.0] is between Y and Z";
+                return Err(self.text.problem(parts, message).help(help));
+            }
+        }
+        self.rotary_lines(table)?;
         for name in table.rotary_shorter_way.iter().flatten() {
             if rotary_axis(&name.value).is_none() {
                 return Err(self.text.problem(name, format!("`{}` is not a rotary axis", name.value)));
@@ -187,17 +199,37 @@ impl<'t> Checked<'t> {
         Ok(())
     }
 
+    /// Two axes about parallel lines turn nothing that one of them does not.
+    fn rotary_lines(&self, table: &MachineTable) -> Result<(), Problem> {
+        let line = |axis: RotaryAxis| {
+            let given =
+                table.rotary_direction.iter().find(|(name, _)| rotary_axis(&name.value) == Some(axis));
+            given.map_or(Some(axis.into()), |(_, parts)| Direction::of(parts.value))
+        };
+        let order = table.rotary_order.iter().flatten().filter_map(|name| rotary_axis(&name.value));
+        let [first, second] = order.collect::<Vec<_>>()[..] else { return Ok(()) };
+        let is_parallel = line(first).zip(line(second)).is_some_and(|(one, other)| one.is_parallel_to(other));
+        match table.rotary_direction.values().max_by_key(|parts| parts.range.start) {
+            Some(parts) if is_parallel => {
+                Err(self.text.problem(parts, "both axes of rotary_order turn about parallel lines"))
+            }
+            _ => Ok(()),
+        }
+    }
+
     /// `is_whole`: nothing beside the table says anything about these machines.
     pub(super) fn machine(&self, table: &MachineTable, is_whole: bool) -> Result<MachineTable, Problem> {
         let own_axes = || table.axes.iter().flat_map(|axes| &axes.value);
         let lists = [&table.rotary_order, &table.rotary_shorter_way];
         let lists = own_axes().chain(lists.into_iter().flatten().flatten());
-        for axis in lists.chain(table.travel.keys()).chain(table.rotary_sign.keys()) {
+        let turning = table.rotary_sign.keys().chain(table.rotary_direction.keys());
+        for axis in lists.chain(table.travel.keys()).chain(turning) {
             self.axis(axis)?;
         }
         self.each_axis_once(own_axes())?;
         self.each_axis_once(table.travel.keys())?;
         self.each_axis_once(table.rotary_sign.keys())?;
+        self.each_axis_once(table.rotary_direction.keys())?;
         self.each_axis_once(table.rotary_shorter_way.iter().flatten())?;
         self.listed_axes(table)?;
         if let Some(bars) = table.bars.as_ref().filter(|bars| bars.value == 0) {
@@ -279,7 +311,8 @@ impl<'t> Checked<'t> {
         let shown = || axes.iter().map(|axis| axis.value.to_ascii_uppercase()).collect::<Vec<_>>().join(", ");
         // Rates of axes that are not listed stay: an import that narrows `axes` keeps what it does not know.
         let lists = [&table.rotary_order, &table.rotary_shorter_way].into_iter().flatten().flatten();
-        let named = table.travel.keys().chain(table.rotary_sign.keys()).chain(lists);
+        let turning = table.rotary_sign.keys().chain(table.rotary_direction.keys());
+        let named = table.travel.keys().chain(turning).chain(lists);
         for name in named {
             if !axes.iter().any(|axis| axis.value.eq_ignore_ascii_case(&name.value)) {
                 let message = format!("`{}` is not among the machine's `axes`: {}", name.value, shown());

@@ -135,8 +135,8 @@ fn of(path: &[Step]) -> Option<Of> {
         | ["tools", _, "offset"]
         | [
             "machine",
-            "travel" | "rapid" | "acceleration" | "jerk" | "rotary_sign" | "rotary_centre" | "rotary_offset"
-            | "axes" | "rotary_order" | "rotary_shorter_way",
+            "travel" | "rapid" | "acceleration" | "jerk" | "rotary_sign" | "rotary_direction"
+            | "rotary_centre" | "rotary_offset" | "axes" | "rotary_order" | "rotary_shorter_way",
         ] => Of::Axes,
         _ => return None,
     })

@@ -6,7 +6,7 @@
 use std::collections::BTreeMap;
 
 use gcheck_engine::{Axis, Units};
-use gcheck_geometry::{Arrangement, Kinematics, Mm, RotaryAxis};
+use gcheck_geometry::{Arrangement, Direction, Kinematics, Mm, RotaryAxis};
 
 use crate::config::{MachineTable, Placed, Rotary, rotary_axis};
 
@@ -18,6 +18,7 @@ pub(super) struct RotaryAxes {
     /// In the order in which `axes` names them.
     named: Vec<RotaryAxis>,
     sign: BTreeMap<usize, f64>,
+    direction: BTreeMap<usize, Direction>,
     pivot_length: Option<Mm>,
     centre: [Option<Mm>; 3],
     offset: [Mm; 3],
@@ -46,6 +47,11 @@ impl RotaryAxes {
         for (name, sign) in &table.rotary_sign {
             if let Some(axis) = rotary_axis(&name.value) {
                 self.sign.insert(axis.index(), f64::from(sign.value));
+            }
+        }
+        for (name, parts) in &table.rotary_direction {
+            if let (Some(axis), Some(direction)) = (rotary_axis(&name.value), Direction::of(parts.value)) {
+                self.direction.insert(axis.index(), direction);
             }
         }
         if let Some(length) = &table.pivot_length {
@@ -88,6 +94,7 @@ impl RotaryAxes {
         let is_told = self.arrangement.is_some()
             || self.order.is_some()
             || !self.sign.is_empty()
+            || !self.direction.is_empty()
             || self.pivot_length.is_some()
             || self.offset.iter().any(|part| part.0.abs() > 0.0);
         let order = self.order.as_deref().unwrap_or(&self.named);
@@ -99,6 +106,7 @@ impl RotaryAxes {
             arrangement: self.arrangement.unwrap_or(Arrangement::HeadHead),
             order,
             sign: order.map(|axis| self.sign.get(&axis.index()).copied().unwrap_or(1.0)),
+            inclined: order.map(|axis| self.direction.get(&axis.index()).copied()),
             pivot_length: self.pivot_length,
             offset: self.offset,
         })

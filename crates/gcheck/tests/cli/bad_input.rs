@@ -752,6 +752,20 @@ fn figures_and_axes_that_no_machine_has() {
         ("haas-mill", "[machine]\naxes = [\"X\", \"Y\", \"Z\", \"A\"]\nrotary_order = [\"A\", \"B\"]"),
         ("haas-mill", "[machine]\naxes = [\"X\", \"Y\", \"Z\", \"A\"]\nrotary = \"table-table\""),
         ("haas-mill", "[machine]\nrotary_sign = { X = 1 }"),
+        ("haas-mill", "[machine]\nrotary_direction = { X = [0.0, 1.0, 1.0] }"),
+        ("haas-mill", "[machine]\nrotary_direction = { B = [0.0, 0.0, 0.0] }"),
+        ("haas-mill", "[machine]\nrotary_direction = { B = [0.0, nan, 1.0] }"),
+        ("haas-mill", "[machine]\nrotary_direction = { B = [inf, 0.0, 1.0] }"),
+        ("haas-mill", "[machine]\nrotary_direction = { B = [0.0, 1.0] }"),
+        ("haas-mill", "[machine]\nrotary_direction = { B = [0.0, 1.0, 1.0], b = [0.0, 1.0, 0.0] }"),
+        (
+            "haas-mill",
+            "[machine]\naxes = [\"X\", \"Y\", \"Z\", \"A\"]\nrotary_direction = { B = [0.0, 1.0, 1.0] }",
+        ),
+        (
+            "haas-mill",
+            "[machine]\nrotary_order = [\"C\", \"B\"]\nrotary_direction = { B = [0.0, 0.0, -2.0] }",
+        ),
         ("haas-mill", "[tools]\n1 = { surface_speed = [60.0, 140.0] }"),
         ("haas-mill", "[tools]\n1 = { diameter = 0.0, surface_speed = [60.0, 140.0] }"),
         ("grbl", "[machine]\npreset = \"sherline-5400\"\nunits = \"inch\"\nmax_feed = 900.0"),
@@ -810,6 +824,22 @@ fn figures_and_axes_that_no_machine_has() {
           error: gcheck.toml:4:10: `rotary` is for machines with two rotary axes, and `axes` lists X, Y, Z, A
         [machine] | rotary_sign = { X = 1 }
           error: gcheck.toml:3:17: `X` is not a rotary axis
+        [machine] | rotary_direction = { X = [0.0, 1.0, 1.0] }
+          error: gcheck.toml:3:22: `X` is not a rotary axis
+        [machine] | rotary_direction = { B = [0.0, 0.0, 0.0] }
+          error: gcheck.toml:3:26: [0, 0, 0] is not a direction: an axis turns about a line
+        [machine] | rotary_direction = { B = [0.0, nan, 1.0] }
+          error: gcheck.toml:3:26: [0, NaN, 1] is not a direction: an axis turns about a line
+        [machine] | rotary_direction = { B = [inf, 0.0, 1.0] }
+          error: gcheck.toml:3:26: [inf, 0, 1] is not a direction: an axis turns about a line
+        [machine] | rotary_direction = { B = [0.0, 1.0] }
+          error: gcheck.toml:3:26: invalid length 2, expected an array of length 3
+        [machine] | rotary_direction = { B = [0.0, 1.0, 1.0], b = [0.0, 1.0, 0.0] }
+          error: gcheck.toml:3:47: the axis B is listed twice
+        [machine] | axes = ["X", "Y", "Z", "A"] | rotary_direction = { B = [0.0, 1.0, 1.0] }
+          error: gcheck.toml:4:22: `B` is not among the machine's `axes`: X, Y, Z, A
+        [machine] | rotary_order = ["C", "B"] | rotary_direction = { B = [0.0, 0.0, -2.0] }
+          error: gcheck.toml:4:26: both axes of rotary_order turn about parallel lines
         [tools] | 1 = { surface_speed = [60.0, 140.0] }
           error: gcheck.toml:3:23: a surface speed needs the tool's `diameter`, above zero
         [tools] | 1 = { diameter = 0.0, surface_speed = [60.0, 140.0] }

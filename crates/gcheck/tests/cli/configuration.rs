@@ -280,6 +280,7 @@ tool_change_seconds = 4.0
 rotary = "head-head"
 rotary_order = ["A", "B"]
 rotary_sign = { A = 1, B = 1 }
+rotary_direction = { B = [0.0, 1.0, 1.0] }
 pivot_length = 150.0
 rotary_offset = { Z = 20.0 }
 bar_length = 1200.0

@@ -56,6 +56,8 @@ net change iocontrol.0.tool-change => iocontrol.0.tool-changed
 
 RUN_PROGRAMS = r'''# No program pauses for so long, in seconds.
 STALLED = 15
+# Between two moves that the control stops for, it is done as well, but not for so long.
+DONE = 0.3
 time.sleep(0.5)
 with open("out.jsonl", "w") as out:
     for program in job["programs"]:
@@ -80,6 +82,7 @@ with open("out.jsonl", "w") as out:
         error = None
         now = begin
         place, changed = None, begin
+        end = None
         while now - begin < job["limit"]:
             status.poll()
             now = time.time()
@@ -93,8 +96,13 @@ with open("out.jsonl", "w") as out:
             idle = status.interp_state == linuxcnc.INTERP_IDLE
             started = started or not idle
             done = idle and status.inpos and status.queue == 0 and status.exec_state == linuxcnc.EXEC_DONE
-            if (started or now - begin > 2) and done:
+            if not done or not (started or now - begin > 2):
+                end = None
+            elif end is None:
+                end = now
+            elif now - end > DONE:
                 ended = True
+                now = end
                 break
             time.sleep(0.001)
         if now - changed > STALLED:

@@ -30,6 +30,7 @@ const HEAD: Kinematics = Kinematics {
     arrangement: Arrangement::HeadHead,
     order: [RotaryAxis::A, RotaryAxis::B],
     sign: [1.0, 1.0],
+    inclined: [None; 2],
     pivot_length: None,
     offset: [Mm::ZERO; 3],
 };

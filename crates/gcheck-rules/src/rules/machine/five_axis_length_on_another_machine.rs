@@ -138,6 +138,7 @@ mod tests {
             arrangement: Arrangement::TableTable,
             order: [RotaryAxis::A, RotaryAxis::B],
             sign: [1.0; 2],
+            inclined: [None; 2],
             pivot_length: None,
             offset: [Mm(0.0); 3],
         });
