@@ -132,6 +132,7 @@ impl Position {
     /// Is one of the coordinates more than `by` away from that of `other`? Unknown ones are not.
     ///
     /// Looks at all axes at once: this is asked of moves by the million.
+    #[inline]
     pub fn is_apart(&self, other: &Self, by: f64) -> bool {
         self.0.iter().zip(&other.0).fold(false, |apart, (own, other)| apart | ((own - other).abs() > by))
     }

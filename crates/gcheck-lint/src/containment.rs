@@ -21,28 +21,28 @@ thread_local! {
 
 /// Calls a rule.
 pub(crate) fn call<T>(rule: &'static RuleMeta, call: impl FnOnce() -> T) -> T {
-    let mut calls = Calls::default();
-    calls.begin(rule);
+    let _blame = Calls::new(|| Some(rule));
     call()
 }
 
 /// Calls of many rules one after another. Only a panic makes it known which one was called last.
-#[derive(Default)]
-pub(crate) struct Calls {
-    called: Option<&'static RuleMeta>,
+pub(crate) struct Calls<F: Fn() -> Option<&'static RuleMeta>> {
+    called: F,
 }
 
-impl Calls {
-    /// From here on this rule is called.
-    pub(crate) fn begin(&mut self, rule: &'static RuleMeta) {
-        self.called = Some(rule);
+impl<F: Fn() -> Option<&'static RuleMeta>> Calls<F> {
+    /// `called` is asked for the rule that was called last, when one of them panics.
+    pub(crate) fn new(called: F) -> Self {
+        Self { called }
     }
 }
 
-impl Drop for Calls {
+impl<F: Fn() -> Option<&'static RuleMeta>> Drop for Calls<F> {
     fn drop(&mut self) {
-        if thread::panicking() && self.called.is_some() {
-            PANICKED.set(self.called);
+        if thread::panicking()
+            && let Some(called) = (self.called)()
+        {
+            PANICKED.set(Some(called));
         }
     }
 }

@@ -3,11 +3,23 @@
 //! Knows: which values are certain, which code a computed `G` or `M` word names. Must not know: any rule, how the state came
 //! about.
 
-use std::cell::OnceCell;
+use std::cell::{OnceCell, RefCell};
 
 use gcheck_controls::CodeIx;
-use gcheck_engine::{Abstract, AbstractValue, Domain, Model, Truth};
+use gcheck_engine::{Abstract, AbstractValue, At, Domain, Look, Model, State, Truth};
 use gcheck_program::{Block, Dialect, Place, Word};
+
+/// Evaluates the computed words of blocks; one for an analysis, as making it costs more than most words.
+pub(crate) trait Evaluate {
+    /// The computed words of a block with their values in the state before it; those that have no value are left out.
+    fn words(&self, place: &Place, at: At, state: &State<Abstract>) -> Vec<(Word, AbstractValue)>;
+}
+
+impl Evaluate for RefCell<Look<'_, '_>> {
+    fn words(&self, place: &Place, at: At, state: &State<Abstract>) -> Vec<(Word, AbstractValue)> {
+        self.try_borrow_mut().map_or_else(|_| Vec::new(), |mut look| look.words(place, at, state))
+    }
+}
 
 /// What was evaluated of a block, each part when the first rule asked for it.
 #[derive(Default)]

@@ -11,14 +11,14 @@ use std::rc::Rc;
 use gcheck_controls::{Code, CodeIx, CodeNumber, Control, Effect, Letter, LetterSet, Machine};
 use gcheck_diagnostics::{Certainty, Finding, RuleMeta, Severity};
 use gcheck_engine::{
-    Abstract, AbstractValue, At, Domain, Fact, FlowCx, FlowResult, FrameKind, Look, Model, Origin, Program,
+    Abstract, AbstractValue, At, Domain, Fact, FlowCx, FlowResult, FrameKind, Model, Origin, Program,
     ReachingDefinitions, Role, State, Units,
 };
 use gcheck_geometry::Mm;
 use gcheck_program::{BlockFlags, BlockTable, ExprIx, FileIndex, Place, Word};
 
 use crate::block_context::facts_of;
-use crate::evaluated::{BlockOfValues, Evaluated, with_codes};
+use crate::evaluated::{BlockOfValues, Evaluate, Evaluated, with_codes};
 use crate::shared_memory::SharedMemories;
 use crate::text_memo::TextMemo;
 use crate::{Environment, SharedMemory, WordFacts};
@@ -37,10 +37,11 @@ pub struct PathCx<'a> {
     pub(crate) flow: &'a FlowCx<'a>,
     /// The block's words, when a rule was shown the block.
     pub(crate) read: Option<&'a ReadBlock>,
-    /// The rule that is being called wants no more calls of this kind.
-    pub(crate) had_enough: &'a Cell<bool>,
+    /// What the rule that is being called wishes.
+    pub(crate) wishes: &'a Wishes,
     pub(crate) shared: &'a SharedMemories,
     pub(crate) memo: &'a TextMemo,
+    pub(crate) evaluate: &'a dyn Evaluate,
     /// Evaluated when the first rule asks.
     pub(crate) evaluated: &'a Evaluated,
     /// See [`PathCx::is_called_only`].
@@ -49,11 +50,33 @@ pub struct PathCx<'a> {
     pub(crate) letters: Option<LetterSet>,
 }
 
+/// What a rule that was called wishes of further calls.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) enum Wish {
+    #[default]
+    None,
+    /// No more calls of this kind.
+    Enough,
+    /// No more calls of this kind in this streak of moves.
+    Rest,
+}
+
+/// The wish of the rule that is being called.
+pub(crate) type Wishes = Cell<Wish>;
+
+/// Blocks that [`PathRule::block`](crate::PathRule::block) may be called for.
+pub(crate) fn is_read(origin: Origin) -> bool {
+    use BlockFlags as F;
+    const LETTERS: LetterSet = LetterSet::of("FSTHD");
+    origin.flags.intersects(F::CODE | F::STATEMENT | F::EXPRESSION | F::UNREAD_WORD)
+        || origin.letters.intersects(LETTERS)
+}
+
 /// A block as rules read it, kept because loops come by again.
 #[derive(Clone)]
 pub(crate) struct ReadBlock {
     at: At,
-    place: Place,
+    pub(crate) place: Place,
     codes: Vec<CodeIx>,
     effects: Vec<Effect>,
     /// Of its words, then of its statements.
@@ -132,7 +155,16 @@ fn is_computed_code(word: &Word) -> bool {
 impl<'a> PathCx<'a> {
     /// The rule has seen enough: of all that it watches, what it is shown now is not shown to it any more in this analysis.
     pub fn enough(&self) {
-        self.had_enough.set(true);
+        self.wishes.set(Wish::Enough);
+    }
+
+    /// The rule has seen enough of this streak: like moves (all at feed, all rapid, or all strokes) of blocks that have nothing but
+    /// axes, one after the other on every path, with no event between them but moves and dwells. The rest of it is not shown to the
+    /// rule where it is shown this move. In a block that has more, it is shown the next one all the same.
+    pub fn rest(&self) {
+        if self.wishes.get() == Wish::None && self.flow.solo && !is_read(self.flow.origin) {
+            self.wishes.set(Wish::Rest);
+        }
     }
 
     /// What rules remember together, of a type that the asking rule [shares](crate::PathRule::shares).
@@ -182,7 +214,8 @@ impl<'a> PathCx<'a> {
         self.place_of(self.flow.origin.at)
     }
 
-    fn read_block(&self) -> Option<&'a ReadBlock> {
+    /// The block, if it was read.
+    pub(crate) fn read_block(&self) -> Option<&'a ReadBlock> {
         // Under cutter compensation an event may belong to a block before the one under way.
         self.read.filter(|read| read.at == self.flow.origin.at)
     }
@@ -426,8 +459,7 @@ impl<'a> PathCx<'a> {
     pub fn computed_words(&self) -> &'a [(Word, AbstractValue)] {
         self.evaluated.words(|| {
             let Some(place) = self.place() else { return Vec::new() };
-            let mut look = Look::new(self.program, self.model, &self.environment.machine.engine);
-            look.words(&place, self.origin().at, self.state())
+            self.evaluate.words(&place, self.origin().at, self.state())
         })
     }
 

@@ -9,15 +9,23 @@ use crate::{FinishCx, FollowedCx, MakeShared, PathCx, Remembers, Report, Uses};
 bitflags::bitflags! {
     /// What a rule of the path tier wants to see. A rule that watches little costs little.
     #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-    pub struct Watch: u16 {
+    pub struct Watch: u32 {
         /// [`PathRule::block`]: blocks with a code that does more than choose a motion (`G0` to `G3`), with `T`, `H` or `D`,
         /// or with `F` or `S` and no code, before they are executed.
         const BLOCKS = 1;
         /// [`PathRule::moved`]: every move.
-        const MOVES = 1 << 1;
-        /// [`PathRule::cut`]: a cutting move, the first one after something else than a move happened.
+        const MOVES = Self::FEED_MOVES.bits()
+            | Self::RAPID_MOVES.bits()
+            | Self::STROKES.bits()
+            | Self::ARCS.bits()
+            | Self::CURVES.bits();
+        /// [`PathRule::moved`]: straight moves that the program itself makes, but for rapid ones. Large programs have millions.
+        const FEED_MOVES = 1 << 1;
+        /// [`PathRule::moved`]: straight moves of a canned cycle, or of another operation that expands to several moves.
+        const STROKES = Self::FEED_STROKES.bits() | Self::RAPID_STROKES.bits();
+        /// [`PathRule::cut`]: a cutting move, the first one after something else happened than a move or a dwell.
         const CUTS = 1 << 2;
-        /// [`PathRule::changed`]: every event that is not a move, except the path mode.
+        /// [`PathRule::changed`]: every event that is not a move, except the path mode and [codes that set a mode](Self::MODES).
         const CHANGES = 1 << 3;
         /// [`PathRule::ended`].
         const ENDS = 1 << 4;
@@ -44,6 +52,16 @@ bitflags::bitflags! {
         const FOLLOWED = 1 << 14;
         /// [`PathRule::ended_elsewhere`].
         const ENDS_ELSEWHERE = 1 << 15;
+        /// [`PathRule::moved`]: rapid moves that the program itself makes.
+        const RAPID_MOVES = 1 << 16;
+        /// [`PathRule::moved`]: curves that are no arcs.
+        const CURVES = 1 << 17;
+        /// [`PathRule::moved`]: strokes that are not rapid.
+        const FEED_STROKES = 1 << 18;
+        /// [`PathRule::moved`]: rapid strokes.
+        const RAPID_STROKES = 1 << 19;
+        /// [`PathRule::changed`]: codes that set a mode. Some programs have one in every block.
+        const MODES = 1 << 20;
     }
 }
 

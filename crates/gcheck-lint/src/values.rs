@@ -34,14 +34,13 @@ impl PathRule for WithValues {
         else {
             return;
         };
-        let (Some(place), Some(file)) = (cx.place(), cx.program.file(cx.origin().at.file)) else { return };
+        // Shared with the caller: a block of a loop is asked for by many rules at every turn.
+        let own = if cx.read_block().is_none() { cx.place() } else { None };
+        let place = cx.read_block().map(|read| &read.place).or(own.as_ref());
+        let (Some(place), Some(file)) = (place, cx.program.file(cx.origin().at.file)) else { return };
         let text = file.loaded.chunk_text(place.chunk);
         let written = BlockCx::new(cx.environment, &place.table, place.ix, text, place.base);
-        let computed = BlockCx {
-            block: &known.block,
-            words: &known.words,
-            ..BlockCx::new(cx.environment, &place.table, place.ix, text, place.base)
-        };
+        let computed = BlockCx { block: &known.block, words: &known.words, ..written };
         let found = self.findings(&computed);
         if found.is_empty() {
             return;

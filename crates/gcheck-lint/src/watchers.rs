@@ -3,14 +3,14 @@
 //! Knows: how what the engine shows becomes calls of rules. Must not know: any rule, how paths are found, how memories are
 //! kept.
 
-use std::cell::Cell;
+use std::cell::{Cell, RefCell};
 use std::collections::HashSet;
 use std::rc::Rc;
 
 use gcheck_controls::LetterSet;
 use gcheck_diagnostics::{Finding, Severity};
 use gcheck_engine::{
-    At, Ending, Event, Fault, FlowCx, FlowObserver, FlowResult, Model, Origin, Program, TravelKind,
+    At, Ending, Event, Fault, FlowCx, FlowObserver, FlowResult, Look, Model, Program, TravelKind,
 };
 use gcheck_program::{BlockFlags, FileIndex};
 use rustc_hash::FxHashMap;
@@ -18,7 +18,7 @@ use rustc_hash::FxHashMap;
 use crate::block_delete::{self, Key};
 use crate::containment;
 use crate::evaluated::Evaluated;
-use crate::path_context::ReadBlock;
+use crate::path_context::{ReadBlock, Wish, Wishes, is_read};
 use crate::shared_memory::{SharedMemories, SharedMemory};
 use crate::text_memo::TextMemo;
 use crate::{Environment, FinishCx, FollowedCx, PathCx, PathRule, Remembers, Report, RuleEntry, Uses, Watch};
@@ -28,7 +28,6 @@ struct Active {
     entry: &'static RuleEntry,
     severity: Option<Severity>,
     watch: Watch,
-    rule: Box<dyn PathRule>,
 }
 
 /// What the findings of an analysis hold for.
@@ -48,20 +47,12 @@ pub(crate) struct Watchers<'a, 'c> {
     program: &'a Program<'a>,
     model: &'a Model<'a>,
     file_index: &'a FileIndex,
-    rules: Vec<Active>,
+    callees: Callees<'c>,
     shared: SharedMemories,
-    memo: Rc<TextMemo>,
-    /// By bit of [`Watch`]: indices of the rules that watch it.
-    lists: Lists,
-    add: &'c mut dyn FnMut(Option<Severity>, Finding),
-    /// Findings made already: a loop comes by many times.
-    made: HashSet<Key>,
-    /// Of those, what this analysis made again.
-    again: HashSet<Key>,
+    memo: TextMemo,
+    look: RefCell<Look<'a, 'a>>,
     /// Something other than a move happened since the last cut.
     changed: bool,
-    /// What findings hold for.
-    scope: Scope,
     /// Blocks of the main file that were read, by number.
     read: FxHashMap<u32, Rc<ReadBlock>>,
     /// The block that is being executed, if it was read.
@@ -72,8 +63,31 @@ pub(crate) struct Watchers<'a, 'c> {
     is_called_only: bool,
 }
 
+/// The rules that watch, and what becomes of their findings.
+struct Callees<'c> {
+    active: Vec<Active>,
+    /// The rules themselves, in the same order.
+    rules: Vec<Box<dyn PathRule>>,
+    lists: Lists,
+    /// The streak of like moves under way: which moves; empty when none is.
+    streak: Watch,
+    /// What rules were shown of it so far.
+    shown: Watch,
+    /// Of each kind in `shown`: the rules that do not rest.
+    awake: Lists,
+    add: &'c mut dyn FnMut(Option<Severity>, Finding),
+    /// Findings made already: a loop comes by many times.
+    made: HashSet<Key>,
+    /// Of those, what this analysis made again.
+    again: HashSet<Key>,
+    /// What findings hold for.
+    scope: Scope,
+}
+
+/// How many kinds of calls there are.
+const LISTS: usize = Watch::all().bits().count_ones() as usize;
 /// By bit of [`Watch`]: indices of the rules that watch it.
-type Lists = [Vec<usize>; Watch::all().bits().count_ones() as usize];
+type Lists = [Vec<usize>; LISTS];
 
 /// How far the rules have come, beside what each remembers.
 #[derive(Debug, Clone, PartialEq)]
@@ -83,9 +97,9 @@ pub(crate) struct Progress {
 }
 
 /// Which rules watch what.
-fn lists(rules: &[Active]) -> Lists {
+fn lists(active: &[Active]) -> Lists {
     let mut lists = Lists::default();
-    for (index, active) in rules.iter().enumerate() {
+    for (index, active) in active.iter().enumerate() {
         let watch = active.watch;
         for (bit, list) in lists.iter_mut().enumerate() {
             if watch.bits() & (1 << bit) != 0 {
@@ -96,10 +110,174 @@ fn lists(rules: &[Active]) -> Lists {
     lists
 }
 
-/// In the place of a rule that has had enough.
-const LEFT: usize = usize::MAX;
+/// What a rule is shown of the block under way. A macro, so that the rules can be called while it borrows the rest.
+macro_rules! context {
+    ($watchers:ident, $flow:expr, $wishes:expr, $shared:expr, $evaluated:expr) => {
+        PathCx {
+            environment: $watchers.environment,
+            program: $watchers.program,
+            model: $watchers.model,
+            file_index: $watchers.file_index,
+            flow: $flow,
+            read: $watchers.current.as_deref(),
+            wishes: $wishes,
+            shared: $shared,
+            memo: &$watchers.memo,
+            evaluate: &$watchers.look,
+            evaluated: $evaluated,
+            is_called_only: $watchers.is_called_only,
+            // The addresses that the block has left, if that is the block under way.
+            letters: $watchers.letters.filter(|(at, _)| *at == $flow.origin.at).map(|(_, letters)| letters),
+        }
+    };
+}
+
+/// The index of no rule.
+const NONE: usize = usize::MAX;
 /// Blocks whose words are kept.
 const MAX_READ: usize = 4096;
+
+impl Callees<'_> {
+    /// Makes the rules forget what they saw.
+    fn restart(&mut self, scope: Scope) {
+        self.scope = scope;
+        for (active, own) in self.active.iter().zip(&mut self.rules) {
+            if let Some((_, rule)) = active.entry.run.watcher() {
+                *own = rule;
+            }
+        }
+        self.lists = lists(&self.active);
+        self.end_streak();
+    }
+
+    /// A move like these comes: the streak goes on if its moves are like it.
+    fn go_on(&mut self, like: Watch) {
+        if self.streak != like {
+            (self.streak, self.shown) = (like, Watch::empty());
+        }
+    }
+
+    /// The streak of like moves ends: no rule rests any more.
+    fn end_streak(&mut self) {
+        (self.streak, self.shown) = (Watch::empty(), Watch::empty());
+    }
+
+    /// Does any rule watch this?
+    fn any(&self, watch: Watch) -> bool {
+        self.lists.get(bit(watch)).is_some_and(|list| !list.is_empty())
+    }
+
+    /// Calls each rule that watches this.
+    fn each(
+        &mut self,
+        watch: Watch,
+        block: BlockFlags,
+        wishes: &Wishes,
+        call: impl FnMut(&mut dyn PathRule, &mut Report<'_>),
+    ) {
+        let Some(list) = self.lists.get_mut(bit(watch)).filter(|list| !list.is_empty()) else { return };
+        let mut list = std::mem::take(list);
+        let left = self.call_all(&mut list, false, block, wishes, call);
+        if let Some(own) = self.lists.get_mut(bit(watch)) {
+            *own = list;
+        }
+        self.leave(watch, &left);
+    }
+
+    /// The same for a move of the streak under way: rules that rest are not called.
+    fn each_in_streak(
+        &mut self,
+        watch: Watch,
+        block: BlockFlags,
+        wishes: &Wishes,
+        call: impl FnMut(&mut dyn PathRule, &mut Report<'_>),
+    ) {
+        let (Some(all), Some(awake)) = (self.lists.get(bit(watch)), self.awake.get_mut(bit(watch))) else {
+            return;
+        };
+        if !self.shown.contains(watch) {
+            self.shown.insert(watch);
+            awake.clone_from(all);
+        }
+        if awake.is_empty() {
+            return;
+        }
+        let mut list = std::mem::take(awake);
+        let left = self.call_all(&mut list, true, block, wishes, call);
+        if let Some(awake) = self.awake.get_mut(bit(watch)) {
+            *awake = list;
+        }
+        self.leave(watch, &left);
+    }
+
+    /// Calls the rules of a list, and removes those that wish for no more calls. In a streak that are those that rest, too. Gives
+    /// those that have had enough for good.
+    fn call_all(
+        &mut self,
+        list: &mut Vec<usize>,
+        is_streak: bool,
+        block: BlockFlags,
+        wishes: &Wishes,
+        mut call: impl FnMut(&mut dyn PathRule, &mut Report<'_>),
+    ) -> Vec<usize> {
+        let (is_one_way, skips) = (self.scope == Scope::OneWay, self.scope == Scope::Skipping);
+        let (active, made, again, add) = (&self.active, &mut self.made, &mut self.again, &mut self.add);
+        let called = Cell::new(NONE);
+        let mut once = |finding: Finding| {
+            let key = block_delete::key(&finding);
+            if skips && made.contains(&key) {
+                again.insert(key);
+            } else if made.insert(key) {
+                let severity = active.get(called.get()).and_then(|active| active.severity);
+                add(severity, block_delete::name_condition(finding, block, skips));
+            }
+        };
+        let mut report = Report::new(&mut once);
+        let _blame = containment::Calls::new(|| active.get(called.get()).map(|active| active.entry.meta));
+        let (mut left, mut any_left) = (Vec::new(), false);
+        // Moves come by the million: this does nothing for a rule that it could do for all of them, or when it is needed.
+        for index in list.iter_mut() {
+            let Some(rule) = self.rules.get_mut(*index) else { continue };
+            called.set(*index);
+            if is_one_way && !rule.counts_on_some_path() {
+                continue;
+            }
+            call(&mut **rule, &mut report);
+            let wish = wishes.get();
+            if wish != Wish::None {
+                wishes.set(Wish::None);
+                match wish {
+                    Wish::Enough => left.push(*index),
+                    _ if !is_streak => continue,
+                    _ => {}
+                }
+                (*index, any_left) = (NONE, true);
+            }
+        }
+        if any_left {
+            list.retain(|index| *index != NONE);
+        }
+        left
+    }
+
+    /// These rules have had enough of this; of moves, of all kinds.
+    fn leave(&mut self, watch: Watch, left: &[usize]) {
+        if left.is_empty() {
+            return;
+        }
+        let all = if Watch::MOVES.contains(watch) { Watch::MOVES } else { watch };
+        for (bit, list) in self.lists.iter_mut().chain(&mut self.awake).enumerate() {
+            if all.bits() & (1 << (bit % LISTS)) != 0 {
+                list.retain(|index| !left.contains(index));
+            }
+        }
+    }
+}
+
+/// The place of a kind of call among [`Lists`].
+const fn bit(watch: Watch) -> usize {
+    watch.bits().trailing_zeros() as usize
+}
 
 impl<'a, 'c> Watchers<'a, 'c> {
     pub(crate) fn new(
@@ -111,7 +289,7 @@ impl<'a, 'c> Watchers<'a, 'c> {
         add: &'c mut dyn FnMut(Option<Severity>, Finding),
     ) -> Self {
         let uses = Uses::new(environment, file_index);
-        let mut active = Vec::new();
+        let (mut active, mut watching) = (Vec::new(), Vec::new());
         let mut shared = SharedMemories::default();
         for (entry, severity) in rules {
             let Some((watch, rule)) = entry.run.watcher() else { continue };
@@ -119,24 +297,32 @@ impl<'a, 'c> Watchers<'a, 'c> {
                 if let Some(make) = rule.shares() {
                     shared.add(make);
                 }
-                active.push(Active { entry, severity: *severity, watch, rule });
+                active.push(Active { entry, severity: *severity, watch });
+                watching.push(rule);
             }
         }
-        let lists = lists(&active);
+        let callees = Callees {
+            lists: lists(&active),
+            active,
+            rules: watching,
+            streak: Watch::empty(),
+            shown: Watch::empty(),
+            awake: Lists::default(),
+            add,
+            made: HashSet::new(),
+            again: HashSet::new(),
+            scope: Scope::All,
+        };
         Self {
             environment,
             program,
             model,
             file_index,
-            rules: active,
+            callees,
             shared,
-            memo: Rc::default(),
-            lists,
-            add,
-            made: HashSet::new(),
-            again: HashSet::new(),
+            memo: TextMemo::default(),
+            look: RefCell::new(Look::new(program, model, &environment.machine.engine)),
             changed: true,
-            scope: Scope::All,
             read: FxHashMap::default(),
             current: None,
             letters: None,
@@ -146,62 +332,59 @@ impl<'a, 'c> Watchers<'a, 'c> {
 
     /// Makes the rules forget what they saw, for another analysis of the same program.
     pub(crate) fn restart(&mut self, scope: Scope) {
-        self.scope = scope;
-        for active in &mut self.rules {
-            if let Some((_, rule)) = active.entry.run.watcher() {
-                active.rule = rule;
-            }
-        }
+        self.callees.restart(scope);
         self.shared.restart();
-        self.lists = lists(&self.rules);
         self.changed = true;
     }
 
     /// Ids of the rules that have something to watch.
     pub(crate) fn active(&self) -> Vec<&'static str> {
-        self.rules.iter().map(|active| active.entry.meta.id).collect()
+        self.callees.active.iter().map(|active| active.entry.meta.id).collect()
     }
 
     /// Do all rules say what they remember?
     pub(crate) fn remembers_all(&mut self) -> bool {
-        let knows = |active: &mut Active| !matches!(active.rule.memory(), Remembers::Unknown);
-        self.rules.iter_mut().all(knows)
+        let knows = |rule: &mut Box<dyn PathRule>| !matches!(rule.memory(), Remembers::Unknown);
+        self.callees.rules.iter_mut().all(knows)
     }
 
     /// What was found so far.
     pub(crate) fn made(&self) -> impl Iterator<Item = Key> {
-        self.made.iter().cloned()
+        self.callees.made.iter().cloned()
     }
 
     /// What an analysis that skips blocks found of what was found before.
     pub(crate) fn take_again(&mut self) -> HashSet<Key> {
-        std::mem::take(&mut self.again)
+        std::mem::take(&mut self.callees.again)
     }
 
     /// These were made before.
     pub(crate) fn note_made(&mut self, keys: HashSet<Key>) {
-        self.made.extend(keys);
+        self.callees.made.extend(keys);
     }
 
     /// From here on findings are added that were made before.
     pub(crate) fn forget_made(&mut self) {
-        self.made.clear();
+        self.callees.made.clear();
     }
 
     /// What each rule remembers, then what they remember together.
     pub(crate) fn memories(&mut self) -> impl Iterator<Item = Remembers<'_>> {
-        let own = self.rules.iter_mut().map(|active| active.rule.memory());
+        let own = self.callees.rules.iter_mut().map(|rule| rule.memory());
         own.chain(self.shared.iter_mut().map(|shared| Remembers::All(shared)))
     }
 
     /// What beside the memories of rules decides what they are shown next.
-    pub(crate) fn progress(&self) -> Progress {
-        Progress { lists: self.lists.clone(), changed: self.changed }
+    pub(crate) fn progress(&mut self) -> Progress {
+        // A streak begins where an analysis may go on.
+        self.callees.end_streak();
+        Progress { lists: self.callees.lists.clone(), changed: self.changed }
     }
 
     /// Goes on as from there.
     pub(crate) fn set_progress(&mut self, progress: &Progress) {
-        self.lists.clone_from(&progress.lists);
+        self.callees.lists.clone_from(&progress.lists);
+        self.callees.end_streak();
         self.changed = progress.changed;
     }
 
@@ -209,7 +392,8 @@ impl<'a, 'c> Watchers<'a, 'c> {
     pub(crate) fn followed(&mut self) {
         let cx = FollowedCx { environment: self.environment, model: self.model, file_index: self.file_index };
         let nothing = BlockFlags::empty();
-        self.each(Watch::FOLLOWED, nothing, &Cell::new(false), |rule, report| rule.followed(&cx, report));
+        let followed = |rule: &mut dyn PathRule, report: &mut Report<'_>| rule.followed(&cx, report);
+        self.callees.each(Watch::FOLLOWED, nothing, &Wishes::default(), followed);
     }
 
     /// All paths were seen.
@@ -223,50 +407,9 @@ impl<'a, 'c> Watchers<'a, 'c> {
             others,
         };
         let nothing = BlockFlags::empty();
-        self.scope = Scope::All;
-        self.each(Watch::FINISH, nothing, &Cell::new(false), |rule, report| rule.finish(&cx, report));
-    }
-
-    fn each(
-        &mut self,
-        watch: Watch,
-        block: BlockFlags,
-        had_enough: &Cell<bool>,
-        mut call: impl FnMut(&mut dyn PathRule, &mut Report<'_>),
-    ) {
-        let bit = watch.bits().trailing_zeros() as usize;
-        let Some(list) = self.lists.get_mut(bit) else { return };
-        let (is_one_way, skips) = (self.scope == Scope::OneWay, self.scope == Scope::Skipping);
-        let (made, again, add) = (&mut self.made, &mut self.again, &mut self.add);
-        let severity = Cell::new(None);
-        let mut once = |finding: Finding| {
-            let key = block_delete::key(&finding);
-            if skips && made.contains(&key) {
-                again.insert(key);
-            } else if made.insert(key) {
-                add(severity.get(), block_delete::name_condition(finding, block, skips));
-            }
-        };
-        let mut report = Report::new(&mut once);
-        let mut calls = containment::Calls::default();
-        let mut any_left = false;
-        // Moves come by the million: this loop does nothing for a rule that it could do for all of them.
-        for index in list.iter_mut() {
-            let Some(active) = self.rules.get_mut(*index) else { continue };
-            if is_one_way && !active.rule.counts_on_some_path() {
-                continue;
-            }
-            severity.set(active.severity);
-            calls.begin(active.entry.meta);
-            call(&mut *active.rule, &mut report);
-            if had_enough.take() {
-                *index = LEFT;
-                any_left = true;
-            }
-        }
-        if any_left {
-            list.retain(|index| *index != LEFT);
-        }
+        self.callees.scope = Scope::All;
+        let finish = |rule: &mut dyn PathRule, report: &mut Report<'_>| rule.finish(&cx, report);
+        self.callees.each(Watch::FINISH, nothing, &Wishes::default(), finish);
     }
 
     fn read_block(&mut self, at: At) -> Option<Rc<ReadBlock>> {
@@ -281,44 +424,10 @@ impl<'a, 'c> Watchers<'a, 'c> {
         Some(read)
     }
 
-    /// The addresses that a block has left, if that is the block under way.
-    fn letters_of(&self, flow: &FlowCx<'_>) -> Option<LetterSet> {
-        self.letters.filter(|(at, _)| *at == flow.origin.at).map(|(_, letters)| letters)
-    }
-
-    /// What a rule is shown of the block under way.
-    fn context<'x>(
-        &self,
-        flow: &'x FlowCx<'x>,
-        read: Option<&'x ReadBlock>,
-        had_enough: &'x Cell<bool>,
-        shared: &'x SharedMemories,
-        memo: &'x TextMemo,
-        evaluated: &'x Evaluated,
-    ) -> PathCx<'x>
-    where
-        'a: 'x,
-    {
-        PathCx {
-            environment: self.environment,
-            program: self.program,
-            model: self.model,
-            file_index: self.file_index,
-            flow,
-            read,
-            had_enough,
-            shared,
-            memo,
-            evaluated,
-            is_called_only: self.is_called_only,
-            letters: self.letters_of(flow),
-        }
-    }
-
     /// Asks something about the block under way before a rule does.
     fn look<T>(&self, flow: &FlowCx<'_>, evaluated: &Evaluated, ask: impl FnOnce(&PathCx<'_>) -> T) -> T {
-        let (had_enough, shared) = (Cell::new(false), SharedMemories::default());
-        ask(&self.context(flow, self.current.as_deref(), &had_enough, &shared, &self.memo, evaluated))
+        let (wishes, shared) = (Wishes::default(), SharedMemories::default());
+        ask(&context!(self, flow, &wishes, &shared, evaluated))
     }
 
     /// Reads which codes the computed words of the block under way name: `G#1`.
@@ -326,11 +435,6 @@ impl<'a, 'c> Watchers<'a, 'c> {
         let Some(read) = self.current.as_ref().filter(|read| read.has_computed_code) else { return };
         let known = self.look(flow, evaluated, |cx| read.with_codes(cx.computed_words(), self.model));
         self.current = Some(Rc::new(known));
-    }
-
-    fn watches(&self, watch: Watch) -> bool {
-        let bit = watch.bits().trailing_zeros() as usize;
-        self.lists.get(bit).is_some_and(|list| !list.is_empty())
     }
 
     fn show(
@@ -362,17 +466,12 @@ impl<'a, 'c> Watchers<'a, 'c> {
         evaluated: &Evaluated,
         mut call: impl FnMut(&mut dyn PathRule, &PathCx<'_>, &mut Report<'_>),
     ) {
-        if !self.watches(watch) {
+        if !self.callees.any(watch) {
             return;
         }
-        let read = self.current.take();
-        // Rules ask the shared memories while they are called.
-        let shared = std::mem::take(&mut self.shared);
-        let (had_enough, memo) = (Cell::new(false), Rc::clone(&self.memo));
-        let cx = self.context(flow, read.as_deref(), &had_enough, &shared, &memo, evaluated);
-        self.each(watch, flow.origin.flags, &had_enough, |rule, report| call(rule, &cx, report));
-        self.current = read;
-        self.shared = shared;
+        let wishes = Wishes::default();
+        let cx = context!(self, flow, &wishes, &self.shared, evaluated);
+        self.callees.each(watch, flow.origin.flags, &wishes, |rule, report| call(rule, &cx, report));
     }
 
     /// Shows that the job ends in a program of another file.
@@ -384,55 +483,64 @@ impl<'a, 'c> Watchers<'a, 'c> {
         }
     }
 
-    /// Shows a move to those that watch one of these kinds; then what rules remember together goes on.
-    fn show_move(&mut self, kinds: &[Watch], flow: &FlowCx<'_>, event: &Event) {
-        let read = self.current.take();
-        let mut shared = std::mem::take(&mut self.shared);
-        let (had_enough, memo) = (Cell::new(false), Rc::clone(&self.memo));
-        let (none, evaluated) = (SharedMemories::default(), Evaluated::default());
-        let alone = self.context(flow, read.as_deref(), &had_enough, &none, &memo, &evaluated);
-        let cx = PathCx { shared: &shared, ..alone };
-        let flags = flow.origin.flags;
-        for kind in kinds {
-            match *kind {
-                Watch::RAPIDS => {
-                    self.each(*kind, flags, &had_enough, |rule, report| rule.rapid(&cx, event, report));
-                }
-                Watch::CUTS => {
-                    self.each(*kind, flags, &had_enough, |rule, report| rule.cut(&cx, event, report));
-                }
-                _ => self.each(*kind, flags, &had_enough, |rule, report| rule.moved(&cx, event, report)),
-            }
+    /// Shows a move of a kind to those that watch it; then what rules remember together goes on.
+    fn show_move(&mut self, kind: Watch, is_first_cut: bool, flow: &FlowCx<'_>, event: &Event) {
+        let (wishes, evaluated) = (Wishes::default(), Evaluated::default());
+        // What rules remember together sees the move after them, and asks no other memory.
+        let none = SharedMemories::default();
+        let alone = context!(self, flow, &wishes, &none, &evaluated);
+        let cx = PathCx { shared: &self.shared, ..alone };
+        let (flags, callees) = (flow.origin.flags, &mut self.callees);
+        callees.go_on(if Watch::STROKES.contains(kind) { Watch::STROKES } else { kind });
+        callees.each_in_streak(kind, flags, &wishes, |rule, report| rule.moved(&cx, event, report));
+        if is_rapid(kind) {
+            callees
+                .each_in_streak(Watch::RAPIDS, flags, &wishes, |rule, report| rule.rapid(&cx, event, report));
         }
-        for shared in shared.iter_mut() {
-            shared.moved(&alone, event);
+        if is_first_cut {
+            callees.each(Watch::CUTS, flags, &wishes, |rule, report| rule.cut(&cx, event, report));
         }
-        self.current = read;
-        self.shared = shared;
+        for memory in self.shared.iter_mut() {
+            memory.moved(&alone, event);
+        }
     }
 
     /// What rules remember together goes on with what they were shown.
-    fn remember(&mut self, flow: &FlowCx<'_>, mut call: impl FnMut(&mut dyn SharedMemory, &PathCx<'_>)) {
+    fn remember(
+        &mut self,
+        flow: &FlowCx<'_>,
+        evaluated: &Evaluated,
+        mut call: impl FnMut(&mut dyn SharedMemory, &PathCx<'_>),
+    ) {
         if self.shared.is_empty() {
             return;
         }
-        let mut shared = std::mem::take(&mut self.shared);
-        let (none, had_enough, evaluated) =
-            (SharedMemories::default(), Cell::new(false), Evaluated::default());
-        let cx = self.context(flow, self.current.as_deref(), &had_enough, &none, &self.memo, &evaluated);
-        for memory in shared.iter_mut() {
+        let (none, wishes) = (SharedMemories::default(), Wishes::default());
+        let cx = context!(self, flow, &wishes, &none, evaluated);
+        for memory in self.shared.iter_mut() {
             call(memory, &cx);
         }
-        self.shared = shared;
     }
 }
 
-/// Blocks that [`PathRule::block`] may be called for.
-fn is_read(origin: Origin) -> bool {
-    use gcheck_program::BlockFlags as F;
-    const LETTERS: LetterSet = LetterSet::of("FSTHD");
-    origin.flags.intersects(F::CODE | F::STATEMENT | F::EXPRESSION | F::UNREAD_WORD)
-        || origin.letters.intersects(LETTERS)
+/// Which moves a move is one of; empty for what is not a move.
+fn kind_of(event: &Event) -> Watch {
+    match event {
+        Event::Travel(travel) => match (travel.kind == TravelKind::Rapid, travel.expanded) {
+            (false, false) => Watch::FEED_MOVES,
+            (true, false) => Watch::RAPID_MOVES,
+            (false, true) => Watch::FEED_STROKES,
+            (true, true) => Watch::RAPID_STROKES,
+        },
+        Event::Arc(_) => Watch::ARCS,
+        Event::Curve(_) => Watch::CURVES,
+        _ => Watch::empty(),
+    }
+}
+
+/// Is it a kind of rapid moves?
+const fn is_rapid(kind: Watch) -> bool {
+    kind.intersects(Watch::RAPID_MOVES.union(Watch::RAPID_STROKES))
 }
 
 /// The methods of an observer of all paths that shows its `watchers` what it is shown.
@@ -474,6 +582,10 @@ impl FlowObserver for Watchers<'_, '_> {
         self.current = None;
         self.letters = None;
         let is_row = cx.state.reads_as_row(cx.origin.flags);
+        // Where paths part, the next move may be one of another path.
+        if !cx.solo || is_read(cx.origin) {
+            self.callees.end_streak();
+        }
         if cx.origin.at.file == 0 && is_read(cx.origin) && !is_row {
             let evaluated = Evaluated::default();
             self.current = self.read_block(cx.origin.at);
@@ -491,7 +603,7 @@ impl FlowObserver for Watchers<'_, '_> {
                 of_values.filter(|(has_others, _)| *has_others).map(|(_, letters)| (cx.origin.at, letters));
             if is_eventful {
                 self.show_evaluated(Watch::BLOCKS, cx, &evaluated, |rule, cx, report| rule.block(cx, report));
-                self.remember(cx, |memory, cx| memory.block(cx));
+                self.remember(cx, &evaluated, |memory, cx| memory.block(cx));
             }
             let mut show =
                 |watch| self.show_evaluated(watch, cx, &evaluated, |rule, cx, report| rule.block(cx, report));
@@ -506,40 +618,34 @@ impl FlowObserver for Watchers<'_, '_> {
     }
 
     fn event(&mut self, cx: &FlowCx<'_>, event: &Event) {
-        let (moves, cuts) = match event {
-            Event::Travel(travel) => (true, travel.kind != TravelKind::Rapid),
-            Event::Arc(_) | Event::Curve(_) => (true, true),
-            _ => (false, false),
-        };
+        let kind = kind_of(event);
         // Operations that pass their points exactly say so at each of them; no rule asks for it.
         if matches!(event, Event::PathMode(_)) {
             return;
         }
-        if !moves {
+        if kind.is_empty() {
             // A cut after a dwell is made as the one before it.
-            self.changed |= !matches!(event, Event::Dwell(_));
-            self.show(Watch::CHANGES, cx, |rule, cx, report| rule.changed(cx, event, report));
-            self.remember(cx, |memory, cx| memory.changed(cx, event));
+            if !matches!(event, Event::Dwell(_)) {
+                self.changed = true;
+                self.callees.end_streak();
+            }
+            let watch = if matches!(event, Event::Modal(_)) { Watch::MODES } else { Watch::CHANGES };
+            self.show(watch, cx, |rule, cx, report| rule.changed(cx, event, report));
+            self.remember(cx, &Evaluated::default(), |memory, cx| memory.changed(cx, event));
             return;
         }
         // Blocks of other files are judged when those files are checked; what they did counts for what comes after them.
         if cx.origin.at.file != 0 {
+            self.callees.end_streak();
             for memory in self.shared.iter_mut() {
                 memory.moved_elsewhere(event);
             }
             return;
         }
-        let is_arc = matches!(event, Event::Arc(_));
-        let is_first = self.changed;
-        self.changed &= !cuts;
-        let kinds: &[Watch] = match (cuts, is_first) {
-            (false, _) => &[Watch::MOVES, Watch::RAPIDS],
-            (true, false) if is_arc => &[Watch::MOVES, Watch::ARCS],
-            (true, true) if is_arc => &[Watch::MOVES, Watch::ARCS, Watch::CUTS],
-            (true, false) => &[Watch::MOVES],
-            (true, true) => &[Watch::MOVES, Watch::CUTS],
-        };
-        self.show_move(kinds, cx, event);
+        let is_cut = !is_rapid(kind);
+        let is_first_cut = is_cut && self.changed;
+        self.changed &= !is_cut;
+        self.show_move(kind, is_first_cut, cx, event);
     }
 
     fn vacant_read(&mut self, cx: &FlowCx<'_>, variable: u32) {
@@ -547,6 +653,7 @@ impl FlowObserver for Watchers<'_, '_> {
     }
 
     fn fault(&mut self, cx: &FlowCx<'_>, fault: &Fault) {
+        self.callees.end_streak();
         self.show(Watch::FAULTS, cx, |rule, cx, report| rule.fault(cx, fault, report));
         if *fault == Fault::NoProgramEnd {
             self.show_end_elsewhere(cx, Ending::Text);
@@ -555,6 +662,7 @@ impl FlowObserver for Watchers<'_, '_> {
 
     fn ended(&mut self, cx: &FlowCx<'_>, ending: Ending) {
         self.changed = true;
+        self.callees.end_streak();
         self.show(Watch::ENDS, cx, |rule, cx, report| rule.ended(cx, ending, report));
         self.show_end_elsewhere(cx, ending);
     }

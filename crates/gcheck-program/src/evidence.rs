@@ -395,11 +395,10 @@ fn after_brackets<'t>(rest: &'t str, scan: &mut Scan) -> &'t str {
 /// Length of the number at the head, with its sign and point, and how many digits it has.
 fn number(text: &str) -> (usize, usize) {
     let sign = usize::from(text.starts_with(['-', '+']));
-    let body = text.as_bytes().get(sign..).unwrap_or_default();
     let (mut len, mut digits) = (0, 0);
-    for byte in body.iter().take_while(|byte| byte.is_ascii_digit() || **byte == b'.') {
+    for byte in text.bytes().skip(sign).take_while(|byte| byte.is_ascii_digit() || *byte == b'.') {
         len += 1;
-        digits += usize::from(*byte != b'.');
+        digits += usize::from(byte != b'.');
     }
     if digits == 0 { (0, 0) } else { (sign + len, digits) }
 }

@@ -2,6 +2,8 @@
 //!
 //! Knows: the cuts of every path up to a move, as long as all of them are known. Must not know: any rule, stock, fixtures.
 
+use std::cell::Cell;
+
 use gcheck_controls::Effect;
 use gcheck_engine::{At, Axis, Event, Fact, Position, TravelKind};
 
@@ -75,6 +77,8 @@ pub(crate) struct Cuts {
     has_unknown: bool,
     /// Something unknown was moved, so that no later question has an answer.
     blind: bool,
+    /// The frame of the move that is shown, if everything is known up to it. Many rules ask; `None` before the first one does.
+    known: Cell<Option<Option<Frame>>>,
 }
 
 /// The work offset, and the shift as bits.
@@ -126,15 +130,17 @@ impl SharedMemory for Cuts {
         if self.blind {
             return;
         }
-        match frame(cx) {
-            Some(frame) if self.knows(cx, event) => {
+        let known = self.known_frame(cx, event);
+        self.known.set(None);
+        match known {
+            Some(frame) => {
                 self.frame = Some(frame);
                 self.add(cx, event);
                 if self.list.len() > MAX_CUTS {
                     self.give_up();
                 }
             }
-            _ => self.give_up(),
+            None => self.give_up(),
         }
     }
 }
@@ -147,10 +153,23 @@ impl Cuts {
 
     /// Is everything known that was cut up to this move?
     pub(crate) fn knows(&self, cx: &PathCx<'_>, event: &Event) -> bool {
-        if self.blind || !cx.is_mill() || !cx.is_on_every_path() {
+        !self.blind && self.known_frame(cx, event).is_some()
+    }
+
+    /// The frame of this move, if everything is known that was cut up to it.
+    fn known_frame(&self, cx: &PathCx<'_>, event: &Event) -> Option<Frame> {
+        if let Some(known) = self.known.get() {
+            return known;
+        }
+        let frame = frame(cx).filter(|frame| self.knows_up_to(cx, event, *frame));
+        self.known.set(Some(frame));
+        frame
+    }
+
+    fn knows_up_to(&self, cx: &PathCx<'_>, event: &Event, frame: Frame) -> bool {
+        if !cx.is_mill() || !cx.is_on_every_path() {
             return false;
         }
-        let Some(frame) = frame(cx) else { return false };
         let from = match event {
             Event::Travel(travel) => &travel.from,
             Event::Arc(arc) => &arc.from,

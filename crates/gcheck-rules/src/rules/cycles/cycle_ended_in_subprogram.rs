@@ -80,7 +80,10 @@ impl PathRule for CycleEndedInSubprogram {
         let active = cx.state().active_cycle(cx.model).filter(|code| code.is_some());
         let given = cx.definitions().set_by(Fact::Mode(Role::Cycle)).filter(|_| active.is_some());
         let ended = std::mem::replace(&mut self.cycle, active).zip(std::mem::replace(&mut self.given, given));
-        let Some((cycle, given)) = ended.filter(|_| active.is_none()) else { return };
+        let Some((cycle, given)) = ended.filter(|_| active.is_none()) else {
+            cx.rest();
+            return;
+        };
         let letters = cx.origin().letters;
         if !cx.has_effect(Effect::is_straight_move)
             || !letters.intersects(ACROSS)

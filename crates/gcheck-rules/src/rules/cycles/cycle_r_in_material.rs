@@ -194,7 +194,10 @@ impl PathRule for CycleRInMaterial {
             self.between = cx.definitions().set_by(Fact::Mode(Role::Cycle));
             report.add(finding);
         }
-        let Some(stroke) = stroke(cx, travel).filter(|_| self.strokes.len() < MOST) else { return };
+        if self.strokes.len() >= MOST {
+            return;
+        }
+        let Some(stroke) = stroke(cx, travel) else { return };
         if stroke.r < SURFACE {
             self.doubt(cx, travel, &stroke);
         }
@@ -248,11 +251,14 @@ impl CycleRInMaterial {
     /// The way of a cycle at its plane from one pocket to another, through what is between them.
     fn way_between(&self, cx: &PathCx<'_>, event: &Event, travel: &Travel) -> Option<Finding> {
         let ([x0, y0, z0], [x1, y1, z]) = (point(&travel.from)?, point(&travel.to)?);
-        let cycle = cx.definitions().set_by(Fact::Mode(Role::Cycle));
+        let is_level = (z0 - z).abs() <= LEVEL && z < -DEEP;
+        // Most holes begin above the part.
+        if !travel.expanded || !is_level || (z - cx.state().cycle().r).abs() > LEVEL {
+            return None;
+        }
         let length = distance([x0, y0], [x1, y1]);
-        let is_level = (z0 - z).abs() <= LEVEL && z < -DEEP && length > 2.0 * WIDE;
-        let is_at_plane = (z - cx.state().cycle().r).abs() <= LEVEL;
-        if !travel.expanded || !is_level || !is_at_plane || self.between.is_some() && self.between == cycle {
+        let cycle = cx.definitions().set_by(Fact::Mode(Role::Cycle));
+        if length <= 2.0 * WIDE || self.between.is_some() && self.between == cycle {
             return None;
         }
         let is_known = cx.is_certain() && cx.state().plane(cx.model) == Some(Plane::Xy) && !may_hide_cuts(cx);

@@ -103,7 +103,8 @@ impl PathRule for CycleRepeatedInPlace {
 
     /// A block without a code: its first move goes to the hole.
     fn rapid(&mut self, cx: &PathCx<'_>, _: &Event, report: &mut Report<'_>) {
-        if cx.codes().is_empty() {
+        let repeat = Letter::of(cx.model.semantics().cycles.repeat);
+        if cx.origin().letters.contains(repeat) && cx.codes().is_empty() {
             judge(cx, report);
         }
     }

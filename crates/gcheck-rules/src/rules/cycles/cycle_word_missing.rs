@@ -36,7 +36,7 @@ declare_rule! {
         control_specific: true,
         since: "0.1.0",
         run: Run::Path {
-            watch: Watch::BLOCKS.union(Watch::CHANGES).union(Watch::FAULTS),
+            watch: Watch::BLOCKS.union(Watch::MODES).union(Watch::FAULTS),
             make: || Box::new(CycleWordMissing::default()),
         },
     }

@@ -48,7 +48,7 @@ declare_rule! {
         tier: Path,
         since: "0.1.0",
         run: Run::Path {
-            watch: Watch::BLOCKS.union(Watch::CHANGES).union(Watch::FAULTS),
+            watch: Watch::BLOCKS.union(Watch::MODES).union(Watch::FAULTS),
             make: || Box::new(CycleWordsLost::default()),
         },
     }

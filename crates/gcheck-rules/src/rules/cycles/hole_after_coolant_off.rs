@@ -45,7 +45,7 @@ declare_rule! {
         tier: Path,
         since: "0.1.0",
         run: Run::Path {
-            watch: Watch::CUTS.union(Watch::CHANGES),
+            watch: Watch::CUTS.union(Watch::CHANGES).union(Watch::MODES),
             make: || Box::new(HoleAfterCoolantOff::default()),
         },
     }

@@ -1,6 +1,6 @@
 //! A hole that a cycle makes again, at a place where it has just made it.
 
-use std::collections::BTreeMap;
+use std::collections::btree_map::{BTreeMap, Entry};
 use std::ops::Range;
 
 use gcheck_controls::{CodeIx, Effect};
@@ -48,7 +48,7 @@ declare_rule! {
         tier: Path,
         since: "0.1.0",
         run: Run::Path {
-            watch: Watch::MOVES.union(Watch::CHANGES),
+            watch: Watch::FEED_STROKES.union(Watch::CHANGES).union(Watch::MODES),
             make: || Box::new(HoleMadeTwice::default()),
         },
     }
@@ -130,13 +130,13 @@ impl HoleMadeTwice {
             self.end(cx, report);
             self.cycle = cycle;
         }
-        let at = PLACE.map(|axis| rounded(to.raw(axis)).to_bits());
         // The strokes of a hole, and its repeats in one block, which another rule reports, go to one bottom.
         if let Some(hole) = self.current.as_mut().filter(|hole| hole.block == cx.origin().at) {
-            hole.deepen(at);
+            hole.deepen(rounded(to.raw(Axis::Z)));
             return;
         }
         self.close(cx, report);
+        let at = PLACE.map(|axis| rounded(to.raw(axis)).to_bits());
         self.current = Some(Hole { at, block: cx.origin().at, bytes: cx.range() });
     }
 
@@ -149,11 +149,15 @@ impl HoleMadeTwice {
     /// The hole that is being made is done.
     fn close(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
         let Some(hole) = self.current.take().filter(Hole::is_known) else { return };
-        let Some(before) = self.holes.get(&hole.at) else {
-            if self.holes.len() < MOST {
-                self.holes.insert(hole.at, hole.bytes);
+        let has_room = self.holes.len() < MOST;
+        let before = match self.holes.entry(hole.at) {
+            Entry::Occupied(before) => before.into_mut(),
+            Entry::Vacant(place) => {
+                if has_room {
+                    place.insert(hole.bytes);
+                }
+                return;
             }
-            return;
         };
         report.add(
             cx.finding(&META, hole.bytes, "the cycle makes the same hole once more")
@@ -169,9 +173,9 @@ const PLACE: [Axis; 6] = [Axis::X, Axis::Y, Axis::A, Axis::B, Axis::C, Axis::Z];
 
 impl Hole {
     /// The bottom is that of its deepest stroke.
-    fn deepen(&mut self, at: Place) {
-        let ([.., own], [.., other]) = (&mut self.at, at);
-        *own = f64::from_bits(*own).min(f64::from_bits(other)).to_bits();
+    fn deepen(&mut self, bottom: f64) {
+        let [.., own] = &mut self.at;
+        *own = f64::from_bits(*own).min(bottom).to_bits();
     }
 
     /// Are X, Y and Z known?

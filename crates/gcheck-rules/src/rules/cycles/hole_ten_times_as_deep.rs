@@ -48,7 +48,7 @@ declare_rule! {
         tier: Path,
         since: "0.1.0",
         run: Run::Path {
-            watch: Watch::BLOCKS.union(Watch::MOVES).union(Watch::FOLLOWED),
+            watch: Watch::BLOCKS.union(Watch::STROKES).union(Watch::FOLLOWED),
             make: || Box::new(HoleTenTimesAsDeep::default()),
         },
     }

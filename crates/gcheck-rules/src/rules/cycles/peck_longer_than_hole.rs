@@ -39,7 +39,7 @@ declare_rule! {
         severity: Warning,
         tier: Path,
         since: "0.1.0",
-        run: Run::Path { watch: Watch::MOVES, make: || Box::new(PeckLongerThanHole::default()) },
+        run: Run::Path { watch: Watch::FEED_STROKES, make: || Box::new(PeckLongerThanHole::default()) },
     }
 }
 

@@ -42,7 +42,7 @@ declare_rule! {
         severity: Warning,
         tier: Path,
         since: "0.1.0",
-        run: Run::Path { watch: Watch::MOVES, make: || Box::new(PeckVeryShort::default()) },
+        run: Run::Path { watch: Watch::FEED_STROKES, make: || Box::new(PeckVeryShort::default()) },
     }
 }
 

@@ -65,6 +65,12 @@ impl PathRule for CommonVariableNeverSet {
         if !cx.origin().flags.intersects(BlockFlags::EXPRESSION | BlockFlags::STATEMENT) {
             return;
         }
+        // Most blocks of a loop read counters of their own.
+        let Some((table, expressions)) = cx.expressions() else { return };
+        let is_scratch = |op: &Op| matches!(op, Op::Variable(number) if SCRATCH.contains(number));
+        if !expressions.iter().any(|expr| table.ops(table.expr(*expr)).iter().any(is_scratch)) {
+            return;
+        }
         let Some(place) = cx.place() else { return };
         for (variable, how) in uses(&place) {
             let is_known = self.known.contains(&variable) || cx.state().variables().is_written(variable);

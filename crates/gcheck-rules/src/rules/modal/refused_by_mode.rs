@@ -99,6 +99,7 @@ impl PathRule for RefusedByMode {
         if self.moved_by != Some(lasting) {
             self.judge_codes(cx, &[lasting], report);
             self.moved_by = Some(lasting).filter(|_| self.told == Some(cx.origin().at));
+            cx.rest();
         }
     }
 }

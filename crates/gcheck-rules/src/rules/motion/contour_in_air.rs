@@ -109,6 +109,9 @@ impl PathRule for ContourInAir {
         let goes_sideways = cx.origin().letters.intersects(SIDEWAYS);
         if goes_sideways && self.step == Step::None {
             self.note(event);
+            if matches!(event, Event::Travel(travel) if travel.expanded) {
+                cx.rest();
+            }
             return;
         }
         if !cx.is_mill() {
@@ -121,6 +124,10 @@ impl PathRule for ContourInAir {
             }
             Event::Arc(arc) if !arc.expanded => (TravelKind::Feed, &arc.programmed, &arc.from),
             // A piece that compensation puts in, or a stroke of a cycle.
+            Event::Travel(_) => {
+                cx.rest();
+                return;
+            }
             _ => return,
         };
         let step = std::mem::take(&mut self.step);

@@ -84,9 +84,13 @@ impl PathRule for HomeBeforeRetract {
 
     fn rapid(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
         let Event::Travel(travel) = event else { return };
+        if !cx.has_effect(Effect::goes_to_machine_place) {
+            cx.rest();
+            return;
+        }
         // A mill's control may drive a lathe, whose tools leave the part across.
         let turns = cx.state().plane(cx.model) == Some(Plane::Zx);
-        if !cx.has_effect(Effect::goes_to_machine_place) || !cx.is_on_every_path() || turns {
+        if !cx.is_on_every_path() || turns {
             return;
         }
         let Some(z) = travel.from.get(Axis::Z).filter(|_| leaves_sideways(travel)) else { return };

@@ -53,7 +53,7 @@ declare_rule! {
         severity: Warning,
         tier: Path,
         since: "0.1.0",
-        run: Run::Path { watch: Watch::MOVES, make: || Box::new(PlungeAtCuttingFeed::default()) },
+        run: Run::Path { watch: Watch::FEED_MOVES.union(Watch::ARCS), make: || Box::new(PlungeAtCuttingFeed::default()) },
     }
 }
 

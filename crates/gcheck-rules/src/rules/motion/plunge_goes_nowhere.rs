@@ -153,7 +153,7 @@ impl PathRule for PlungeGoesNowhere {
         }
         let z_of = |position: &Position| position.get(Axis::Z);
         match event {
-            Event::Travel(travel) if travel.expanded => {}
+            Event::Travel(travel) if travel.expanded => cx.rest(),
             Event::Travel(travel) if travel.kind == TravelKind::Rapid => {
                 self.before = rapid(cx, before, z_of(&travel.from), z_of(&travel.programmed));
             }

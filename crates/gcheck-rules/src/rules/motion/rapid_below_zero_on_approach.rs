@@ -103,6 +103,7 @@ impl PathRule for RapidBelowZeroOnApproach {
         let tool = cx.definitions().set_by(Fact::Tool);
         // Most moves come after the first one of their tool.
         if approach.is_none() && self.has_moved && self.tool == tool {
+            cx.rest();
             return;
         }
         // Of several paths, this move may follow another one.

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use gcheck_engine::{ArcMove, At, Event, Fact, Spindle, TravelKind};
+use gcheck_engine::{ArcMove, At, Event, Fact, Spindle, Travel, TravelKind};
 use gcheck_geometry::Mm;
 
 use crate::declare::declare_rule;
@@ -226,6 +226,12 @@ impl PathRule for RapidBetweenCuts {
             cx.enough();
             return;
         }
+        // Surfaces are such moves by the million, and nothing asks where those go.
+        if let Event::Travel(travel) = event
+            && self.goes_on_slanting(travel)
+        {
+            return;
+        }
         let (programmed, is_expanded) = match event {
             Event::Travel(travel) => (point(&travel.programmed), travel.expanded),
             Event::Arc(arc) => (point(&arc.programmed), arc.expanded),
@@ -273,6 +279,29 @@ impl PathRule for RapidBetweenCuts {
 }
 
 impl RapidBetweenCuts {
+    /// Takes in a feed move after another move that is no way: neither level nor straight down. `false`: it is another move.
+    fn goes_on_slanting(&mut self, travel: &Travel) -> bool {
+        if travel.kind != TravelKind::Feed || travel.expanded || self.way.is_some() {
+            return false;
+        }
+        let (Some([x0, y0, z0]), Some([x1, y1, z1])) = (self.at, point(&travel.programmed)) else {
+            return false;
+        };
+        let goes_down = z1 < z0 && (x1 - x0).abs() <= LEVEL && (y1 - y0).abs() <= LEVEL;
+        if goes_down || (z1 - z0).abs() < LEVEL {
+            return false;
+        }
+        self.at = Some([x1, y1, z1]);
+        self.last = None;
+        if z1 < SURFACE && z1 <= z0 {
+            let ends = [[x0, y0], [x1, y1]];
+            let cut = Cut { z: z1, heads: None, is_arc: false, is_plunge: false, ends };
+            self.last = Some(cut);
+            self.extend(&cut);
+        }
+        true
+    }
+
     /// The way that this move begins or goes on with.
     fn rapid(
         &mut self,
@@ -354,18 +383,6 @@ impl RapidBetweenCuts {
         way: Option<Way>,
     ) -> Option<Cut> {
         let is_level = (z1 - z0).abs() < LEVEL;
-        let goes_down = z1 < z0 && (x1 - x0).abs() <= LEVEL && (y1 - y0).abs() <= LEVEL;
-        // Surfaces are feed moves by the million, neither level nor straight down, and nothing asks where those go.
-        if !is_level && !goes_down && way.is_none() {
-            let ends = [[x0, y0], [x1, y1]];
-            return (z1 < SURFACE && z1 <= z0).then_some(Cut {
-                z: z1,
-                heads: None,
-                is_arc: false,
-                is_plunge: false,
-                ends,
-            });
-        }
         let heads = direction([x0, y0], [x1, y1]);
         if let Some(way) = way {
             match heads {
@@ -510,8 +527,15 @@ impl RapidBetweenCuts {
     fn extend(&mut self, cut: &Cut) {
         let [low, high] = self.extent.get_or_insert([cut.ends[1]; 2]);
         for end in cut.ends {
-            *low = [low[0].min(end[0]), low[1].min(end[1])];
-            *high = [high[0].max(end[0]), high[1].max(end[1])];
+            for ((low, high), at) in low.iter_mut().zip(high.iter_mut()).zip(end) {
+                // Nearly all ends are within.
+                if at < *low {
+                    *low = at;
+                }
+                if at > *high {
+                    *high = at;
+                }
+            }
         }
     }
 

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use gcheck_controls::Effect;
-use gcheck_engine::{Axis, Event, Position, Role, TravelKind};
+use gcheck_engine::{Axis, Event, Position, Role, Travel, TravelKind};
 use gcheck_geometry::Mm;
 
 use crate::declare::declare_rule;
@@ -123,6 +123,13 @@ impl PathRule for RapidDownFromCut {
             cx.enough();
             return;
         }
+        if let Event::Travel(travel) = event
+            && travel.kind == TravelKind::Feed
+            && !travel.expanded
+        {
+            self.cut(cx, travel);
+            return;
+        }
         let (last, waiting) = (self.last.take(), self.waiting.take_if(|_| true));
         let travel = match event {
             // A reference return goes by a point of its block, and on.
@@ -131,6 +138,10 @@ impl PathRule for RapidDownFromCut {
             }
             Event::Arc(arc) if !arc.expanded => {
                 self.last = Some((arc.programmed, true));
+                return;
+            }
+            Event::Travel(_) => {
+                cx.rest();
                 return;
             }
             _ => return,
@@ -142,12 +153,8 @@ impl PathRule for RapidDownFromCut {
         if let Some(waiting) = waiting.filter(|_| is_rapid) {
             self.waiting = goes_on(cx, waiting, &travel.programmed, report);
         }
-        let differs = |axis: Axis| {
-            let before = last.map_or(f64::NAN, |(before, _)| before.raw(axis));
-            (travel.programmed.raw(axis) - before).abs() > SAME
-        };
-        let is_across = Axis::ALL.into_iter().filter(|axis| *axis != Axis::Z).any(differs);
-        self.last = Some((travel.programmed, travel.kind == TravelKind::Feed && is_across));
+        let is_cut = travel.kind == TravelKind::Feed && is_across(last.as_ref(), travel);
+        self.last = Some((travel.programmed, is_cut));
         if let Some((from, true)) = last
             && is_rapid
             && !cx.has_effect(Effect::goes_to_machine_place)
@@ -157,7 +164,24 @@ impl PathRule for RapidDownFromCut {
     }
 }
 
+/// Does a move go on in more than Z?
+fn is_across(last: Option<&(Position, bool)>, travel: &Travel) -> bool {
+    let Some((before, _)) = last else { return false };
+    let differs = |axis: Axis| (travel.programmed.raw(axis) - before.raw(axis)).abs() > SAME;
+    Axis::ALL.into_iter().filter(|axis| *axis != Axis::Z).any(differs)
+}
+
 impl RapidDownFromCut {
+    /// A feed move that the program itself makes: there may be millions.
+    fn cut(&mut self, cx: &PathCx<'_>, travel: &Travel) {
+        self.waiting = None;
+        self.last = if cx.is_certain() {
+            Some((travel.programmed, is_across(self.last.as_ref(), travel)))
+        } else {
+            None
+        };
+    }
+
     /// A rapid move from the end of a cut.
     fn down(&mut self, cx: &PathCx<'_>, from: &Position, to: &Position, report: &mut Report<'_>) {
         let stays = |axis: Axis| {

@@ -102,6 +102,7 @@ impl PathRule for RapidInMaterial {
         // Nearly all moves are cuts after which nothing waits.
         let is_rapid = matches!(event, Event::Travel(travel) if travel.kind == TravelKind::Rapid);
         if !is_rapid && self.waiting.is_empty() && !cuts.is_blind() {
+            cx.rest();
             return;
         }
         if !cuts.knows(cx, event) {
@@ -132,11 +133,14 @@ impl RapidInMaterial {
         if let Some(z) = travel.to.get(Axis::Z) {
             self.highest = Some(self.highest.map_or(z, |highest| highest.max(z)));
         }
+        if !at_depth || travel.expanded {
+            return;
+        }
         let (Some(from), Some(to)) = (point(&travel.from), point(&travel.to)) else { return };
         let (low, high) = (from[2].min(to[2]), from[2].max(to[2]));
         let ([x0, y0, _], [x1, y1, _]) = (from, to);
         let is_level = high - low < LEVEL && (x1 - x0).hypot(y1 - y0) >= SHORT;
-        if at_depth && is_level && !travel.expanded && self.waiting.len() < MOST_WAITING {
+        if is_level && self.waiting.len() < MOST_WAITING {
             self.waiting.push(Rapid {
                 from: [x0, y0],
                 to: [x1, y1],

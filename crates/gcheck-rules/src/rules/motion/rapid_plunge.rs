@@ -216,6 +216,16 @@ impl PathRule for RapidPlunge {
             }
             return;
         };
+        if let Event::Travel(travel) = event
+            && travel.expanded
+            && plunge.is_none()
+            && self.outline.is_none()
+            && cx.state().cylinder().is_none()
+        {
+            // Strokes of cycles show nothing of how the program goes down.
+            cx.rest();
+            return;
+        }
         self.follow(cx, cuts, event);
         self.keep_place(cx, event);
         if let Event::Travel(travel) = event {

@@ -46,9 +46,13 @@ const WAY: f64 = 0.01;
 impl PathRule for RapidSidewaysAndDown {
     fn rapid(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
         let Event::Travel(travel) = event else { return };
+        if travel.expanded {
+            cx.rest();
+            return;
+        }
         let letters = cx.origin().letters;
         let is_named = letters.intersects(LetterSet::of("XY")) && letters.intersects(LetterSet::of("Z"));
-        if !is_named || !cx.is_mill() || travel.expanded || travel.kind != TravelKind::Rapid {
+        if !is_named || !cx.is_mill() || travel.kind != TravelKind::Rapid {
             return;
         }
         let way = |axis: Axis| travel.to.raw(axis) - travel.from.raw(axis);

@@ -125,7 +125,12 @@ impl PathRule for RapidToAnotherOffsetAtDepth {
                     );
                 }
             }
-            _ => self.cut = None,
+            _ => {
+                self.cut = None;
+                if matches!(event, Event::Travel(travel) if travel.expanded) {
+                    cx.rest();
+                }
+            }
         }
     }
 }

@@ -63,7 +63,11 @@ const NO_CUT: f64 = 100_000.0;
 impl PathRule for RapidWithFeed {
     fn rapid(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
         let letters = cx.origin().letters;
-        if !letters.contains(Letter::of('F')) || !letters.intersects(LetterSet::of("XYZ")) {
+        if !letters.contains(Letter::of('F')) {
+            cx.rest();
+            return;
+        }
+        if !letters.intersects(LetterSet::of("XYZ")) {
             return;
         }
         let Event::Travel(travel) = event else { return };

@@ -132,6 +132,10 @@ impl PathRule for StrayCoordinate {
             self.is_to_and_fro = false;
         }
         self.last = Some(*to);
+        // One stroke of a cycle is as good as many.
+        if self.waiting.is_none() && matches!(event, Event::Travel(travel) if travel.expanded) {
+            cx.rest();
+        }
     }
 
     fn followed(&mut self, _: &FollowedCx<'_>, report: &mut Report<'_>) {

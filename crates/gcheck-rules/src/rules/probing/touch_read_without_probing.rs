@@ -44,6 +44,10 @@ declare_rule! {
 
 struct TouchReadWithoutProbing;
 
+/// The first variable of a touch that a block reads.
+#[derive(Clone, Copy)]
+struct OfTouch(Option<u32>);
+
 impl PathRule for TouchReadWithoutProbing {
     fn concerns(&self, program: &Uses<'_>) -> bool {
         program.environment.control().semantics().system_variables.iter().any(is_touch)
@@ -54,7 +58,8 @@ impl PathRule for TouchReadWithoutProbing {
             return;
         }
         let is_of_touch = |number: &u32| column_of(cx, *number, SystemValue::ProbePosition).is_some();
-        let Some(number) = reads(cx).into_iter().flatten().find(is_of_touch) else { return };
+        let first = || OfTouch(reads(cx).into_iter().flatten().find(is_of_touch));
+        let OfTouch(Some(number)) = cx.from_text(cx.origin().at, 0, first) else { return };
         report.add(
             cx.finding(&META, cx.range(), format!("`#{number}` is read, and nothing has probed before"))
                 .label("holds a touch of an earlier program, or nothing")

@@ -47,7 +47,7 @@ declare_rule! {
         tier: Path,
         since: "0.1.0",
         run: Run::Path {
-            watch: Watch::BLOCKS.union(Watch::MOVES),
+            watch: Watch::BLOCKS.union(Watch::FEED_MOVES).union(Watch::RAPID_MOVES),
             make: || Box::new(LengthCancelledBeforeMove { cancelled: None }),
         },
     }
@@ -122,6 +122,10 @@ impl PathRule for LengthCancelledBeforeMove {
 
     fn moved(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
         let Event::Travel(travel) = event else { return };
+        if self.cancelled.is_none() {
+            cx.rest();
+            return;
+        }
         if travel.expanded || !cx.origin().letters.contains(Letter::of('Z')) {
             return;
         }

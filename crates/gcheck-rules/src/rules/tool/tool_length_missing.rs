@@ -131,7 +131,9 @@ impl PathRule for ToolLengthMissing {
     }
 
     fn moved(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
-        if self.changed.is_some() && cx.origin().letters.contains(Letter::of('Z')) {
+        if self.changed.is_none() {
+            cx.rest();
+        } else if cx.origin().letters.contains(Letter::of('Z')) {
             self.judge(cx, event, report);
         }
     }

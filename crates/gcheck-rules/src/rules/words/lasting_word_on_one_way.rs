@@ -102,17 +102,16 @@ impl PathRule for LastingWordOnOneWay {
         for ix in cx.codes().iter() {
             let Some(code) = cx.control().code_at(*ix) else { continue };
             let relied_on = relied_on(cx.control(), code).without(own);
-            let range = cx.word_range(|word| word.code == *ix);
+            let range = || cx.word_range(|word| word.code == *ix);
             for letter in relied_on.and(self.ended).without(self.told).iter() {
                 self.told.insert(letter);
-                tell_ended(cx, code, letter, range.clone(), report);
+                tell_ended(cx, code, letter, range(), report);
             }
             for letter in relied_on.without(before).iter() {
-                let range = range.clone();
                 let is_named = cx.file_index.never_given.iter().any(|missing| missing.letter == letter);
                 if !is_named || goes_by_way(cx.file_index, cx.control(), code, letter) {
                     self.told.insert(letter);
-                    tell(cx, code, letter, range, report);
+                    tell(cx, code, letter, range(), report);
                 }
             }
         }
