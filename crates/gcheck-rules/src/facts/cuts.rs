@@ -78,6 +78,7 @@ pub(crate) struct Cuts {
     /// Something unknown was moved, so that no later question has an answer.
     blind: bool,
     /// The frame of the move that is shown, if everything is known up to it. Many rules ask; `None` before the first one does.
+    #[expect(clippy::option_option, reason = "not yet asked, or asked and not known")]
     known: Cell<Option<Option<Frame>>>,
 }
 
