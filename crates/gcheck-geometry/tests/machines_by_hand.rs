@@ -223,7 +223,7 @@ fn a_nutating_table_carries_a_round_one() {
         let ((sin_b, cos_b), (sin_c, cos_c)) = (sin_cos(-b), sin_cos(c));
         let [x, y, z] = POINT;
         let (turned_x, turned_y) = (x * cos_c + y * sin_c, -x * sin_c + y * cos_c);
-        let (along, across) = ((turned_y + z) / 2.0, (turned_y - z) / 2.0);
+        let (along, across) = (turned_y.midpoint(z), (turned_y - z) / 2.0);
         let root = f64::sqrt(2.0);
         // The line's direction times the point: (z - y, x, -x) / sqrt 2.
         let expected = [

@@ -338,14 +338,15 @@ impl<T: Copy> Planner<T> {
     }
 
     fn rest(&mut self, each: &mut impl FnMut(&Span<T>)) {
-        if let (Some((last, Meeting::Rounded { .. })), Corners::Rounded(rounding)) =
-            (&mut self.open, &self.machine.control.corners)
-            && rounding.overlaps
+        let goes_on =
+            matches!(&self.machine.control.corners, Corners::Rounded(rounding) if rounding.overlaps);
+        if let Some((last, Meeting::Rounded { .. })) = &mut self.open
+            && goes_on
         {
             // The control was ready to let the next move overlap.
             last.keep(OVERLAPPED);
         }
-        self.end_in(Ending::Halt, each);
+        self.end_in(if goes_on { Ending::Halt } else { Ending::Stop }, each);
     }
 
     /// The axes come to rest where the control knows ahead that they will.
@@ -398,6 +399,12 @@ impl<T: Copy> Planner<T> {
         self.window.push(Piece {
             length: segment.length,
             cap,
+            // A move whose end is not known may have to stop half way.
+            enter: if matches!(ending, Ending::Halt) {
+                (segment.pull() * segment.length).sqrt()
+            } else {
+                f64::INFINITY
+            },
             acceleration,
             leave,
             exit: 0.0,

@@ -13,6 +13,8 @@ pub(crate) struct Piece<D> {
     pub(crate) length: f64,
     /// Highest speed along it.
     pub(crate) cap: f64,
+    /// Highest speed at its start, where that is less.
+    pub(crate) enter: f64,
     pub(crate) acceleration: f64,
     /// Highest speed at its end.
     pub(crate) leave: f64,
@@ -38,7 +40,7 @@ impl<D> Window<D> {
 
     /// Puts a piece at the end. Its neighbour's end is then no stop any more.
     pub(crate) fn push(&mut self, piece: Piece<D>) {
-        let (mut next_exit, mut next_cap) = (0.0_f64, piece.cap);
+        let (mut next_exit, mut next_cap) = (0.0_f64, piece.cap.min(piece.enter));
         let (mut acceleration, mut length) = (piece.acceleration, piece.length);
         self.pieces.push_back(Piece { exit: 0.0, ..piece });
         for piece in self.pieces.iter_mut().rev().skip(1) {
@@ -49,7 +51,7 @@ impl<D> Window<D> {
                 break;
             }
             piece.exit = exit;
-            (next_exit, next_cap) = (exit, piece.cap);
+            (next_exit, next_cap) = (exit, piece.cap.min(piece.enter));
             (acceleration, length) = (piece.acceleration, piece.length);
         }
     }

@@ -114,6 +114,19 @@ fn no_stretch_is_run_in_less_than_the_control_needs() {
     near(short.profile.seconds, 0.002);
 }
 
+/// The control does not know that the last move is the last: another one may overlap with its second half.
+#[test]
+fn the_last_move_is_entered_so_that_half_of_it_is_enough_to_stop() {
+    let moves = [
+        line(at(0.0, 0.0, 0.0), at(50.0, 0.0, 0.0), 50.0),
+        line(at(50.0, 0.0, 0.0), at(60.0, 0.0, 0.0), 50.0),
+    ];
+    let spans = spans(&machine(rounded(), 250.0), &items(within(0.05), &moves));
+    let [first, last] = spans.as_slice() else { panic!("{spans:#?}") };
+    near(first.profile.exit, (125.0_f64 * 10.0).sqrt());
+    assert!(last.profile.peak > last.profile.entry, "{spans:#?}");
+}
+
 #[test]
 fn back_and_forth_is_a_stop() {
     let moves = [

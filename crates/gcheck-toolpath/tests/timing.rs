@@ -67,8 +67,6 @@ const MARK: &str =
 /// Programs that are off by more than [`EXPLAINED`] at some acceleration: by how much at most, and why.
 const CAUSES: &[Cause] = &[
     ("coolant-between", 0.08, "the control answers coolant and tool changes in cycles of 0.1 s"),
-    ("corner-002", 0.02, "not explained"),
-    ("messages-between", 0.03, "not explained"),
     ("near-tangents", 0.03, "not explained"),
     ("tap", 0.03, MARK),
     ("thread", 0.03, MARK),
