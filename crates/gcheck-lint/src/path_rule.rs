@@ -54,7 +54,7 @@ bitflags::bitflags! {
         const ENDS_ELSEWHERE = 1 << 15;
         /// [`PathRule::moved`]: rapid moves that the program itself makes.
         const RAPID_MOVES = 1 << 16;
-        /// [`PathRule::moved`]: curves that are no arcs.
+        /// [`PathRule::moved`]: curves that are not arcs.
         const CURVES = 1 << 17;
         /// [`PathRule::moved`]: strokes that are not rapid.
         const FEED_STROKES = 1 << 18;

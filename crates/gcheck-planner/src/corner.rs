@@ -266,7 +266,7 @@ fn round<T: Copy>(
     let inner = if straight {
         Inner { radius, taken: [radius * tan; 2], turn }
     } else {
-        let planned = rounding.curve_shares != [0.0; 2];
+        let planned = rounding.curve_shares.iter().any(|share| *share != 0.0);
         let most = [(first, &rooms[0]), (second, &rooms[1])].map(|(side, room)| {
             let half = if planned { side.length } else { side.length.min(side.whole / 2.0) };
             room.most.unwrap_or(half)
@@ -457,7 +457,9 @@ fn overlapped<T: Copy>(
     }
     // Both at half the acceleration: while they overlap, the sum does not exceed the whole.
     let mut sides = [*first, *second];
-    sides.iter_mut().for_each(|side| side.keep(OVERLAPPED));
+    for side in &mut sides {
+        side.keep(OVERLAPPED);
+    }
     let [one, other] = &sides;
     // The path is off by what the first still has to go when the second begins.
     let (leaves, arrives) = (one.leaves_level(), other.pulled());

@@ -80,7 +80,7 @@ fn a_corner_of_two_arcs_is_as_tight_as_its_arcs_leave_it() {
     let spans = spans(&machine(rounded(), 1000.0), &items(within(0.0), &[first, second]));
     let [_, corner, _] = spans.as_slice() else { panic!("{spans:#?}") };
     let angle = (sweep * 2.0 / 3.0).min((std::f64::consts::PI - turn) / 2.0);
-    let inner = (angle / 4.0).sin() * radius / ((turn + angle / 2.0) / 2.0).tan();
+    let inner = (angle / 4.0).sin() * radius / f64::midpoint(turn, angle / 2.0).tan();
     near(corner.profile.peak, (866.0 * inner).sqrt());
 }
 

@@ -369,8 +369,7 @@ fn moved<T: Copy>(
     let upright = tracker.is_upright();
     let turned = |position: &Position| if upright { *position } else { tracker.turned(position) };
     let [from, mut to] = [turned(&motion.from), turned(&motion.to)].map(|position| point(&position));
-    for (slot, (before, way)) in
-        to.iter_mut().zip(motion.from.values().into_iter().zip(motion.way_known.values()))
+    for (slot, (before, way)) in to.iter_mut().zip(motion.from.values().iter().zip(motion.way_known.values()))
     {
         // From a place that is not known, which is at zero here.
         if before.is_nan() && !way.is_nan() {

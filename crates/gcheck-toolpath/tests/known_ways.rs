@@ -1,7 +1,5 @@
 //! Moves whose way is known and whose places are not.
 
-#![expect(clippy::unwrap_used, reason = "a test that meets the unexpected is to fail")]
-
 mod runner;
 
 use gcheck_engine::{Axis, Dynamics, Machine, Units};

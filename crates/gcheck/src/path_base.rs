@@ -24,7 +24,7 @@ pub(crate) fn of_option(folder: &Path) -> Result<PathBase, Problem> {
             Problem::with_file(folder, what).help("`--path-base` names the folder that paths begin at")
         );
     }
-    Ok(from_here(vec![paths::absolute(folder)]))
+    Ok(from_here(&[paths::absolute(folder)]))
 }
 
 /// For each of these files the folder that the CI server names, if it holds the file; else the repository that holds it. A
@@ -47,10 +47,10 @@ pub(crate) fn of_files<'f>(files: impl IntoIterator<Item = &'f Path>) -> PathBas
     repositories.sort_by_key(|folder| std::cmp::Reverse(folder.components().count()));
     repositories.dedup();
     roots.extend(repositories);
-    from_here(roots)
+    from_here(&roots)
 }
 
-fn from_here(roots: Vec<PathBuf>) -> PathBase {
+fn from_here(roots: &[PathBuf]) -> PathBase {
     let here = paths::absolute(Path::new("."));
     PathBase { roots: roots.iter().map(|root| paths::shown(root)).collect(), here: paths::shown(&here) }
 }

@@ -724,52 +724,10 @@ fn rotary_axes_that_cannot_be() {
     );
 }
 
-/// Each was accepted without a word, or no machine has it.
-#[test]
-fn figures_and_axes_that_no_machine_has() {
+/// Checks that a program is not checked with such a configuration, and the first line that says why.
+fn check_refused(tables: &[(&str, &str)], expected: &Expect) {
     let mut messages = String::new();
-    for (control, table) in [
-        ("haas-mill", "[machine]\naxes = []"),
-        ("haas-mill", "[machine]\ntravel = { X = [nan, 5.0] }"),
-        ("haas-mill", "[machine]\ntravel = { X = [0.0, inf] }"),
-        ("haas-mill", "[machine]\ntravel = { X = [0.0, 1.0], x = [0.0, 2.0] }"),
-        ("haas-mill", "[machine]\nrapid = { X = 1000.0, x = 2.0 }"),
-        ("haas-mill", "[offsets]\nG54 = { X = 1.0, x = 2.0 }"),
-        ("haas-mill", "[machine]\nfeed_override = 0"),
-        ("haas-mill", "[machine]\nfeed_override = 5000"),
-        ("generic-mill", "[machine]\nfeed_override = 5000"),
-        ("haas-mill", "[machine]\nacceleration = 1000.0\njerk = 1e-9"),
-        ("haas-mill", "[machine]\njerk = 50000.0"),
-        ("haas-mill", "[machine]\nacceleration = { A = 100.0 }"),
-        ("haas-mill", "[machine]\nacceleration = 1e30"),
-        ("haas-mill", "[machine]\nunits = \"inch\"\nacceleration = { X = 1e30 }"),
-        ("haas-mill", "[machine]\nspindle_acceleration = 1"),
-        ("haas-mill", "[machine]\nspindle_acceleration = 1e20"),
-        ("haas-mill", "[machine]\ntool_change_seconds = 1e9"),
-        ("haas-mill", "[machine]\nspindle_orient_seconds = 1e4"),
-        ("haas-mill", "[machine]\npockets = 4000000000"),
-        ("haas-mill", "[machine]\naxes = [\"X\", \"Y\", \"Z\"]\ntravel = { A = [0.0, 90.0] }"),
-        ("haas-mill", "[machine]\naxes = [\"X\", \"Y\", \"Z\", \"A\"]\nrotary_order = [\"A\", \"B\"]"),
-        ("haas-mill", "[machine]\naxes = [\"X\", \"Y\", \"Z\", \"A\"]\nrotary = \"table-table\""),
-        ("haas-mill", "[machine]\nrotary_sign = { X = 1 }"),
-        ("haas-mill", "[machine]\nrotary_direction = { X = [0.0, 1.0, 1.0] }"),
-        ("haas-mill", "[machine]\nrotary_direction = { B = [0.0, 0.0, 0.0] }"),
-        ("haas-mill", "[machine]\nrotary_direction = { B = [0.0, nan, 1.0] }"),
-        ("haas-mill", "[machine]\nrotary_direction = { B = [inf, 0.0, 1.0] }"),
-        ("haas-mill", "[machine]\nrotary_direction = { B = [0.0, 1.0] }"),
-        ("haas-mill", "[machine]\nrotary_direction = { B = [0.0, 1.0, 1.0], b = [0.0, 1.0, 0.0] }"),
-        (
-            "haas-mill",
-            "[machine]\naxes = [\"X\", \"Y\", \"Z\", \"A\"]\nrotary_direction = { B = [0.0, 1.0, 1.0] }",
-        ),
-        (
-            "haas-mill",
-            "[machine]\nrotary_order = [\"C\", \"B\"]\nrotary_direction = { B = [0.0, 0.0, -2.0] }",
-        ),
-        ("haas-mill", "[tools]\n1 = { surface_speed = [60.0, 140.0] }"),
-        ("haas-mill", "[tools]\n1 = { diameter = 0.0, surface_speed = [60.0, 140.0] }"),
-        ("grbl", "[machine]\npreset = \"sherline-5400\"\nunits = \"inch\"\nmax_feed = 900.0"),
-    ] {
+    for (control, table) in tables {
         let config = format!("control = \"{control}\"\n{table}\n");
         let shop = Shop::with(&[("part.nc", GOOD), ("gcheck.toml", &config)]);
         let run = shop.gcheck("check part.nc");
@@ -777,7 +735,42 @@ fn figures_and_axes_that_no_machine_has() {
         let first = run.stderr.lines().next().unwrap_or_default();
         let _ = writeln!(messages, "{}\n  {first}", table.replace('\n', " | "));
     }
-    expect![[r#"
+    expected.assert_eq(&messages);
+}
+
+/// Each was accepted without a word, or no machine has it.
+#[test]
+fn figures_and_axes_that_no_machine_has() {
+    check_refused(
+        &[
+            ("haas-mill", "[machine]\naxes = []"),
+            ("haas-mill", "[machine]\ntravel = { X = [nan, 5.0] }"),
+            ("haas-mill", "[machine]\ntravel = { X = [0.0, inf] }"),
+            ("haas-mill", "[machine]\ntravel = { X = [0.0, 1.0], x = [0.0, 2.0] }"),
+            ("haas-mill", "[machine]\nrapid = { X = 1000.0, x = 2.0 }"),
+            ("haas-mill", "[offsets]\nG54 = { X = 1.0, x = 2.0 }"),
+            ("haas-mill", "[machine]\nfeed_override = 0"),
+            ("haas-mill", "[machine]\nfeed_override = 5000"),
+            ("generic-mill", "[machine]\nfeed_override = 5000"),
+            ("haas-mill", "[machine]\nacceleration = 1000.0\njerk = 1e-9"),
+            ("haas-mill", "[machine]\njerk = 50000.0"),
+            ("haas-mill", "[machine]\nacceleration = { A = 100.0 }"),
+            ("haas-mill", "[machine]\nacceleration = 1e30"),
+            ("haas-mill", "[machine]\nunits = \"inch\"\nacceleration = { X = 1e30 }"),
+            ("haas-mill", "[machine]\nspindle_acceleration = 1"),
+            ("haas-mill", "[machine]\nspindle_acceleration = 1e20"),
+            ("haas-mill", "[machine]\ntool_change_seconds = 1e9"),
+            ("haas-mill", "[machine]\nspindle_orient_seconds = 1e4"),
+            ("haas-mill", "[machine]\npockets = 4000000000"),
+            ("haas-mill", "[machine]\naxes = [\"X\", \"Y\", \"Z\"]\ntravel = { A = [0.0, 90.0] }"),
+            ("haas-mill", "[machine]\naxes = [\"X\", \"Y\", \"Z\", \"A\"]\nrotary_order = [\"A\", \"B\"]"),
+            ("haas-mill", "[machine]\naxes = [\"X\", \"Y\", \"Z\", \"A\"]\nrotary = \"table-table\""),
+            ("haas-mill", "[machine]\nrotary_sign = { X = 1 }"),
+            ("haas-mill", "[tools]\n1 = { surface_speed = [60.0, 140.0] }"),
+            ("haas-mill", "[tools]\n1 = { diameter = 0.0, surface_speed = [60.0, 140.0] }"),
+            ("grbl", "[machine]\npreset = \"sherline-5400\"\nunits = \"inch\"\nmax_feed = 900.0"),
+        ],
+        &expect![[r#"
         [machine] | axes = []
           error: gcheck.toml:3:8: `axes` is empty: a machine has at least one axis
         [machine] | travel = { X = [nan, 5.0] }
@@ -824,6 +817,36 @@ fn figures_and_axes_that_no_machine_has() {
           error: gcheck.toml:4:10: `rotary` is for machines with two rotary axes, and `axes` lists X, Y, Z, A
         [machine] | rotary_sign = { X = 1 }
           error: gcheck.toml:3:17: `X` is not a rotary axis
+        [tools] | 1 = { surface_speed = [60.0, 140.0] }
+          error: gcheck.toml:3:23: a surface speed needs the tool's `diameter`, above zero
+        [tools] | 1 = { diameter = 0.0, surface_speed = [60.0, 140.0] }
+          error: gcheck.toml:3:39: a surface speed needs the tool's `diameter`, above zero
+        [machine] | preset = "sherline-5400" | units = "inch" | max_feed = 900.0
+          error: gcheck.toml:5:12: max_feed is 900, and the preset `sherline-5400` has a rapid rate of 25: no axis cuts faster than it moves at rapid
+    "#]],
+    );
+}
+
+#[test]
+fn directions_that_no_axis_turns_about() {
+    check_refused(
+        &[
+            ("haas-mill", "[machine]\nrotary_direction = { X = [0.0, 1.0, 1.0] }"),
+            ("haas-mill", "[machine]\nrotary_direction = { B = [0.0, 0.0, 0.0] }"),
+            ("haas-mill", "[machine]\nrotary_direction = { B = [0.0, nan, 1.0] }"),
+            ("haas-mill", "[machine]\nrotary_direction = { B = [inf, 0.0, 1.0] }"),
+            ("haas-mill", "[machine]\nrotary_direction = { B = [0.0, 1.0] }"),
+            ("haas-mill", "[machine]\nrotary_direction = { B = [0.0, 1.0, 1.0], b = [0.0, 1.0, 0.0] }"),
+            (
+                "haas-mill",
+                "[machine]\naxes = [\"X\", \"Y\", \"Z\", \"A\"]\nrotary_direction = { B = [0.0, 1.0, 1.0] }",
+            ),
+            (
+                "haas-mill",
+                "[machine]\nrotary_order = [\"C\", \"B\"]\nrotary_direction = { B = [0.0, 0.0, -2.0] }",
+            ),
+        ],
+        &expect![[r#"
         [machine] | rotary_direction = { X = [0.0, 1.0, 1.0] }
           error: gcheck.toml:3:22: `X` is not a rotary axis
         [machine] | rotary_direction = { B = [0.0, 0.0, 0.0] }
@@ -840,13 +863,8 @@ fn figures_and_axes_that_no_machine_has() {
           error: gcheck.toml:4:22: `B` is not among the machine's `axes`: X, Y, Z, A
         [machine] | rotary_order = ["C", "B"] | rotary_direction = { B = [0.0, 0.0, -2.0] }
           error: gcheck.toml:4:26: both axes of rotary_order turn about parallel lines
-        [tools] | 1 = { surface_speed = [60.0, 140.0] }
-          error: gcheck.toml:3:23: a surface speed needs the tool's `diameter`, above zero
-        [tools] | 1 = { diameter = 0.0, surface_speed = [60.0, 140.0] }
-          error: gcheck.toml:3:39: a surface speed needs the tool's `diameter`, above zero
-        [machine] | preset = "sherline-5400" | units = "inch" | max_feed = 900.0
-          error: gcheck.toml:5:12: max_feed is 900, and the preset `sherline-5400` has a rapid rate of 25: no axis cuts faster than it moves at rapid
-    "#]].assert_eq(&messages);
+    "#]],
+    );
 }
 
 #[test]

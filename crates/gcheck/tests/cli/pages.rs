@@ -29,7 +29,7 @@ enum Step {
 /// What a page tells its reader to do, in order.
 fn steps(page: &str) -> Vec<Step> {
     let mut steps = Vec::new();
-    let mut told: fn(String, String) -> Step = Step::Save;
+    let mut told: Tell = Step::Save;
     let mut file: Option<String> = None;
     let mut lines = page.lines();
     while let Some(line) = lines.next() {
@@ -51,8 +51,11 @@ fn steps(page: &str) -> Vec<Step> {
     steps
 }
 
+/// What a reader does with a file and a text.
+type Tell = fn(String, String) -> Step;
+
 /// A line of prose that says what to do with the next block: `save this as`, `In … :`, `into the sections of`.
-fn instruction(line: &str) -> Option<(fn(String, String) -> Step, String)> {
+fn instruction(line: &str) -> Option<(Tell, String)> {
     let name = |rest: &str| rest.split('`').next().map(str::to_owned);
     if let Some(rest) = line.strip_prefix("In `") {
         return (rest.ends_with("`:")).then(|| name(rest)).flatten().map(|name| (Step::Change as _, name));
@@ -164,7 +167,7 @@ fn follow(page: &str, shop: &Shop) -> usize {
                 let said: String = run.stderr.lines().chain(lines).map(|line| format!("{line}\n")).collect();
                 assert_shows(&command, &expected, &said);
                 if let Some((_, rest)) = said.rsplit_once("[digest ") {
-                    digest = rest.split(']').next().unwrap().to_owned();
+                    rest.split(']').next().unwrap().clone_into(&mut digest);
                 }
                 count += 1;
             }

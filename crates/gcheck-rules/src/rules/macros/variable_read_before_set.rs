@@ -162,7 +162,7 @@ fn short_calls(cx: &PathCx<'_>, report: &mut Report<'_>) {
             let StatementKind::OWord { label, keyword, arguments } = &statement.kind else { continue };
             match keyword {
                 OKeyword::Sub => {
-                    open = Some(Subroutine { label: label.clone(), sets: 0, reads: 0, tests: 0 })
+                    open = Some(Subroutine { label: label.clone(), sets: 0, reads: 0, tests: 0 });
                 }
                 OKeyword::EndSub => subs.extend(open.take()),
                 OKeyword::Call if open.is_none() && label.expressions() == 0 => {

@@ -279,7 +279,7 @@ impl PathRule for RapidBetweenCuts {
 }
 
 impl RapidBetweenCuts {
-    /// Takes in a feed move after another move that is no way: neither level nor straight down. `false`: it is another move.
+    /// Takes in a feed move after another move that does not lead on: neither level nor straight down. `false`: it is another move.
     fn goes_on_slanting(&mut self, travel: &Travel) -> bool {
         if travel.kind != TravelKind::Feed || travel.expanded || self.way.is_some() {
             return false;
