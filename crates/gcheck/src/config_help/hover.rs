@@ -208,13 +208,13 @@ mod tests {
         check(
             "[rules]\nsel$0ect = [\"words\"]\n",
             &expect![[r#"
-            [select]
-            **rules.select**: list: text
+                [select]
+                **rules.select**: list: text
 
-            Rules, groups and sets that run, in place of `["recommended"]`.
+                Rules, groups and sets that run, in place of `["recommended"]`.
 
-            There are 477 values; completion lists them.
-        "#]],
+                There are 478 values; completion lists them.
+            "#]],
         );
     }
 
