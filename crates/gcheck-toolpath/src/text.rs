@@ -234,11 +234,12 @@ fn arc(out: &mut Vec<u8>, view: View, path: &Path, units: Units) {
 fn beside(out: &mut Vec<u8>, view: View, path: &Path, why: Beside, units: Units) {
     out.extend_from_slice(match why {
         Beside::AlongTool { .. } => b"  posted point".as_slice(),
-        Beside::AlongVector | Beside::UnknownCutter => b"  programmed point",
+        Beside::AlongVector => b"  programmed point",
+        Beside::UnknownCutter => b"  programmed",
     });
     point(out, view, &path.programmed, units);
     if why == Beside::UnknownCutter {
-        out.extend_from_slice(b", beside it by a cutter or from a start that is not known");
+        out.extend_from_slice(b": the cutter's size or the start is not known");
         return;
     }
     out.extend_from_slice(b", axes at");

@@ -3,7 +3,7 @@
 //! Knows: folders, how many must agree. Must not know: any control, what a program is asked for. A folder is read when the
 //! first unclear program of it is met, and once.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::HashMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -30,11 +30,12 @@ pub(crate) struct Neighbours {
     ahead: Mutex<HashMap<PathBuf, (u64, Evidence)>>,
 }
 
-/// A program, and the control that it clearly shows.
+/// A program.
 #[derive(Debug)]
 struct Neighbour {
     path: PathBuf,
-    shows: Option<String>,
+    /// The control that it shows, and the one that fits nearly as well; empty where it shows none.
+    shows: Vec<String>,
 }
 
 /// The control of most programs beside one.
@@ -71,7 +72,7 @@ impl Neighbours {
         let path = path.is_file().then(|| paths::absolute(path))?;
         let programs = self.programs(path.parent()?);
         let others = programs.iter().filter(|program| program.path != path);
-        agreed(others.map(|program| program.shows.as_deref()))
+        agreed(others.map(|program| program.shows.as_slice()))
     }
 
     fn programs(&self, folder: &Path) -> Arc<Vec<Neighbour>> {
@@ -94,10 +95,11 @@ impl Neighbours {
         let programs = paths.into_iter().filter(is_small).take(MAX_FILES).filter_map(|path| {
             let source = reading::file(&path).ok()?;
             let evidence = evidence(&path, source.text());
-            let guess = gcheck_controls::guess(&evidence).filter(|guess| guess.rival.is_none());
+            let guess = gcheck_controls::guess(&evidence);
             let seen = (hash_of(source.text()), evidence);
             self.ahead.lock().unwrap_or_else(PoisonError::into_inner).insert(path.clone(), seen);
-            Some(Neighbour { path, shows: guess.map(|guess| guess.control) })
+            let shows = guess.map(|guess| [Some(guess.control), guess.rival]).into_iter().flatten().flatten();
+            Some(Neighbour { path, shows: shows.collect() })
         });
         programs.collect()
     }
@@ -105,19 +107,14 @@ impl Neighbours {
 
 /// The control that more than half of the programs show, and none of them another: programs of several controls in one folder
 /// say nothing of each other.
-fn agreed<'s>(shown: impl Iterator<Item = Option<&'s str>>) -> Option<Majority> {
-    let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
-    let mut of = 0;
-    for shows in shown {
-        of += 1;
-        if let Some(control) = shows {
-            *counts.entry(control).or_default() += 1;
-        }
-    }
-    let is_one = counts.len() == 1;
-    let (control, count) = counts.into_iter().next()?;
+fn agreed<'s>(shown: impl Iterator<Item = &'s [String]>) -> Option<Majority> {
+    let shown: Vec<&[String]> = shown.collect();
+    let mut alone = shown.iter().filter(|shows| shows.len() == 1);
+    let control = alone.next()?.first()?;
+    let is_one = shown.iter().all(|shows| shows.is_empty() || shows.contains(control));
+    let (count, of) = (1 + alone.count(), shown.len());
     let is_agreed = is_one && count >= ENOUGH && count * 2 > of;
-    is_agreed.then(|| Majority { control: control.to_owned(), count, of })
+    is_agreed.then(|| Majority { control: control.clone(), count, of })
 }
 
 fn hash_of(text: &str) -> u64 {
@@ -128,17 +125,21 @@ fn hash_of(text: &str) -> u64 {
 mod tests {
     use super::{Majority, agreed};
 
+    /// Programs by what they show: `a-mill`, or `a-mill b-mill` where the second fits nearly as well.
     fn check(shown: &[&str], expected: Option<(&str, usize, usize)>) {
-        let shown = shown.iter().map(|control| (!control.is_empty()).then_some(*control));
+        let shown: Vec<Vec<String>> =
+            shown.iter().map(|shows| shows.split_whitespace().map(str::to_owned).collect()).collect();
         let expected =
             expected.map(|(control, count, of)| Majority { control: control.to_owned(), count, of });
-        assert_eq!(agreed(shown), expected);
+        assert_eq!(agreed(shown.iter().map(Vec::as_slice)), expected);
     }
 
     #[test]
     fn most_programs_must_clearly_agree() {
         check(&["a-mill", "a-mill", "a-mill", ""], Some(("a-mill", 3, 4)));
         check(&[&["a-mill"; 19][..], &["a-lathe"]].concat(), None);
+        check(&["a-mill", "a-mill", "a-mill", "b-mill a-mill"], Some(("a-mill", 3, 4)));
+        check(&["a-mill", "a-mill", "a-mill", "b-mill b-lathe"], None);
         check(&["a-mill", "a-mill"], None);
         check(&["a-mill", "a-mill", "a-mill", "a-lathe"], None);
         check(&["a-mill", "a-mill", "a-mill", "", "", ""], None);

@@ -858,7 +858,7 @@ fn directions_that_no_axis_turns_about() {
         [machine] | rotary_direction = { B = [0.0, 1.0] }
           error: gcheck.toml:3:26: invalid length 2, expected an array of length 3
         [machine] | rotary_direction = { B = [0.0, 1.0, 1.0], b = [0.0, 1.0, 0.0] }
-          error: gcheck.toml:3:47: the axis B is listed twice
+          error: gcheck.toml:3:43: the axis B is listed twice
         [machine] | axes = ["X", "Y", "Z", "A"] | rotary_direction = { B = [0.0, 1.0, 1.0] }
           error: gcheck.toml:4:22: `B` is not among the machine's `axes`: X, Y, Z, A
         [machine] | rotary_order = ["C", "B"] | rotary_direction = { B = [0.0, 0.0, -2.0] }

@@ -76,7 +76,7 @@ fn by_detection() {
 }
 
 /// Five digits after `O` are the custom of one builder, and alone a weak sign.
-const WEAK: &str = "%\nO00012\nG0 X1.\nGOTO 99\nM30\n%\n";
+const WEAK: &str = "%\nO00012\nG0 X1. Y1.\nX2. Y2.\nX3. Y3.\nX4. Y4.\nGOTO 99\nM30\n%\n";
 
 #[test]
 fn by_a_guess() {
@@ -103,7 +103,11 @@ fn by_its_neighbours() {
         shop.gcheck(&format!("check {name}")).stderr.lines().next().unwrap_or_default().to_owned()
     };
     assert_eq!(said("part.nc"), "part.nc: control generic-mill, by default", "one beside it names another");
-    assert!(said("fanuc.nc").starts_with("fanuc.nc: control fanuc-mill, guessed from (FANUC 31I)"));
+    assert!(
+        said("fanuc.nc").starts_with("fanuc.nc: control fanuc-mill, guessed from (FANUC 31I)"),
+        "{}",
+        said("fanuc.nc")
+    );
     shop.file("fanuc.nc", NEUTRAL);
     assert_eq!(
         said("part.nc"),
