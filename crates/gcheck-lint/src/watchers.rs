@@ -619,8 +619,9 @@ impl FlowObserver for Watchers<'_, '_> {
 
     fn event(&mut self, cx: &FlowCx<'_>, event: &Event) {
         let kind = kind_of(event);
-        // Operations that pass their points exactly say so at each of them; no rule asks for it.
-        if matches!(event, Event::PathMode(_)) {
+        // Operations that pass their points exactly say so at each of them, and increments from an unknown place how long they
+        // are; no rule asks for it.
+        if matches!(event, Event::PathMode(_) | Event::KnownWay(_)) {
             return;
         }
         if kind.is_empty() {

@@ -226,6 +226,12 @@ mod tests {
         write("fanuc.nc", "(FANUC 31I)\nG0 X1.\nM30\n");
         let fanuc = of("fanuc.nc", &neighbours);
         assert_eq!((fanuc.0.as_str(), fanuc.1), ("fanuc-mill", ControlSource::Guessed), "it says so itself");
+        write("named.nc", "(MAZAK VTC)\nG0 X1.\n");
+        assert_eq!(
+            of("clear.nc", &Neighbours::default()).1,
+            ControlSource::Default,
+            "one is for another builder's"
+        );
         write("printed.nc", "G92 E0\nG1 X1 E1.1\nG1 X2 E1.2\nG1 Y2 E1.3\n");
         write("named.nc", "(MAZAK VTC)\nG0 X1.\n");
         let printed = of("printed.nc", &neighbours);

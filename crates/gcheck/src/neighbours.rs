@@ -8,7 +8,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
-use gcheck_controls::Evidence;
+use gcheck_controls::{Evidence, Weighed};
 use twox_hash::XxHash3_64;
 
 use crate::detection::evidence;
@@ -36,6 +36,8 @@ struct Neighbour {
     path: PathBuf,
     /// The control that it shows, and the one that fits nearly as well; empty where it shows none.
     shows: Vec<String>,
+    /// It is for a control or in a dialect that gcheck does not have.
+    is_foreign: bool,
 }
 
 /// The control of most programs beside one.
@@ -71,8 +73,11 @@ impl Neighbours {
         // What comes in by a pipe under a name of its own has no neighbours.
         let path = path.is_file().then(|| paths::absolute(path))?;
         let programs = self.programs(path.parent()?);
-        let others = programs.iter().filter(|program| program.path != path);
-        agreed(others.map(|program| program.shows.as_slice()))
+        let others = || programs.iter().filter(|program| program.path != path);
+        if others().any(|program| program.is_foreign) {
+            return None;
+        }
+        agreed(others().map(|program| program.shows.as_slice()))
     }
 
     fn programs(&self, folder: &Path) -> Arc<Vec<Neighbour>> {
@@ -95,11 +100,15 @@ impl Neighbours {
         let programs = paths.into_iter().filter(is_small).take(MAX_FILES).filter_map(|path| {
             let source = reading::file(&path).ok()?;
             let evidence = evidence(&path, source.text());
-            let guess = gcheck_controls::guess(&evidence);
+            let weighed = Weighed::new(&evidence);
+            let guess = weighed.guess();
+            let is_foreign =
+                guess.is_none() && (evidence.unsupported.is_some() || weighed.foreign().is_some());
+            let shows = guess.map(|guess| [Some(guess.control), guess.rival]).into_iter().flatten().flatten();
+            let shows = shows.collect();
             let seen = (hash_of(source.text()), evidence);
             self.ahead.lock().unwrap_or_else(PoisonError::into_inner).insert(path.clone(), seen);
-            let shows = guess.map(|guess| [Some(guess.control), guess.rival]).into_iter().flatten().flatten();
-            Some(Neighbour { path, shows: shows.collect() })
+            Some(Neighbour { path, shows, is_foreign })
         });
         programs.collect()
     }

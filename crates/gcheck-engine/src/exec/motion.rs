@@ -391,7 +391,11 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     /// An increment of an axis that is nobody knows where: its way is known, and with it the time.
     fn announce_known_way(&mut self, state: &mut State<D>) {
-        if !Self::goes_direct(state) {
+        let is_polar = self.words.present().intersects(POLAR)
+            || state.effect(Role::Polar, self.model) == Some(Effect::PolarOn)
+            || state.may_be(Role::Polar, Effect::PolarOn, self.model);
+        // A radius and an angle are not ways of axes.
+        if is_polar || !Self::goes_direct(state) {
             return;
         }
         let unit = self.unit(state);

@@ -54,14 +54,18 @@ fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
     let lines = cx.statements().filter(|statement| statement.kind == StatementKind::Command);
     for line in lines {
         let written = Written::new(cx.slice(line.range.clone()), line.range.start);
-        let Some(refusal) = refusal(&written, commands) else { continue };
+        // The control takes comments out of a line; what follows one is not seen here.
+        let is_whole = !cx.block().flags.contains(BlockFlags::COMMENT);
+        let Some(refusal) = refusal(&written, commands, is_whole) else { continue };
         let Refusal { at, message, label, help, alarm } = refusal;
         report.add(
             Finding::new(&META, cx.in_file(at), message)
                 .label(label)
                 .alarm(alarm.number.clone())
                 .help(help)
-                .at_most(limit(commands.confidence).min(limit(alarm.confidence))),
+                .at_most(limit(commands.confidence).min(limit(alarm.confidence)))
+                // Other controls read such lines too, with other commands and settings.
+                .at_most(cx.environment.most_for_this_control()),
         );
     }
 }
@@ -75,7 +79,8 @@ struct Refusal<'c> {
     alarm: &'c AlarmEntry,
 }
 
-/// A line as the control compares it, capitals without blanks, each with its place.
+/// A line as the control compares it, capitals without blanks, each with its place. `?`, `!` and `~` act as they arrive and never
+/// come into a line.
 struct Written {
     bytes: Vec<u8>,
     places: Vec<u32>,
@@ -83,7 +88,8 @@ struct Written {
 
 impl Written {
     fn new(text: &str, start: u32) -> Self {
-        let kept = (start..).zip(text.bytes()).filter(|(_, byte)| !byte.is_ascii_whitespace());
+        let is_kept = |byte: u8| !byte.is_ascii_whitespace() && !b"?!~".contains(&byte);
+        let kept = (start..).zip(text.bytes()).filter(|(_, byte)| is_kept(*byte));
         let (places, bytes) = kept.map(|(at, byte)| (at, byte.to_ascii_uppercase())).unzip();
         Self { bytes, places }
     }
@@ -100,14 +106,14 @@ impl Written {
     }
 }
 
-fn refusal<'c>(line: &Written, commands: &'c SystemCommands) -> Option<Refusal<'c>> {
+fn refusal<'c>(line: &Written, commands: &'c SystemCommands, is_whole: bool) -> Option<Refusal<'c>> {
     let all = line.bytes.len();
     let text = line.text(0, all);
     if commands.plain.contains(&text) || commands.texts.iter().any(|head| text.starts_with(head.as_str())) {
         return None;
     }
     if text.starts_with(commands.jog.as_str()) {
-        return jog_refusal(line, commands);
+        return jog_refusal(line, commands, is_whole);
     }
     let whole = line.range(0, all);
     let digits = text.bytes().skip(1).take_while(u8::is_ascii_digit).count();
@@ -139,7 +145,12 @@ fn refusal<'c>(line: &Written, commands: &'c SystemCommands) -> Option<Refusal<'
         help: "write a number from 0".to_owned(),
         alarm,
     };
+    let is_plain = value.bytes().all(|byte| byte.is_ascii_digit() || b"+-.".contains(&byte));
     match value.parse::<f64>() {
+        // The control reads no exponent.
+        _ if !is_plain => {
+            Some(refused(format!("value of setting `${number}` is not a number"), &commands.bad_number))
+        }
         Ok(value) if value < 0.0 => {
             Some(refused(format!("setting `${number}` below zero"), &commands.negative))
         }
@@ -156,7 +167,7 @@ fn is_read_as_number(text: &str, commands: &SystemCommands) -> bool {
         && !first.bytes().all(|byte| byte.is_ascii_digit())
 }
 
-fn jog_refusal<'c>(line: &Written, commands: &'c SystemCommands) -> Option<Refusal<'c>> {
+fn jog_refusal<'c>(line: &Written, commands: &'c SystemCommands, is_whole: bool) -> Option<Refusal<'c>> {
     let mut at = commands.jog.len();
     let mut feeds = false;
     while let Some(letter) = line.bytes.get(at).copied() {
@@ -184,7 +195,7 @@ fn jog_refusal<'c>(line: &Written, commands: &'c SystemCommands) -> Option<Refus
         feeds |= letter == b'F';
         at = end;
     }
-    (!feeds).then(|| Refusal {
+    (is_whole && !feeds).then(|| Refusal {
         at: line.range(0, line.bytes.len()),
         message: "jog without a feed (`F`)".to_owned(),
         label: "the feed of the program does not count for jogging",
@@ -238,7 +249,7 @@ mod tests {
         check_rule(
             &RULE,
             "grbl",
-            "$ h\n$ 1 3 0 = 2 0 0\n$j = g53 x-1 f100\n$rst=*\n$\n$$\n$x\n",
+            "$ h\n$ 1 3 0 = 2 0 0\n$j = g53 x-1 f100\n$rst=*\n$\n$$\n$x\n$X~\n$J=G91 X1 (in) F100\n",
             &expect![[""]],
         );
     }
