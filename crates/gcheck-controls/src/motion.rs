@@ -76,7 +76,7 @@ pub enum CornerRules {
         across: f64,
         /// The part that is left along an arc where `across` is used up.
         along: f64,
-        /// Once both ends of an arc are known, what they leave of the acceleration is divided anew between turning and
+        /// Once both ends of an arc are known, what they leave of the acceleration is divided again between turning and
         /// running along, and a helix counts as the wider the more it rises.
         #[serde(default)]
         divides: bool,

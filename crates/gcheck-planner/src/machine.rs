@@ -174,7 +174,7 @@ pub struct Rounding {
     pub across: f64,
     /// The part of the acceleration that is left along an arc where `across` is used up.
     pub along: f64,
-    /// Once both ends of an arc of the program are known, what they leave of the acceleration is divided anew: what its highest
+    /// Once both ends of an arc of the program are known, what they leave of the acceleration is divided again: what its highest
     /// speed needs turns the path, no more than `across` of it, and the rest runs along. A helix counts for that as an arc
     /// of its radius and the square of its whole rise by the radius.
     pub divides: bool,

@@ -389,7 +389,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         checked
     }
 
-    /// An increment of an axis that is nobody knows where: its way is known, and with it the time.
+    /// An increment of an axis whose place is not known: its way is known, and with it the time.
     fn announce_known_way(&mut self, state: &mut State<D>) {
         let is_polar = self.words.present().intersects(POLAR)
             || state.effect(Role::Polar, self.model) == Some(Effect::PolarOn)
